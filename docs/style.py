@@ -99,7 +99,7 @@ def words(text: str) -> list[str]:
     return [word.replace("\0", " ") for word in made]
 
 
-def wrapped(lines: list[str]) -> list[str]:
+def wrapped(lines: list[str], width: int = WIDTH) -> list[str]:
     """One paragraph or item of a list, wrapped."""
     first = ITEM.match(lines[0])
     indent = first[0] if first else " " * (len(lines[0]) - len(lines[0].lstrip()))
@@ -108,7 +108,7 @@ def wrapped(lines: list[str]) -> list[str]:
     made, line = [], indent
     for word in words(text):
         empty = line.strip() == indent.strip() and line in (indent, rest)
-        if not empty and len(line) + 1 + len(word) > WIDTH:
+        if not empty and len(line) + 1 + len(word) > width:
             made.append(line)
             line, empty = rest, True
         line += word if empty else f" {word}"

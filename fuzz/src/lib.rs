@@ -1,4 +1,5 @@
-//! What the targets share: the readers of the damaged inputs of `crates/files/tests/fuzz`, under an allocator with a limit.
+//! What the targets share: the readers of the damaged inputs of `crates/files/tests/fuzz`, under an allocator
+//! with a limit.
 #![allow(missing_docs)]
 
 #[path = "../../crates/files/tests/fuzz/targets.rs"]
@@ -34,7 +35,8 @@ pub fn checkpoint() -> Target {
     by_changes(targets::checkpoint())
 }
 
-/// An input is what is changed in a sound one: so inputs are short, most of it stays right, and a corpus outlives its form.
+/// An input is what is changed in a sound one: so inputs are short, most of it stays right, and a corpus
+/// outlives its form.
 fn by_changes(Target { name, seeds, read }: Target) -> Target {
     let sound = seeds.concat();
     Target { name, seeds: Vec::new(), read: Box::new(move |changes| read(&changed(sound.clone(), changes))) }

@@ -1,6 +1,8 @@
-//! `embate bench`: how fast this machine is: kernels, whole steps and contact, beside what its memory and its arithmetic could do at best.
+//! `embate bench`: how fast this machine is: kernels, whole steps and contact, beside what its memory and its
+//! arithmetic could do at best.
 //!
-//! Bodies and rates are those of `embate_solver::bench`; here are the choice of rows, the time that each may take, the tables and the JSON.
+//! Bodies and rates are those of `embate_solver::bench`; here are the choice of rows, the time that each may
+//! take, the tables and the JSON.
 
 use crate::complaint::Complaint;
 use crate::interrupt::Interrupt;
@@ -41,7 +43,8 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Elements along a side of a body that stays in a cache, of one that does not, and of the stack of strips with contact in all.
+/// Elements along a side of a body that stays in a cache, of one that does not, and of the stack of strips
+/// with contact in all.
 const SMALL: usize = 32;
 const LARGE: usize = 1024;
 const STRIPS: usize = 100_000;

@@ -1,6 +1,8 @@
-//! What the program says on standard error when something is wrong: each message with its code, at most 20 of a kind.
+//! What the program says on standard error when something is wrong: each message with its code, at most 20 of
+//! a kind.
 //!
-//! Kinds come from the catalogue; a failure of a command is made of these and of nothing else, so that none is without a code.
+//! Kinds come from the catalogue; a failure of a command is made of these and of nothing else, so that none
+//! is without a code.
 
 use embate_files::model_file::Diagnostics;
 use embate_solver::error::{Error, Fault, Notice};

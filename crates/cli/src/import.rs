@@ -1,4 +1,5 @@
-//! `embate import`: a deck of Abaqus or CalculiX becomes a folder with a model, its mesh, and a report of what became of each keyword.
+//! `embate import`: a deck of Abaqus or CalculiX becomes a folder with a model, its mesh, and a report of
+//! what became of each keyword.
 
 use crate::complaint::Complaint;
 use crate::messages::{IGNORED, SOURCE_IN_THE_WAY};

@@ -1,9 +1,11 @@
-//! Ctrl-C, SIGTERM and hangups: the first one asks a run to stop after its step, the second one ends the program.
+//! Ctrl-C, SIGTERM and hangups: the first one asks a run to stop after its step, the second one ends the
+//! program.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Lets hangups be ignored that whoever started the program wants ignored (`nohup`): watching would take them for a request to stop. Before any thread begins.
+/// Lets hangups be ignored that whoever started the program wants ignored (`nohup`): watching would take them
+/// for a request to stop. Before any thread begins.
 pub(crate) fn respect_nohup() {
     #[cfg(target_os = "linux")]
     {

@@ -1,7 +1,8 @@
-//! The program `embate`: reads the command line, calls the libraries, turns their errors into messages and exit codes.
+//! The program `embate`: reads the command line, calls the libraries, turns their errors into messages and
+//! exit codes.
 //!
-//! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), or two runs differ, 2 bad input or command line,
-//! 3 imported but not all of it acts, 130 stopped by Ctrl-C or SIGTERM.
+//! One file per command. Exit codes: 0 done, 1 a run failed (or a bug), or two runs differ, 2 bad input or
+//! command line, 3 imported but not all of it acts, 130 stopped by Ctrl-C or SIGTERM.
 
 mod bench;
 mod check;
@@ -73,7 +74,8 @@ enum Command {
     Import(import::Arguments),
     /// Run the verification cases and compare with known values
     Verify(verify::Arguments),
-    /// Measure how fast this machine is: kernels, whole steps, contact, beside what its memory and arithmetic allow
+    /// Measure how fast this machine is: kernels, whole steps, contact, beside what its memory and arithmetic
+    /// allow
     Bench(bench::Arguments),
     /// Explain a message by its code, or list all messages
     Explain(explain::Arguments),

@@ -1,4 +1,5 @@
-//! How a run goes on: a bar on a terminal, a line every tenth otherwise, nothing when quiet. All on standard error.
+//! How a run goes on: a bar on a terminal, a line every tenth otherwise, nothing when quiet. All on standard
+//! error.
 
 use crate::numbers::{grouped, per_cent, with_unit};
 use crate::terminal;
@@ -16,7 +17,8 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub(crate) enum Display {
     /// Nothing.
     Quiet,
-    /// A line for each tenth of the run; `next` is the next tenth, `from` what was done when it began: more than nothing of a run that goes on.
+    /// A line for each tenth of the run; `next` is the next tenth, `from` what was done when it began: more
+    /// than nothing of a run that goes on.
     Lines { next: u64, begin: Instant, from: Option<f64> },
     /// A bar.
     Bar { bar: ProgressBar, updated: Instant },

@@ -1,4 +1,5 @@
-//! What `run` and `resume` share: a simulation that is run and recorded, with its checkpoints, what is told on the way, and how it ended.
+//! What `run` and `resume` share: a simulation that is run and recorded, with its checkpoints, what is told
+//! on the way, and how it ended.
 
 use crate::complaint::Complaint;
 use crate::interrupt::Interrupt;
@@ -55,7 +56,8 @@ const FILES: &[(&str, &str)] = &[
 pub(crate) struct Recording<'r> {
     pub(crate) loaded: &'r Loaded,
     pub(crate) path: &'r Path,
-    /// Result folder with the checkpoints of the run; that of the results, but where these are of a stretch of it.
+    /// Result folder with the checkpoints of the run; that of the results, but where these are of a stretch
+    /// of it.
     pub(crate) checkpoints: &'r Path,
     /// Whether the state of the last good step of a run that fails is kept.
     pub(crate) keeps_last_good: bool,
@@ -138,7 +140,8 @@ pub(crate) fn record<'a>(
     let report = outcome.report;
     told_late.iter().for_each(|complaint| terminal::complain(&complaint.to_string()));
     if !manner.quiet {
-        // Those of the model come first, and have been told, as has what was seen on the way: the summary says how it went on.
+        // Those of the model come first, and have been told, as has what was seen on the way: the summary
+        // says how it went on.
         let told = of(&told);
         let of_run = report.warnings.iter().skip(simulation.model_warnings().len());
         let of_run = of_run.filter(|notice| !told.iter().any(|text: &String| notice.text.starts_with(text)));
@@ -165,7 +168,8 @@ fn of<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Finds out how a failure came, writes its page, and keeps the state of the step before, where that is wanted. What goes wrong with that hides nothing.
+/// Finds out how a failure came, writes its page, and keeps the state of the step before, where that is
+/// wanted. What goes wrong with that hides nothing.
 fn look_into(
     recording: &Recording<'_>,
     simulation: &Simulation,

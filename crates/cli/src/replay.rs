@@ -1,4 +1,5 @@
-//! `embate replay`: a stretch of a run once more, from the nearest checkpoint before it, with denser output and the same bits.
+//! `embate replay`: a stretch of a run once more, from the nearest checkpoint before it, with denser output
+//! and the same bits.
 
 use crate::Failure;
 use crate::input;
@@ -75,7 +76,8 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
     recording::record(Recording { checkpoints: &arguments.folder, keeps_last_good: false, ..of_run }, &mut simulation, make, window)
 }
 
-/// Where the model of a run came from, and its newest checkpoint that is not after a time; without one the run begins anew.
+/// Where the model of a run came from, and its newest checkpoint that is not after a time; without one the
+/// run begins anew.
 fn nearest(path: &Path, time: f64, options: &Options, place: &Place) -> Result<(Origin, Option<Checkpoint>), Failure> {
     let threads = Threads::new(options.thread_count());
     let mut origin = None;

@@ -1,4 +1,5 @@
-//! `embate resume`: a run that was stopped goes on from its newest checkpoint, as if it had never been stopped.
+//! `embate resume`: a run that was stopped goes on from its newest checkpoint, as if it had never been
+//! stopped.
 
 use crate::complaint::Complaint;
 use crate::input::{self, Leave, ModelArguments, key_and_value};
@@ -39,7 +40,8 @@ pub(crate) struct Arguments {
     watching: Watching,
 }
 
-/// Where the model is now. Leave to read outside of its folder is asked for again: a checkpoint may come from somebody else.
+/// Where the model is now. Leave to read outside of its folder is asked for again: a checkpoint may come from
+/// somebody else.
 #[derive(Args)]
 pub(crate) struct Place {
     /// Model file or folder, if it is not where it was when the run began

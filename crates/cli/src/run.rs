@@ -74,7 +74,8 @@ fn load(arguments: &Arguments) -> Result<Loaded, Failure> {
     })
 }
 
-/// That a model can't begin: of what its numbers need there is a page, beside the results of earlier runs if there are any.
+/// That a model can't begin: of what its numbers need there is a page, beside the results of earlier runs if
+/// there are any.
 fn with_page(complaint: Complaint, arguments: &Arguments, loaded: &Loaded, faults: &[Fault]) -> Failure {
     let Ok(path) = folder(arguments, &loaded.model) else { return Failure::Input(complaint) };
     Failure::Input(match post_mortem::at_start(loaded, &arguments.manner.options(), faults, &path) {

@@ -1,6 +1,7 @@
 //! `embate sweep`: a model with many values, one run on each core, and one table of what came out.
 //!
-//! Plan, runs, table and plot are those of `embate-files`; here are the command line, the progress and what is told at the end.
+//! Plan, runs, table and plot are those of `embate-files`; here are the command line, the progress and what
+//! is told at the end.
 
 use crate::complaint::Complaint;
 use crate::input::{self, ModelArguments};
@@ -21,8 +22,8 @@ use std::time::Instant;
 pub(crate) struct Arguments {
     #[command(flatten)]
     model: ModelArguments,
-    /// A key of the model file and its values: FROM:TO:COUNT, log:FROM:TO:COUNT, or a list with commas, for example
-    /// `material.steel.yield=100MPa:500MPa:20`; may be repeated: every value with every other one
+    /// A key of the model file and its values: FROM:TO:COUNT, log:FROM:TO:COUNT, or a list with commas, for
+    /// example `material.steel.yield=100MPa:500MPa:20`; may be repeated: every value with every other one
     #[arg(long, value_name = "KEY=VALUES", required_unless_present = "table")]
     vary: Vec<String>,
     /// Take the values together, first with first, second with second, instead of every one with every other
@@ -31,8 +32,8 @@ pub(crate) struct Arguments {
     /// A CSV file with a run in each row; its first line names the keys
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "zip"])]
     table: Option<PathBuf>,
-    /// What is noted of each run: a figure of summary.json, or TAKE(COLUMN) of the history, such as `max(contact.force_y[impact])`,
-    /// `at=1ms(tip.y)`; may be repeated [default: forces, probes, energies]
+    /// What is noted of each run: a figure of summary.json, or TAKE(COLUMN) of the history, such as
+    /// `max(contact.force_y[impact])`, `at=1ms(tip.y)`; may be repeated [default: forces, probes, energies]
     #[arg(long, value_name = "NAME")]
     output: Vec<String>,
     /// Folder for the table, the plot and the runs [default: results/NAME-sweep]

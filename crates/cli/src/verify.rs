@@ -1,6 +1,7 @@
 //! `embate verify`: the cases of `verification/`, each quantity against its known value.
 //!
-//! Cases come from `embate-files`; here are the choice of cases, the table and the exit code: 1 when a check fails.
+//! Cases come from `embate-files`; here are the choice of cases, the table and the exit code: 1 when a check
+//! fails.
 
 use crate::complaint::Complaint;
 use crate::input::Leave;
@@ -37,7 +38,8 @@ pub(crate) struct Arguments {
     /// Write all figures and verdicts to this file
     #[arg(long, value_name = "FILE", conflicts_with = "list")]
     json: Option<PathBuf>,
-    /// Write a report with plots: FILE.html holds everything, FILE.md has its pictures in a folder beside it; may be repeated
+    /// Write a report with plots: FILE.html holds everything, FILE.md has its pictures in a folder beside it;
+    /// may be repeated
     #[arg(long, value_name = "FILE", conflicts_with = "list", value_parser = report_file)]
     report: Vec<PathBuf>,
     /// Keep the results of the runs in this folder, as DIR/CASE/MODEL

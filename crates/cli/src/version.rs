@@ -1,4 +1,5 @@
-//! Which program this is: version, the commit that it was built from (`build.rs` notes it), and for which machines.
+//! Which program this is: version, the commit that it was built from (`build.rs` notes it), and for which
+//! machines.
 
 use embate_files::program;
 use std::sync::LazyLock;

@@ -1,4 +1,5 @@
-//! How the page of a run is shown: its address, and who opens it. `view` shows results, `run` and `resume` a run that goes on.
+//! How the page of a run is shown: its address, and who opens it. `view` shows results, `run` and `resume` a
+//! run that goes on.
 
 use crate::complaint::Complaint;
 use crate::interrupt::Interrupt;
@@ -22,7 +23,8 @@ pub(crate) struct Page {
     /// Port of the page [default: a free one]
     #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
     port: u16,
-    /// What the address of the page must hold: 16 or more letters and digits [default: one that nobody can guess]
+    /// What the address of the page must hold: 16 or more letters and digits [default: one that nobody can
+    /// guess]
     #[arg(long, value_name = "TEXT")]
     token: Option<String>,
     /// Address to listen on; others than this machine can ask if it is not 127.0.0.1
@@ -94,7 +96,8 @@ impl Watching {
     }
 }
 
-/// How long a page that nobody has opened yet waits at the end of its run: longer than a browser takes to start.
+/// How long a page that nobody has opened yet waits at the end of its run: longer than a browser takes to
+/// start.
 const OPENING: Duration = Duration::from_secs(30);
 
 impl Watched {

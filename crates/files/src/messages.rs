@@ -1,6 +1,7 @@
 //! The catalogue of messages of solver and formats, and the page `docs/messages.md` that is made from it.
 //!
-//! Entries stand beside the code that raises them ([`embate_solver::message`]); the program adds its own and prints them (`embate explain`).
+//! Entries stand beside the code that raises them ([`embate_solver::message`]); the program adds its own and
+//! prints them (`embate explain`).
 
 use crate::{abaqus, checkpoint, gmsh, model_file, results, stl, sweep, verification};
 use embate_solver::catalogue;

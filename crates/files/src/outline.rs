@@ -1,5 +1,6 @@
-//! Obstacles as lines, in space as surfaces: which are closed, on which side they are solid, which have no end, and the piece of an endless one that a
-//! file holds. Outlines come with every [`Frame`]; lines and surfaces go to the pictures and to `obstacles.pvd`.
+//! Obstacles as lines, in space as surfaces: which are closed, on which side they are solid, which have no
+//! end, and the piece of an endless one that a file holds. Outlines come with every [`Frame`]; lines and
+//! surfaces go to the pictures and to `obstacles.pvd`.
 
 use embate_solver::output::{Frame, Outline};
 
@@ -138,7 +139,8 @@ pub(crate) struct Plane {
     along: [[f64; 3]; 2],
 }
 
-/// By this fraction of the bodies' size the piece of a plane without end is larger than they are, on each side.
+/// By this fraction of the bodies' size the piece of a plane without end is larger than they are, on each
+/// side.
 const BESIDE: f64 = 0.12;
 
 impl Surface {

@@ -1,11 +1,11 @@
-//! Plain files and folders: nothing is written through a symbolic link that lies where the program makes its own files, and nothing is
-//! opened for reading that is no file.
+//! Plain files and folders: nothing is written through a symbolic link that lies where the program makes its
+//! own files, and nothing is opened for reading that is no file.
 //!
-//! A folder of results may come from somebody else. A link in it under the name of a file that is to be written would lead the program
-//! elsewhere; a named pipe or a device would keep it waiting.
-//! Files are therefore made new (`O_EXCL`, which follows no link), taken up again only as what they are (`O_NOFOLLOW`), and looked at
-//! before they are read. The folder that the user has named may
-//! be a link: that is the user's own doing. What changes between a look and a write is not guarded against: somebody who may write into the
+//! A folder of results may come from somebody else. A link in it under the name of a file that is to be
+//! written would lead the program elsewhere; a named pipe or a device would keep it waiting. Files are
+//! therefore made new (`O_EXCL`, which follows no link), taken up again only as what they are (`O_NOFOLLOW`),
+//! and looked at before they are read. The folder that the user has named may be a link: that is the user's
+//! own doing. What changes between a look and a write is not guarded against: somebody who may write into the
 //! folder while the program does can write there anyway.
 
 use crate::results::messages::{LINK, NO_FILE, REFUSED};
@@ -74,7 +74,8 @@ fn special(kind: FileType) -> &'static str {
     "special file"
 }
 
-/// The same, opened so that neither a link is followed, with `follows_no_link`, nor a named pipe waits for its other end.
+/// The same, opened so that neither a link is followed, with `follows_no_link`, nor a named pipe waits for
+/// its other end.
 fn quick(options: &mut OpenOptions, follows_no_link: bool) -> &mut OpenOptions {
     #[cfg(unix)]
     {
@@ -140,11 +141,12 @@ pub(crate) fn reopen_or_create(path: &Path, options: &mut OpenOptions) -> io::Re
 /// How often something is tried that another process comes between.
 const TRIES: usize = 8;
 
-/// Makes a new file, which is this process's own as long as it is open. What a program that was killed has left under its name is removed,
-/// but only a plain file that nobody writes to.
+/// Makes a new file, which is this process's own as long as it is open. What a program that was killed has
+/// left under its name is removed, but only a plain file that nobody writes to.
 ///
 /// # Errors
-/// A link or anything else in its place; [`ErrorKind::ResourceBusy`] where another process writes to it; what the system says.
+/// A link or anything else in its place; [`ErrorKind::ResourceBusy`] where another process writes to it; what
+/// the system says.
 pub(crate) fn create(path: &Path) -> io::Result<File> {
     for _ in 0..TRIES {
         match OpenOptions::new().write(true).create_new(true).open(path) {

@@ -1,6 +1,8 @@
-//! Which program writes: its version, and the commit that it was built from, where its main function has told it.
+//! Which program writes: its version, and the commit that it was built from, where its main function has told
+//! it.
 //!
-//! The version decides what is read (checkpoints, sweeps); the commit is noted for people and compared by nobody.
+//! The version decides what is read (checkpoints, sweeps); the commit is noted for people and compared by
+//! nobody.
 
 use std::sync::OnceLock;
 
@@ -9,7 +11,8 @@ static COMMIT: OnceLock<&'static str> = OnceLock::new();
 /// The version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Says from which commit the program was built; what is written from then on has it. Only the first call counts.
+/// Says from which commit the program was built; what is written from then on has it. Only the first call
+/// counts.
 pub fn built_from(commit: &'static str) {
     let _ = COMMIT.set(commit);
 }

@@ -1,7 +1,8 @@
 //! Which files an input may name: those of its own folder, or any.
 //!
-//! Model files name meshes, and decks include decks; both ask here before they open one. The way that a path takes through `..` and symbolic links is walked to its end, and the end decides.
-//! Leave to go outside comes from the command line (`--allow-outside`) and is never taken from a file, checkpoints included.
+//! Model files name meshes, and decks include decks; both ask here before they open one. The way that a path
+//! takes through `..` and symbolic links is walked to its end, and the end decides. Leave to go outside comes
+//! from the command line (`--allow-outside`) and is never taken from a file, checkpoints included.
 
 use crate::model_file::messages::OUTSIDE;
 use embate_solver::message::Message;

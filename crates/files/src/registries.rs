@@ -1,4 +1,5 @@
-//! What the registries of the solver hold, in one form: `embate list` prints it, `docs/elements-and-laws.md` shows it.
+//! What the registries of the solver hold, in one form: `embate list` prints it, `docs/elements-and-laws.md`
+//! shows it.
 //!
 //! Nothing is named here: a new material, element, search or field shows up by itself.
 

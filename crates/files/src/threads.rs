@@ -35,7 +35,8 @@ impl Threads {
         self.count
     }
 
-    /// `work` on each piece, in the order of the pieces; each is done in one of the `rooms`, which `make` makes where none is free.
+    /// `work` on each piece, in the order of the pieces; each is done in one of the `rooms`, which `make`
+    /// makes where none is free.
     pub(crate) fn map<T: Sync, S: Send, R: Send>(
         &self,
         pieces: &[T],
@@ -65,7 +66,8 @@ impl Threads {
     }
 }
 
-/// What threads need for their pieces again and again: buffers, a canvas. As many as worked at the same time; kept from one [`Threads::map`] to the next.
+/// What threads need for their pieces again and again: buffers, a canvas. As many as worked at the same time;
+/// kept from one [`Threads::map`] to the next.
 #[derive(Debug)]
 pub(crate) struct Rooms<S>(Mutex<Vec<S>>);
 

@@ -1,11 +1,12 @@
 //! VTK XML files of unstructured grids (`.vtu`) and the collection that puts them on a time axis (`.pvd`).
 //!
-//! What is shown ([`Shown`]) of its [`Cells`] becomes the bytes of one file: a short XML head, then all arrays as appended raw binary,
-//! little-endian, each in zlib blocks with 64-bit headers. What never changes during a run (connectivity, cell types,
-//! parts) is encoded once by [`VtuWriter::new`]. Blocks have a fixed size and are packed by several threads at once. Equal input gives equal bytes
-//! on every machine, for any number of threads. The bytes go to
-//! [`crate::results`], ParaView and `tests/read_back.py` read them. `obstacles` makes a file of obstacles in the same way.
-//! Source: VTK file formats, "XML formats", `vtkZLibDataCompressor`.
+//! What is shown ([`Shown`]) of its [`Cells`] becomes the bytes of one file: a short XML head, then all
+//! arrays as appended raw binary, little-endian, each in zlib blocks with 64-bit headers. What never changes
+//! during a run (connectivity, cell types, parts) is encoded once by [`VtuWriter::new`]. Blocks have a fixed
+//! size and are packed by several threads at once. Equal input gives equal bytes on every machine, for any
+//! number of threads. The bytes go to [`crate::results`], ParaView and `tests/read_back.py` read them.
+//! `obstacles` makes a file of obstacles in the same way. Source: VTK file formats, "XML formats",
+//! `vtkZLibDataCompressor`.
 
 mod pack;
 pub(crate) mod read;
@@ -84,8 +85,9 @@ impl VtuWriter {
         }
     }
 
-    /// A frame made ready for its file: points with z = 0, plane vectors with a third component 0, the fields named in `include`
-    /// (empty: all), `part` for each cell, `vtkGhostType` where cells may be gone, and the time as the field datum `TimeValue`, which ParaView shows.
+    /// A frame made ready for its file: points with z = 0, plane vectors with a third component 0, the fields
+    /// named in `include` (empty: all), `part` for each cell, `vtkGhostType` where cells may be gone, and the
+    /// time as the field datum `TimeValue`, which ParaView shows.
     ///
     /// # Errors
     /// [`VtuError`] when a field or a cell does not fit.
@@ -162,11 +164,13 @@ impl Content<'_> {
 }
 
 impl VtuFile<'_> {
-    /// Packs the arrays and writes them, some megabytes at a time: a large frame is never there a second time.
+    /// Packs the arrays and writes them, some megabytes at a time: a large frame is never there a second
+    /// time.
     ///
-    /// The data lie in the reverse order of their tags, which the format allows: meshio 5 replaces the offsets of the tags one by
-    /// one, in the order of the data, and takes the first tag that has the offset it looks for. In reverse order a tag whose offset
-    /// is new, and by chance equal to one still looked for, is never the first.
+    /// The data lie in the reverse order of their tags, which the format allows: meshio 5 replaces the
+    /// offsets of the tags one by one, in the order of the data, and takes the first tag that has the offset
+    /// it looks for. In reverse order a tag whose offset is new, and by chance equal to one still looked for,
+    /// is never the first.
     ///
     /// # Errors
     /// Those of `out`.
@@ -238,8 +242,8 @@ impl VtuFile<'_> {
     }
 }
 
-/// Writes a `.vtu` file of obstacles at one time: each line as line cells from point to point, with its index as the cell array `obstacle`.
-/// (Poly-lines would be fewer cells, but meshio reads none.)
+/// Writes a `.vtu` file of obstacles at one time: each line as line cells from point to point, with its index
+/// as the cell array `obstacle`. (Poly-lines would be fewer cells, but meshio reads none.)
 ///
 /// # Errors
 /// Those of `out`.
@@ -263,8 +267,8 @@ pub(crate) fn write_obstacles(lines: &[Vec<[f64; 2]>], time: f64, out: &mut (imp
     cells.write(&Frame { time, ..Frame::of(&positions) }, out)
 }
 
-/// Writes a `.vtu` file of the obstacles of a model of space: each facet as a triangle or a quadrilateral, with the index of its obstacle as the cell array
-/// `obstacle`.
+/// Writes a `.vtu` file of the obstacles of a model of space: each facet as a triangle or a quadrilateral,
+/// with the index of its obstacle as the cell array `obstacle`.
 ///
 /// # Errors
 /// Those of `out`.

@@ -1,4 +1,5 @@
-//! Instruction sets: found at run time, chosen by name, and the one place where a kernel is compiled for each.
+//! Instruction sets: found at run time, chosen by name, and the one place where a kernel is compiled for
+//! each.
 
 use crate::Lane;
 
@@ -75,7 +76,8 @@ impl Level {
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
         match self.0 {
             Set::Scalar => run_scalar(kernel),
-            // SAFETY: a `Level` with this set is only made after the features of the called function were detected.
+            // SAFETY: a `Level` with this set is only made after the features of the called function were
+            // detected.
             #[cfg(target_arch = "x86_64")]
             Set::Avx2 => unsafe { run_avx2(kernel) },
             // SAFETY: as above.
@@ -91,7 +93,8 @@ fn run_scalar<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<f64>()
 }
 
-/// Begins the frame of the function that it is inlined into at a line of the cache, because something in it has to: else registers of 64 bytes that don't fit are kept across two lines each.
+/// Begins the frame of the function that it is inlined into at a line of the cache, because something in it
+/// has to: else registers of 64 bytes that don't fit are kept across two lines each.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn align_the_stack() {

@@ -1,10 +1,13 @@
-//! Lists of vectors as kernels read and add to them, and places in them, checked once against their bound so that gathers and scatters need no check per place.
+//! Lists of vectors as kernels read and add to them, and places in them, checked once against their bound so
+//! that gathers and scatters need no check per place.
 //!
-//! Each vector of space lies in a room of four values, so that a register takes it at once; one of the plane takes two, and with another that belongs to it four.
+//! Each vector of space lies in a room of four values, so that a register takes it at once; one of the plane
+//! takes two, and with another that belongs to it four.
 
 use crate::{BATCH, Batch};
 
-/// Values from one place to the next in [`Moving`]: places are kept times this, which is what an address takes.
+/// Values from one place to the next in [`Moving`]: places are kept times this, which is what an address
+/// takes.
 pub(crate) const ROOM: usize = 4;
 
 /// Rows of [`BATCH`] places in a short list, all below [`Indices::bound`].
@@ -43,8 +46,8 @@ impl Indices {
         usize::from(self.rows[row][lane]) / ROOM
     }
 
-    /// The places of `N` rows, times [`ROOM`], after the checks that make unchecked access to a list of `length` sound: they are there, `width` of them from `at` on in each, and every one is
-    /// a valid place.
+    /// The places of `N` rows, times [`ROOM`], after the checks that make unchecked access to a list of
+    /// `length` sound: they are there, `width` of them from `at` on in each, and every one is a valid place.
     #[inline(always)]
     #[cfg(target_arch = "x86_64")]
     pub(crate) fn checked<const N: usize>(&self, length: usize, row: usize, at: usize, width: usize) -> &[[u16; BATCH]; N] {
@@ -67,7 +70,8 @@ pub struct Moving<const D: usize> {
 #[inline(always)]
 fn rooms_mut(batches: &mut [Batch]) -> &mut [[f64; ROOM]] {
     const { assert!(size_of::<Batch>() == BATCH * size_of::<f64>() && BATCH == 2 * ROOM, "a batch is two rooms and nothing else") };
-    // SAFETY: each batch is two rooms without a gap, of a smaller alignment, and the list is borrowed as a whole.
+    // SAFETY: each batch is two rooms without a gap, of a smaller alignment, and the list is borrowed as a
+    // whole.
     unsafe { std::slice::from_raw_parts_mut(batches.as_mut_ptr().cast(), 2 * batches.len()) }
 }
 
@@ -107,7 +111,8 @@ impl<const D: usize> Moving<D> {
         self.count == 0
     }
 
-    /// Sets both vectors of the points that `nodes` name, in their order, from the lists that hold those of all nodes.
+    /// Sets both vectors of the points that `nodes` name, in their order, from the lists that hold those of
+    /// all nodes.
     #[inline]
     pub fn fill(&mut self, nodes: &[u32], first: &[[f64; D]], second: &[[f64; D]]) {
         let rooms = rooms_mut(&mut self.first).iter_mut();
@@ -135,7 +140,8 @@ impl<const D: usize> Moving<D> {
         out
     }
 
-    /// The first of all values: of the plane those of both vectors, of space those of the first or second ones.
+    /// The first of all values: of the plane those of both vectors, of space those of the first or second
+    /// ones.
     #[inline(always)]
     #[cfg(target_arch = "x86_64")]
     pub(crate) fn as_ptr<const SECOND: bool>(&self) -> *const f64 {

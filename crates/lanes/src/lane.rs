@@ -51,17 +51,20 @@ pub trait Lane:
     fn load(batch: &Batch, at: usize) -> Self;
     /// Writes the values to `batch` from `at` on (a multiple of `WIDTH`, else it panics).
     fn store(self, batch: &mut Batch, at: usize);
-    /// Both vectors of the points in lanes `at..at + WIDTH` of a row, component by component. Panics when there are fewer points than the bound of `indices`.
+    /// Both vectors of the points in lanes `at..at + WIDTH` of a row, component by component. Panics when
+    /// there are fewer points than the bound of `indices`.
     fn gather<const D: usize>(points: &Moving<D>, indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2];
-    /// The first or the second vectors of the points of `N` rows, at most 8: `out[a]` is of row `row + a`. Panics as [`Lane::gather`].
+    /// The first or the second vectors of the points of `N` rows, at most 8: `out[a]` is of row `row + a`.
+    /// Panics as [`Lane::gather`].
     fn gather_one<const D: usize, const N: usize, const SECOND: bool>(
         points: &Moving<D>,
         indices: &Indices,
         row: usize,
         at: usize,
     ) -> [[Self; D]; N];
-    /// Adds `values[a]` to the sums in lanes `at..at + WIDTH` of row `row + a`: lane after lane, and in each in the order of `a`, so that the sums do not depend on the
-    /// width. Panics when there are fewer sums than the bound of `indices`.
+    /// Adds `values[a]` to the sums in lanes `at..at + WIDTH` of row `row + a`: lane after lane, and in each
+    /// in the order of `a`, so that the sums do not depend on the width. Panics when there are fewer sums
+    /// than the bound of `indices`.
     fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut VectorSums<D>, indices: &Indices, row: usize, at: usize);
     /// Components of `points[first..first + WIDTH]`. Panics when there are fewer.
     fn load_points<const D: usize>(points: &[[f64; D]], first: usize) -> [Self; D];

@@ -1,12 +1,15 @@
-//! Vector lanes: one kernel text, generic over [`Lane`], gives the same bits with scalar code, AVX2 and AVX-512.
+//! Vector lanes: one kernel text, generic over [`Lane`], gives the same bits with scalar code, AVX2 and
+//! AVX-512.
 //!
-//! The same bits come from using only operations that IEEE 754 rounds correctly (`+ - * /`, `sqrt`), comparisons, selections
-//! and bit patterns; multiply and add are never fused. `exp`, `ln`, `pow` and `cbrt` are built from them ([`math`]), because the platform's differ.
+//! The same bits come from using only operations that IEEE 754 rounds correctly (`+ - * /`, `sqrt`),
+//! comparisons, selections and bit patterns; multiply and add are never fused. `exp`, `ln`, `pow` and `cbrt`
+//! are built from them ([`math`]), because the platform's differ.
 //!
 //! [`Team`] shares short loops among threads.
 //!
-//! This crate holds the only unsafe code of embate. Storage is in batches of [`BATCH`] values; a lane type takes a batch in
-//! `BATCH / WIDTH` parts. [`Level`] chooses the instruction set at run time; [`Indices`] is checked once so that gathers need not be.
+//! This crate holds the only unsafe code of embate. Storage is in batches of [`BATCH`] values; a lane type
+//! takes a batch in `BATCH / WIDTH` parts. [`Level`] chooses the instruction set at run time; [`Indices`] is
+//! checked once so that gathers need not be.
 
 mod dispatch;
 mod gather;

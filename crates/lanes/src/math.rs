@@ -1,7 +1,8 @@
-//! Natural logarithm, exponential, power and cube root from correctly rounded operations: the same bits on every machine.
+//! Natural logarithm, exponential, power and cube root from correctly rounded operations: the same bits on
+//! every machine.
 //!
-//! Polynomials interpolate at Chebyshev's points and are summed in pairs, pairs of pairs and so on (Estrin): a quarter of the time of Horner's chain where the
-//! next operation waits for the last.
+//! Polynomials interpolate at Chebyshev's points and are summed in pairs, pairs of pairs and so on (Estrin):
+//! a quarter of the time of Horner's chain where the next operation waits for the last.
 
 use crate::Lane;
 
@@ -41,7 +42,8 @@ fn pair<L: Lane>(coefficients: &[f64], i: usize, x: L) -> L {
     L::splat(coefficients[i]) + L::splat(coefficients[i + 1]) * x
 }
 
-/// Natural logarithm of positive normal numbers, relative error below 4e-16 times the condition of the sum near one.
+/// Natural logarithm of positive normal numbers, relative error below 4e-16 times the condition of the sum
+/// near one.
 ///
 /// x = m 2^e with m in [√½, √2); ln m = 2 artanh(s), s = (m − 1)/(m + 1), by a polynomial in s².
 #[inline(always)]
@@ -76,7 +78,8 @@ fn reduced<L: Lane>(x: L) -> [L; 4] {
     [k.power_of_two(), k, r, square * p]
 }
 
-/// Exponential, relative error below 4e-16; arguments are clamped to [-708, 709], where results are normal and finite.
+/// Exponential, relative error below 4e-16; arguments are clamped to [-708, 709], where results are normal
+/// and finite.
 ///
 /// x = k ln 2 + r with |r| ≤ ½ ln 2; e^r by a polynomial.
 #[inline(always)]
@@ -85,9 +88,11 @@ pub fn exp<L: Lane>(x: L) -> L {
     (L::splat(1.0) + (r + above)) * power
 }
 
-/// x to the power of y for x ≥ 0 and y > 0: e^{y ln x}; zero (and whatever is not positive and normal) gives zero.
+/// x to the power of y for x ≥ 0 and y > 0: e^{y ln x}; zero (and whatever is not positive and normal) gives
+/// zero.
 ///
-/// The logarithm's error is multiplied by y ln x: relative error below 5e-16 (1 + |y ln x|). Results keep within the limits of [`exp`].
+/// The logarithm's error is multiplied by y ln x: relative error below 5e-16 (1 + |y ln x|). Results keep
+/// within the limits of [`exp`].
 #[inline(always)]
 pub fn pow<L: Lane>(x: L, y: L) -> L {
     let least = L::splat(f64::MIN_POSITIVE);
@@ -107,8 +112,8 @@ pub fn exp_above_tangent<L: Lane>(x: L) -> L {
 
 /// Cube root of positive normal numbers, relative error below 5e-16.
 ///
-/// x = m 2^{e}: y ≈ x^{-1/3} from a polynomial in m and the exponent's third; with f = 1 − x y³, y ← y (1 + f/3 + 2f²/9); then c = x y² and one Newton
-/// step c ← c − (c³ − x) y²/3.
+/// x = m 2^{e}: y ≈ x^{-1/3} from a polynomial in m and the exponent's third; with f = 1 − x y³, y ← y (1 +
+/// f/3 + 2f²/9); then c = x y² and one Newton step c ← c − (c³ − x) y²/3.
 #[inline(always)]
 pub fn cbrt<L: Lane>(x: L) -> L {
     let (one, zero) = (L::splat(1.0), L::splat(0.0));

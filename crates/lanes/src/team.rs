@@ -1,9 +1,11 @@
-//! A team of threads for loops that last microseconds: its members spin for a short while between two loops, then sleep.
+//! A team of threads for loops that last microseconds: its members spin for a short while between two loops,
+//! then sleep.
 //!
-//! Every loop goes over parts that are handed out one by one, each to one member: first those of its own share, which are the same in every loop of as many parts, so
-//! that they stay in its cache, then what others have not begun. Which member gets which part is left to chance, so results must not depend on it:
-//! parts are disjoint, and sums are joined afterwards in the order of the parts. A pool that steals work needs some microseconds to begin such a loop; a team that
-//! still spins needs less than one.
+//! Every loop goes over parts that are handed out one by one, each to one member: first those of its own
+//! share, which are the same in every loop of as many parts, so that they stay in its cache, then what others
+//! have not begun. Which member gets which part is left to chance, so results must not depend on it: parts
+//! are disjoint, and sums are joined afterwards in the order of the parts. A pool that steals work needs some
+//! microseconds to begin such a loop; a team that still spins needs less than one.
 
 use std::cell::UnsafeCell;
 use std::marker::PhantomData;
@@ -62,7 +64,8 @@ unsafe impl<'a, T: Send> Parts for Chunks<'a, T> {
     unsafe fn part(&self, index: usize) -> &'a mut [T] {
         let begin = index * self.size;
         let end = (begin + self.size).min(self.length);
-        // SAFETY: by the contract the chunk lies inside the list that `new` has borrowed for 'a, and nobody else has it.
+        // SAFETY: by the contract the chunk lies inside the list that `new` has borrowed for 'a, and nobody
+        // else has it.
         unsafe { std::slice::from_raw_parts_mut(self.first.add(begin), end - begin) }
     }
 }
@@ -124,7 +127,8 @@ const OPEN: usize = 1 << 15;
 /// How many are inside.
 const INSIDE: usize = OPEN - 1;
 
-// SAFETY: `work` is written by the leader while the gate is closed and nobody is inside, and read by members who are inside.
+// SAFETY: `work` is written by the leader while the gate is closed and nobody is inside, and read by members
+// who are inside.
 unsafe impl Sync for Shared {}
 // SAFETY: the pointer in it is used as `Sync` says.
 unsafe impl Send for Shared {}
@@ -144,7 +148,8 @@ impl Shared {
             std::hint::spin_loop();
         }
         let mut bed = self.bed.lock().unwrap_or_else(PoisonError::into_inner);
-        // The leader looks for sleepers after it has opened the gate, and rings with the lock held: either it sees this, or the gate is open here.
+        // The leader looks for sleepers after it has opened the gate, and rings with the lock held: either it
+        // sees this, or the gate is open here.
         self.sleepers.fetch_add(1, Ordering::SeqCst);
         while !self.calls(Ordering::SeqCst) {
             bed = self.bell.wait(bed).unwrap_or_else(PoisonError::into_inner);
@@ -159,7 +164,8 @@ impl Shared {
         }
     }
 
-    /// What a member does all its life. A loop that is over before it comes is none of its business: nobody waits for a member that is not inside.
+    /// What a member does all its life. A loop that is over before it comes is none of its business: nobody
+    /// waits for a member that is not inside.
     fn serve(&self, member: usize) {
         let mut done = 0;
         loop {
@@ -239,7 +245,8 @@ impl Team {
         self.members.len() + 1
     }
 
-    /// Calls `work(index, member, part)` once for every part, on any member below [`Team::threads`]; returns when all is done.
+    /// Calls `work(index, member, part)` once for every part, on any member below [`Team::threads`]; returns
+    /// when all is done.
     ///
     /// # Panics
     /// When `work` has panicked, on whichever thread; all members have left it then.
@@ -276,7 +283,8 @@ impl Team {
 
     /// Opens the gate, works, closes it, and waits for those who are inside.
     fn work_together(shared: &Shared, work: &Work<'_>) {
-        // SAFETY: only the lifetime changes; nobody uses the pointer after this function, which waits for all who are inside.
+        // SAFETY: only the lifetime changes; nobody uses the pointer after this function, which waits for all
+        // who are inside.
         let pointer = unsafe { std::mem::transmute::<*const Work<'_>, *const Work<'static>>(std::ptr::from_ref(work)) };
         // SAFETY: the gate is closed and nobody is inside: the last loop has waited for that.
         unsafe { *shared.work.get() = Some(pointer) };

@@ -1,4 +1,5 @@
-//! Every instruction set of this machine against the scalar reference, to the bit; `ln`, `exp`, `pow`, `cbrt` against the platform's.
+//! Every instruction set of this machine against the scalar reference, to the bit; `ln`, `exp`, `pow`, `cbrt`
+//! against the platform's.
 
 use crate::*;
 

@@ -1,7 +1,8 @@
 //! Lanes of four (AVX2) and eight (AVX-512) values as newtypes over the vector registers.
 //!
-//! The types are private to the crate and only reach kernels through [`crate::Level::run`], which proves that the machine has
-//! the instructions; that is what makes every intrinsic call below sound. No closures: they are compiled for the machine's baseline.
+//! The types are private to the crate and only reach kernels through [`crate::Level::run`], which proves that
+//! the machine has the instructions; that is what makes every intrinsic call below sound. No closures: they
+//! are compiled for the machine's baseline.
 
 use crate::gather::ROOM;
 use crate::{Batch, Indices, Lane, Moving, VectorSums};
@@ -18,7 +19,8 @@ pub struct F64x4(__m256d);
 #[repr(transparent)]
 pub struct F64x8(__m512d);
 
-/// The four values of a place: of the plane both vectors, of space the first or the second vector and one value more.
+/// The four values of a place: of the plane both vectors, of space the first or the second vector and one
+/// value more.
 ///
 /// # Safety
 /// `place` must be that of a point, times [`ROOM`], and the machine must have AVX.
@@ -52,10 +54,12 @@ fn vector<L: Copy, const D: usize>(components: [L; 4], from: usize) -> [L; D] {
 /// Adds a vector to one of `sums`; of space with a fourth component, which is zero.
 ///
 /// # Safety
-/// `place` must be that of a sum, times [`ROOM`], `row` must hold 2 or 4 values and be aligned to 16 or 32 bytes, and the machine must have AVX.
+/// `place` must be that of a sum, times [`ROOM`], `row` must hold 2 or 4 values and be aligned to 16 or 32
+/// bytes, and the machine must have AVX.
 #[inline(always)]
 unsafe fn add_row<const D: usize>(sums: &mut VectorSums<D>, place: u16, row: *const f64) {
-    // SAFETY: by the contract above all components lie inside the sums, whose rows are aligned to their width.
+    // SAFETY: by the contract above all components lie inside the sums, whose rows are aligned to their
+    // width.
     unsafe {
         let sum = sums.as_mut_ptr().byte_add(usize::from(place) * (size_of::<f64>() * VectorSums::<D>::WIDTH / ROOM));
         if D == 2 {
@@ -66,11 +70,13 @@ unsafe fn add_row<const D: usize>(sums: &mut VectorSums<D>, place: u16, row: *co
     }
 }
 
-/// The vectors of the lanes one after the other, as they lie in registers: those of even lanes before those of odd ones.
+/// The vectors of the lanes one after the other, as they lie in registers: those of even lanes before those
+/// of odd ones.
 #[repr(C, align(64))]
 struct Vectors<const W: usize>([[f64; W]; 4]);
 
-/// Does the work for each row, straight on: values that wait in registers can't be kept in a list that a loop goes through.
+/// Does the work for each row, straight on: values that wait in registers can't be kept in a list that a loop
+/// goes through.
 macro_rules! each_row {
     ($rows:ident, $row:ident, $work:block) => { each_row!(@ 0 1 2 3 4 5 6 7, $rows, $row, $work) };
     (@ $($number:literal)*, $rows:ident, $row:ident, $work:block) => {
@@ -205,7 +211,8 @@ impl Lane for F64x4 {
     #[inline(always)]
     fn gather<const D: usize>(points: &Moving<D>, indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
         let [place] = indices.checked::<1>(points.len(), row, at, 4);
-        // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as for the operators.
+        // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as
+        // for the operators.
         let all = unsafe {
             Self::components([
                 four::<D, false>(points, place[at]),
@@ -232,7 +239,8 @@ impl Lane for F64x4 {
         let mut out = [[Self::splat(0.0); D]; N];
         each_row!(N, a, {
             let place = &places[a];
-            // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as for the operators.
+            // SAFETY: `checked` has shown that every place is one of the points; the instructions are there
+            // as for the operators.
             out[a] = vector(
                 unsafe {
                     Self::components([
@@ -259,7 +267,8 @@ impl Lane for F64x4 {
         let mut all = [const { Vectors([[0.0; 4]; 4]) }; N];
         for (vector, all) in values.iter().zip(&mut all) {
             let all = all.0.as_flattened_mut();
-            // SAFETY: there are sixteen values, aligned to 64 bytes; the instructions are there as for the operators.
+            // SAFETY: there are sixteen values, aligned to 64 bytes; the instructions are there as for the
+            // operators.
             unsafe {
                 let (even, odd) = (_mm256_unpacklo_pd(vector[0].0, vector[1].0), _mm256_unpackhi_pd(vector[0].0, vector[1].0));
                 if D == 2 {
@@ -278,7 +287,8 @@ impl Lane for F64x4 {
         for lane in 0..4 {
             for a in 0..N {
                 let place = (lane % 2 * 2 + lane / 2) * VectorSums::<D>::WIDTH;
-                // SAFETY: `checked` has shown that every place is one of the sums; vectors lie at multiples of their width.
+                // SAFETY: `checked` has shown that every place is one of the sums; vectors lie at multiples
+                // of their width.
                 unsafe { add_row(sums, rows[a][at + lane], all[a].0.as_flattened().as_ptr().add(place)) };
             }
         }
@@ -431,7 +441,8 @@ impl Lane for F64x8 {
     #[inline(always)]
     fn gather<const D: usize>(points: &Moving<D>, indices: &Indices, row: usize, at: usize) -> [[Self; D]; 2] {
         let [place] = indices.checked::<1>(points.len(), row, at, 8);
-        // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as for the operators.
+        // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as
+        // for the operators.
         let all = unsafe {
             Self::components([
                 two_fours::<D, false>(points, place[0], place[4]),
@@ -458,7 +469,8 @@ impl Lane for F64x8 {
         let mut out = [[Self::splat(0.0); D]; N];
         each_row!(N, a, {
             let place = &places[a];
-            // SAFETY: `checked` has shown that every place is one of the points; the instructions are there as for the operators.
+            // SAFETY: `checked` has shown that every place is one of the points; the instructions are there
+            // as for the operators.
             out[a] = vector(
                 unsafe {
                     Self::components([
@@ -485,7 +497,8 @@ impl Lane for F64x8 {
         let mut all = [const { Vectors([[0.0; 8]; 4]) }; N];
         for (vector, all) in values.iter().zip(&mut all) {
             let all = all.0.as_flattened_mut();
-            // SAFETY: there are 32 values, aligned to 64 bytes; the instructions are there as for the operators.
+            // SAFETY: there are 32 values, aligned to 64 bytes; the instructions are there as for the
+            // operators.
             unsafe {
                 let (even, odd) = (_mm512_unpacklo_pd(vector[0].0, vector[1].0), _mm512_unpackhi_pd(vector[0].0, vector[1].0));
                 if D == 2 {
@@ -506,7 +519,8 @@ impl Lane for F64x8 {
         for lane in 0..8 {
             for a in 0..N {
                 let place = (lane % 2 * 4 + lane / 2) * VectorSums::<D>::WIDTH;
-                // SAFETY: `checked` has shown that every place is one of the sums; vectors lie at multiples of their width.
+                // SAFETY: `checked` has shown that every place is one of the sums; vectors lie at multiples
+                // of their width.
                 unsafe { add_row(sums, rows[a][lane], all[a].0.as_flattened().as_ptr().add(place)) };
             }
         }

@@ -1,5 +1,6 @@
-//! What goes wrong, as exceptions of the package: `embate.Error` and those below it, defined in `python/embate/errors.py`. Each carries the text that the command would print, the code of its first
-//! fault and a list of all.
+//! What goes wrong, as exceptions of the package: `embate.Error` and those below it, defined in
+//! `python/embate/errors.py`. Each carries the text that the command would print, the code of its first fault
+//! and a list of all.
 
 use embate_files::checkpoint::CheckpointError;
 use embate_files::model_file::Diagnostics;

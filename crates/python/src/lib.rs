@@ -1,7 +1,9 @@
 //! The native half of the Python package: module `embate._embate`.
 //!
-//! It hands models and simulations through, and nothing else: names, arrays and what is convenient are made in Python (`python/embate`), from the texts, numbers and buffers that come from here. Buffers are
-//! native `f64` and `u32`, one value after the other. Whatever goes wrong becomes one of the package's exceptions (`fault.rs`), with the code and the text of the command; a panic, too.
+//! It hands models and simulations through, and nothing else: names, arrays and what is convenient are made
+//! in Python (`python/embate`), from the texts, numbers and buffers that come from here. Buffers are native
+//! `f64` and `u32`, one value after the other. Whatever goes wrong becomes one of the package's exceptions
+//! (`fault.rs`), with the code and the text of the command; a panic, too.
 
 mod fault;
 mod model;
@@ -24,7 +26,8 @@ mod _embate {
     const __version__: &str = env!("CARGO_PKG_VERSION");
 }
 
-/// The sections of a model file: name, whether it is a list, a table of names, or one table, and what it describes; then the keys of each with their explanation.
+/// The sections of a model file: name, whether it is a list, a table of names, or one table, and what it
+/// describes; then the keys of each with their explanation.
 #[pyfunction]
 fn sections(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     use embate_solver::model::describe::{Form, SECTIONS};
@@ -55,7 +58,8 @@ fn fields(dimension: usize) -> Vec<(&'static str, Vec<&'static str>, &'static st
     fields_of(dimension).iter().map(of).collect()
 }
 
-/// The kinds of cells: name, dimension, number of nodes, number in .msh files and in VTK, corners of each face.
+/// The kinds of cells: name, dimension, number of nodes, number in .msh files and in VTK, corners of each
+/// face.
 #[pyfunction]
 fn cells(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     use embate_solver::mesh::cell::CellKind;

@@ -32,7 +32,8 @@ impl Model {
         Ok(Self { loaded: Arc::new(loaded), origin: Some(Origin { path, set }) })
     }
 
-    /// Reads a text; files that it names are looked for in `folder`, meshes first among the bytes of .msh files in `meshes`.
+    /// Reads a text; files that it names are looked for in `folder`, meshes first among the bytes of .msh
+    /// files in `meshes`.
     #[staticmethod]
     fn from_text(
         py: Python<'_>,

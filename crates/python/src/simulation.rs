@@ -1,7 +1,7 @@
 //! Simulations: stepped without the interpreter's lock, asked for arrays between steps.
 //!
-//! Rows of the history are kept as they are told, so a run in pieces has the history of the whole one. What Python asks for is copied: the solver has its nodes in an order of its own, and goes on
-//! writing.
+//! Rows of the history are kept as they are told, so a run in pieces has the history of the whole one. What
+//! Python asks for is copied: the solver has its nodes in an order of its own, and goes on writing.
 
 use crate::fault::{self, Class, Entry, guarded, raise};
 use crate::model::Model;
@@ -191,7 +191,8 @@ impl Simulation {
         Ok(Self::of(Inner::of(simulation), model, options))
     }
 
-    /// One that stands where a file says that another one of the same model stood; with the rows of its history.
+    /// One that stands where a file says that another one of the same model stood; with the rows of its
+    /// history.
     #[staticmethod]
     fn resumed(
         py: Python<'_>,
@@ -219,7 +220,8 @@ impl Simulation {
         Ok(Self::of(inner, model, options))
     }
 
-    /// Steps until a time (s), so many steps, the end, or so many seconds of wall time have passed, whichever is first.
+    /// Steps until a time (s), so many steps, the end, or so many seconds of wall time have passed, whichever
+    /// is first.
     fn advance(&self, py: Python<'_>, until: f64, steps: u64, seconds: f64) -> PyResult<()> {
         self.without_lock(py, |inner| {
             if let Some(failure) = &inner.failure {
@@ -229,7 +231,8 @@ impl Simulation {
         })
     }
 
-    /// Begins to write results into a folder, which is made; `force`: what is there goes. Only a model of a file can be resumed or run again by the command, so only its results have states and hashes.
+    /// Begins to write results into a folder, which is made; `force`: what is there goes. Only a model of a
+    /// file can be resumed or run again by the command, so only its results have states and hashes.
     fn record(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<()> {
         let (loaded, options, origin) = (&self.loaded, &self.options, &self.origin);
         self.without_lock(py, |inner| {
@@ -297,7 +300,8 @@ impl Simulation {
         Ok((bytes(py, &field.values, f64::to_ne_bytes)?, field.kind.width()))
     }
 
-    /// The cells: nodes of all (u32), where those of each begin (u32, one more than cells), kinds (texts), part of each (u32), names of the parts.
+    /// The cells: nodes of all (u32), where those of each begin (u32, one more than cells), kinds (texts),
+    /// part of each (u32), names of the parts.
     #[expect(clippy::type_complexity, reason = "five arrays for Python")]
     fn cells<'py>(
         &self,
@@ -314,7 +318,8 @@ impl Simulation {
         ))
     }
 
-    /// Of each mesh from a file or from memory: its name, and where its nodes are among those of the state (u32, the largest number: nowhere).
+    /// Of each mesh from a file or from memory: its name, and where its nodes are among those of the state
+    /// (u32, the largest number: nowhere).
     fn imported<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyBytes>)>> {
         let meshes = &self.loaded.model.meshes;
         self.with(|inner| {

@@ -1,13 +1,15 @@
-//! Embate's half of the comparison with the broad phases of ipctk: `against_ipctk.py` beside this file writes the geometry, runs this and
-//! prints the table.
+//! Embate's half of the comparison with the broad phases of ipctk: `against_ipctk.py` beside this file writes
+//! the geometry, runs this and prints the table.
 //!
-//! The folder in the first argument holds `old.f64`, `new.f64` (x and y of each node at both ends of a step) and `segments.u32` (two nodes each),
-//! all little-endian. All nodes are searched against all segments, within the reach in the second argument.
+//! The folder in the first argument holds `old.f64`, `new.f64` (x and y of each node at both ends of a step)
+//! and `segments.u32` (two nodes each), all little-endian. All nodes are searched against all segments,
+//! within the reach in the second argument.
 //!
-//! `build N THREADS`: N searches, each with a new object, then N with one object, after one that isn't timed; prints the nanoseconds of each, and the number of pairs, which go to
-//! `pairs.u32`. `run N PART`: moves the nodes N times by `new - old`, scaled so that the fastest moves by PART of the skin; the skin is the
-//! reach. Searches when a contact would: at the start, and when a node has moved by half the skin. Prints the nanoseconds of all
-//! searches, those of looking whether the skin is left, and the number of searches.
+//! `build N THREADS`: N searches, each with a new object, then N with one object, after one that isn't timed;
+//! prints the nanoseconds of each, and the number of pairs, which go to `pairs.u32`. `run N PART`: moves the
+//! nodes N times by `new - old`, scaled so that the fastest moves by PART of the skin; the skin is the reach.
+//! Searches when a contact would: at the start, and when a node has moved by half the skin. Prints the
+//! nanoseconds of all searches, those of looking whether the skin is left, and the number of searches.
 
 use embate_solver::contact::search::{Pair, Query, Search, registry};
 use std::error::Error;
@@ -104,7 +106,8 @@ fn run(geometry: &Geometry, skin: f64, steps: usize, part: f64) {
         looking += start.elapsed().as_nanos();
         if left {
             let start = Instant::now();
-            // As a contact asks: what may come within the skin, and both sides may move as far as the fastest.
+            // As a contact asks: what may come within the skin, and both sides may move as far as the
+            // fastest.
             let query = geometry.query(&old, &new, 1.001 * (skin + 2.0 * std::f64::consts::SQRT_2 * part * skin));
             search.pairs(black_box(&query), &mut pairs);
             at_search.clear();
@@ -117,7 +120,8 @@ fn run(geometry: &Geometry, skin: f64, steps: usize, part: f64) {
     println!("searching {searching}\nlooking {looking}\nsearches {searches}");
 }
 
-/// As the contact does it in every step: whether some node has moved by more than half the skin since the last search.
+/// As the contact does it in every step: whether some node has moved by more than half the skin since the
+/// last search.
 fn is_left(skin: f64, nodes: &[u32], at_search: &[[f64; 2]], positions: &[[f64; 2]]) -> bool {
     let limit = 0.25 * skin * skin;
     at_search.is_empty()

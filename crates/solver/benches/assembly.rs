@@ -1,8 +1,10 @@
-//! The sum of the forces of elements on the nodes: `cargo bench -p embate-solver --bench assembly [-- ELEMENTS_ALONG_A_SIDE...]`.
+//! The sum of the forces of elements on the nodes:
+//! `cargo bench -p embate-solver --bench assembly [-- ELEMENTS_ALONG_A_SIDE...]`.
 //!
-//! As steps do it: each chunk of 512 elements adds the forces of its corners in lanes on its own nodes, and nodes add the slots of their chunks. Against it the corner-gather
-//! oracle: the forces of all corners are stored, and each node gathers its corners. Forces are made on the spot from one number per element, as kernels have them in registers.
-//! One thread, both in turns in the same run; their sums must agree.
+//! As steps do it: each chunk of 512 elements adds the forces of its corners in lanes on its own nodes, and
+//! nodes add the slots of their chunks. Against it the corner-gather oracle: the forces of all corners are
+//! stored, and each node gathers its corners. Forces are made on the spot from one number per element, as
+//! kernels have them in registers. One thread, both in turns in the same run; their sums must agree.
 
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level, VectorSums};
 use embate_solver::assembly::Assembly;

@@ -1,6 +1,8 @@
-//! Element kernels: million element-steps per second on one core, per element, law and instruction set, beside the scalar lane in the same run.
+//! Element kernels: million element-steps per second on one core, per element, law and instruction set,
+//! beside the scalar lane in the same run.
 //!
-//! `cargo bench -p embate-solver --bench kernel [-- ELEMENT... LAW...]`: all, or some elements with some laws.
+//! `cargo bench -p embate-solver --bench kernel [-- ELEMENT... LAW...]`: all, or some elements with some
+//! laws.
 
 use embate_solver::bench::{Level, Patch, kernel};
 use embate_solver::block::Blocks;

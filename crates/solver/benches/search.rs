@@ -1,11 +1,14 @@
-//! Cost of the global search per segment, from a thousand to a million segments: `cargo bench -p embate-solver --bench search [NAME]`.
+//! Cost of the global search per segment, from a thousand to a million segments:
+//! `cargo bench -p embate-solver --bench search [NAME]`.
 //!
-//! Every case has so many segments and so many slave nodes. `waves`: two long wavy chains, one just above the other, nodes of the one against
-//! segments of the other. `rings`: a field of small rings in random places, listed in rows; all nodes against all segments. `mixed`: the same
-//! rings listed in random order. `shuffled`: the same with all nodes and segments in random places of memory, the worst order there is. The
-//! last two show what memory costs when the order of a list says nothing about places: once the data has outgrown the caches, every look at
-//! a neighbour waits for memory, whatever the method. Small cases come in several variants that take turns, because a processor
-//! learns the branches of a repeated search of a thousand segments by heart, which no simulation's next search would profit from.
+//! Every case has so many segments and so many slave nodes. `waves`: two long wavy chains, one just above the
+//! other, nodes of the one against segments of the other. `rings`: a field of small rings in random places,
+//! listed in rows; all nodes against all segments. `mixed`: the same rings listed in random order.
+//! `shuffled`: the same with all nodes and segments in random places of memory, the worst order there is. The
+//! last two show what memory costs when the order of a list says nothing about places: once the data has
+//! outgrown the caches, every look at a neighbour waits for memory, whatever the method. Small cases come in
+//! several variants that take turns, because a processor learns the branches of a repeated search of a
+//! thousand segments by heart, which no simulation's next search would profit from.
 
 use embate_solver::bench::Random;
 use embate_solver::contact::search::{Pair, Query, registry};

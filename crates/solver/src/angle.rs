@@ -2,7 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Cosine and sine by Taylor polynomials on ±45 degrees (truncation below 1e-17): the same bits on every platform.
+/// Cosine and sine by Taylor polynomials on ±45 degrees (truncation below 1e-17): the same bits on every
+/// platform.
 pub(crate) fn cos_sin(angle: f64) -> [f64; 2] {
     let quarters = (angle / FRAC_PI_2).round();
     let r = angle - quarters * FRAC_PI_2;

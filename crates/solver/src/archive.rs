@@ -1,8 +1,11 @@
-//! The state of a run as bytes, and back: one walk through the state for both directions, so that writing and reading cannot part.
+//! The state of a run as bytes, and back: one walk through the state for both directions, so that writing and
+//! reading cannot part.
 //!
-//! Whatever changes while a run goes on and can't be made again of the model, bit for bit, is [`Keep`]: its one function hands every value to an [`Archive`], which either writes it down or
-//! fills it. Values are little-endian; lists have their length before them, and what is read of a length is held against the bytes that are left before room is made. What is read is
-//! checked where it would be used as an index. The state comes from [`crate::simulation`]; who stores the sections is not known here.
+//! Whatever changes while a run goes on and can't be made again of the model, bit for bit, is [`Keep`]: its
+//! one function hands every value to an [`Archive`], which either writes it down or fills it. Values are
+//! little-endian; lists have their length before them, and what is read of a length is held against the bytes
+//! that are left before room is made. What is read is checked where it would be used as an index. The state
+//! comes from [`crate::simulation`]; who stores the sections is not known here.
 
 use embate_lanes::Batch;
 use std::collections::BTreeMap;

@@ -1,7 +1,8 @@
-//! From the forces that chunks of elements leave to nodal forces: each node sums its slots in a fixed order, whoever does it.
+//! From the forces that chunks of elements leave to nodal forces: each node sums its slots in a fixed order,
+//! whoever does it.
 //!
-//! A chunk has summed the forces of its own elements on its nodes already, in the order of the elements (`block/local.rs`), so most nodes have one slot. The slots of a
-//! node ascend by block and chunk.
+//! A chunk has summed the forces of its own elements on its nodes already, in the order of the elements
+//! (`block/local.rs`), so most nodes have one slot. The slots of a node ascend by block and chunk.
 
 use crate::block::NO_NODE;
 use crate::rows::Rows;

@@ -1,4 +1,5 @@
-//! From a model to a [`System`]: mesh, blocks, masses, contacts, obstacles, rigid bodies, conditions. All faults are collected before anything runs.
+//! From a model to a [`System`]: mesh, blocks, masses, contacts, obstacles, rigid bodies, conditions. All
+//! faults are collected before anything runs.
 
 mod again;
 mod bodies;
@@ -139,7 +140,8 @@ where
     let velocities = builder.velocities(part_mass);
     builder.rigid_parts(part_mass);
     let shares = builder.shares(&blocks, part_mass);
-    // From here on masses are those of nodes, and of parts as a whole: each list of them is as large as all positions.
+    // From here on masses are those of nodes, and of parts as a whole: each list of them is as large as all
+    // positions.
     blocks.iter_mut().for_each(|block| block.release_corner_masses());
     drop((part_mass_scaled, part_mass_true));
     builder.measure_stiffness(&mut blocks, level);
@@ -265,7 +267,8 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: Builds<D>,
 {
-    /// The outside of all bodies. Made only to be told of elements that overlap where nothing `touches`. A symmetry line is no surface: pressures count the length on the model's side.
+    /// The outside of all bodies. Made only to be told of elements that overlap where nothing `touches`. A
+    /// symmetry line is no surface: pressures count the length on the model's side.
     fn outside(&self, touches: bool) -> Result<Surface<D>, Fault> {
         self.mesh.outside_without(&[], |segment| !touches || self.constraints.is_mirror(segment))
     }
@@ -310,7 +313,8 @@ where
         blocks
     }
 
-    /// What the stiffness of contacts is made from beyond the elements behind their surfaces: moduli and the first step.
+    /// What the stiffness of contacts is made from beyond the elements behind their surfaces: moduli and the
+    /// first step.
     fn measure_stiffness(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) {
         self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
         let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
@@ -341,7 +345,8 @@ where
         }
     }
 
-    /// Stiffness of a node by its mass and the first step, of the area that it stands for, Pa/m; zero where the step was not asked for.
+    /// Stiffness of a node by its mass and the first step, of the area that it stands for, Pa/m; zero where
+    /// the step was not asked for.
     fn of_mass(&self, node: u32, area: f64) -> f64 {
         if self.time_step > 0.0 { law::penalty::of_time_step(self.mass[node as usize], self.time_step, area) } else { 0.0 }
     }
@@ -362,7 +367,8 @@ where
         made
     }
 
-    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against each other.
+    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against
+    /// each other.
     fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
         let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
         if let Some((node, other)) = twice {

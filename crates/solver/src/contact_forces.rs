@@ -1,11 +1,14 @@
-//! Contact forces on nodes: few nodes of a model have any, so they are kept with what tells where they are, eight nodes at a time.
+//! Contact forces on nodes: few nodes of a model have any, so they are kept with what tells where they are,
+//! eight nodes at a time.
 //!
-//! Solved springs add to them ([`crate::contact::Contact::collect`]); the velocity update, rigid bodies and records read them. A step costs as much as there are nodes in contact.
+//! Solved springs add to them ([`crate::contact::Contact::collect`]); the velocity update, rigid bodies and
+//! records read them. A step costs as much as there are nodes in contact.
 
 use crate::archive::{Archive, Keep, Kept};
 use embate_lanes::BATCH;
 
-/// Forces of contacts and obstacles on nodes, N/m. Of a model without contacts there are none, not even of zero: [`ContactForces::new`] of no nodes.
+/// Forces of contacts and obstacles on nodes, N/m. Of a model without contacts there are none, not even of
+/// zero: [`ContactForces::new`] of no nodes.
 #[derive(Clone, Debug, Default)]
 pub struct ContactForces<const D: usize = 2> {
     /// As far as any node was pushed: nodes of surfaces come before the others.

@@ -1,4 +1,5 @@
-//! Who is to blame: names elements, nodes and contacts with their places, for errors, progress and the summary. Called rarely.
+//! Who is to blame: names elements, nodes and contacts with their places, for errors, progress and the
+//! summary. Called rarely.
 
 use crate::contact::Contact;
 use crate::contact::findings::{Findings, Overlap};
@@ -57,7 +58,8 @@ where
         Error::Inverted { part, element, at, time: self.time, step: self.step }
     }
 
-    /// The element, by group and number, that is most inside out. The Jacobian of a quadrilateral is smallest in a corner.
+    /// The element, by group and number, that is most inside out. The Jacobian of a quadrilateral is smallest
+    /// in a corner.
     pub(crate) fn most_inverted(&self) -> (usize, usize) {
         let mut worst = (f64::INFINITY, 0, 0);
         for (g, (group, block)) in self.mesh.groups.iter().zip(&self.blocks).enumerate() {
@@ -97,13 +99,15 @@ where
         Error::Runaway { place: self.node_place(node), speed: self.speed, limit: self.limits.velocity, time: self.time, step: self.step }
     }
 
-    /// The node of a contact that is deepest inside, and how deep, m: of a body that has gone through another, a node there.
+    /// The node of a contact that is deepest inside, and how deep, m: of a body that has gone through
+    /// another, a node there.
     pub(crate) fn deepest(&self, contact: &Contact<D>) -> Option<(usize, f64)> {
         if let Some(through) = contact.gone_through().filter(|_| self.limits.is_local) {
             return Some((through.nodes[0] as usize, through.depth));
         }
         let deepest = contact.penetrations(&self.springs).map(|(_, depth)| depth).fold(0.0, f64::max);
-        // Of nodes that are equally deep to the digits that are told, such as those of both bodies, the fastest: what moves is what to look at.
+        // Of nodes that are equally deep to the digits that are told, such as those of both bodies, the
+        // fastest: what moves is what to look at.
         let equal = contact.penetrations(&self.springs).filter(|&(_, depth)| depth >= (1.0 - 1e-3) * deepest);
         let speed = |node: u32| self.velocities.get(node as usize).map_or(0.0, |&v| dot(v, v));
         equal.max_by(|&(a, _), &(b, _)| speed(a).total_cmp(&speed(b))).map(|(node, depth)| (node as usize, depth))

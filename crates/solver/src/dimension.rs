@@ -7,7 +7,8 @@ use crate::mesh::geometry::CellGeometry;
 use crate::rotation::Rotate;
 use crate::tensor::Space;
 
-/// All that the step and what stands below it ask of a dimension: each trait belongs to the module that needs it.
+/// All that the step and what stands below it ask of a dimension: each trait belongs to the module that needs
+/// it.
 pub trait Dimension<const D: usize>:
     Space<D> + CellGeometry<D> + Rotate<D> + TangentSpace<D> + Tractions<D> + Blocks<D> + Send + Sync + 'static
 {

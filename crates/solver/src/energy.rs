@@ -1,10 +1,14 @@
-//! The ledger: what every force took and gave (an identity that must close), and what is found in the stores (the energy drift).
+//! The ledger: what every force took and gave (an identity that must close), and what is found in the stores
+//! (the energy drift).
 //!
-//! Momentum update times mean velocity: Δ ½Σ m|v^{n+1/2}|² = Σ_k ½(dt^n + dt^{n-1}) f_k^n · v̄^n for every kind k of force. The residual of this
-//! sum is round-off or a bug. The drift compares energies at the whole step n: kinetic energy ½ Σ m v^{n-1/2}·v^{n+1/2}, stored, dissipated and
-//! contact spring energy and what friction and damping took, less what came from outside by the trapezoidal rule in the displacement, Σ f·½(x^{n+1} − x^{n-1}). For linear springs, dead
-//! loads and a constant step this is exactly constant, from time zero on; there the velocity v^{-1/2} is the mirror image 2v⁰ − v^{1/2}. What friction,
-//! damping and multipliers take is their work with its sign turned, by the same rule: the drift can't judge it, its sign can.
+//! Momentum update times mean velocity: Δ ½Σ m|v^{n+1/2}|² = Σ_k ½(dt^n + dt^{n-1}) f_k^n · v̄^n for every
+//! kind k of force. The residual of this sum is round-off or a bug. The drift compares energies at the whole
+//! step n: kinetic energy ½ Σ m v^{n-1/2}·v^{n+1/2}, stored, dissipated and contact spring energy and what
+//! friction and damping took, less what came from outside by the trapezoidal rule in the displacement, Σ
+//! f·½(x^{n+1} − x^{n-1}). For linear springs, dead loads and a constant step this is exactly constant, from
+//! time zero on; there the velocity v^{-1/2} is the mirror image 2v⁰ − v^{1/2}. What friction, damping and
+//! multipliers take is their work with its sign turned, by the same rule: the drift can't judge it, its sign
+//! can.
 
 use crate::archive::keep_all;
 use crate::reductions;
@@ -66,7 +70,8 @@ pub struct Lost {
     pub old: [f64; 2],
     /// Energy at n + ½ of springs that are no more at n + 1: ties that broke, contacts that end.
     pub freed: f64,
-    /// Energy at n − ½ of springs that were closed and are no more at n: their node or segment has left the surface.
+    /// Energy at n − ½ of springs that were closed and are no more at n: their node or segment has left the
+    /// surface.
     pub let_go: f64,
 }
 
@@ -177,9 +182,11 @@ pub struct Stores {
     pub friction: f64,
     /// Lost by damping in contacts, and by impacts on multipliers, so far.
     pub contact_damping: f64,
-    /// Lost by damping loads, of the mass and of the stiffness, and into boundaries that reflect nothing so far.
+    /// Lost by damping loads, of the mass and of the stiffness, and into boundaries that reflect nothing so
+    /// far.
     pub damping: f64,
-    /// Elastic energy that eroded elements had, and that of contact springs on the surfaces that went with them.
+    /// Elastic energy that eroded elements had, and that of contact springs on the surfaces that went with
+    /// them.
     pub eroded: f64,
 }
 
@@ -211,7 +218,8 @@ pub struct Ledger {
     pub works: Works,
     /// External work until the last whole step, J/m.
     pub external: f64,
-    /// External work, and what friction, contact damping and damping loads took, until the last half step, J/m.
+    /// External work, and what friction, contact damping and damping loads took, until the last half step,
+    /// J/m.
     halves: [f64; 4],
     /// Stores at the last whole step.
     pub stores: Stores,
@@ -234,19 +242,23 @@ pub struct Entry {
     pub external_old: f64,
     /// What friction and damping took in contacts.
     pub lost: Lost,
-    /// Energy of the elastic slip of friction, at the whole step, J/m; part of what friction took, but not lost.
+    /// Energy of the elastic slip of friction, at the whole step, J/m; part of what friction took, but not
+    /// lost.
     pub slip_energy: f64,
     /// Impulses of damping loads times v^{n-1/2}, J/m.
     pub damping_old: f64,
-    /// Part of the update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n); zero at time zero only.
+    /// Part of the update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n); zero at time zero
+    /// only.
     pub before: f64,
-    /// Stores at the whole step n without what is lost but in elements (of damping what is taken there), kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}, at time zero as ½ Σ m v⁰·v^{1/2}.
+    /// Stores at the whole step n without what is lost but in elements (of damping what is taken there),
+    /// kinetic energy as ½ Σ m v^{n-1/2}·v^{n+1/2}, at time zero as ½ Σ m v⁰·v^{1/2}.
     pub stores: Stores,
 }
 
 impl Ledger {
-    /// Books that begin with `kinetic` energy, J/m. Drift and residual are fractions of the largest total energy, but at least of `round_off`, the
-    /// energy that rounded positions alone can bring: a body at rest must not seem to gain energy.
+    /// Books that begin with `kinetic` energy, J/m. Drift and residual are fractions of the largest total
+    /// energy, but at least of `round_off`, the energy that rounded positions alone can bring: a body at rest
+    /// must not seem to gain energy.
     #[must_use]
     pub fn new(kinetic: f64, round_off: f64) -> Self {
         Self { kinetic_start: kinetic, largest: kinetic.max(round_off), ..Self::default() }
@@ -273,7 +285,8 @@ impl Ledger {
         (self.stores.friction, self.stores.contact_damping, self.stores.damping) =
             (wholes[1] - entry.slip_energy, wholes[2], entry.stores.damping + wholes[3]);
         if entry.before > 0.0 {
-            // Unequal steps: v^{n-1/2} and v^{n+1/2} lie at unequal distances from n; the shift is ½ (dt^n − dt^{n-1})/(dt^n + dt^{n-1}) ΣW.
+            // Unequal steps: v^{n-1/2} and v^{n+1/2} lie at unequal distances from n; the shift is ½ (dt^n −
+            // dt^{n-1})/(dt^n + dt^{n-1}) ΣW.
             self.stores.kinetic -= (0.5 - entry.before) * entry.works.total();
         } else {
             // Time zero: ½ Σ m (2v⁰ − v^{1/2})·v^{1/2}.
@@ -286,8 +299,9 @@ impl Ledger {
         self.drift = self.drift.max((self.stores.total() - self.external - start).abs());
     }
 
-    /// Books a change of velocities at the end of a step as external work, J/m: by what ½ Σ m|v^{n+1/2}|² changes, and by what the kinetic energy at the whole step does; `ahead` is what loads do more
-    /// in the half step that follows, because they act on other velocities.
+    /// Books a change of velocities at the end of a step as external work, J/m: by what ½ Σ m|v^{n+1/2}|²
+    /// changes, and by what the kinetic energy at the whole step does; `ahead` is what loads do more in the
+    /// half step that follows, because they act on other velocities.
     pub(crate) fn throw(&mut self, half: f64, whole: f64, ahead: f64) {
         self.works.load += half;
         self.halves[0] += whole + ahead;

@@ -1,4 +1,5 @@
-//! Hashes (64 bit) that tell states and models apart: FNV-1a byte by byte, and a faster one number by number. No safeguard against anybody who means harm.
+//! Hashes (64 bit) that tell states and models apart: FNV-1a byte by byte, and a faster one number by number.
+//! No safeguard against anybody who means harm.
 
 use std::fmt;
 
@@ -41,7 +42,8 @@ impl fmt::Display for Fnv {
     }
 }
 
-/// Takes a number of 64 bits into a hash: one-to-one in either of them, so that one number that differs is never lost. (Multiplication carries bits upwards, the shift brings them down again.)
+/// Takes a number of 64 bits into a hash: one-to-one in either of them, so that one number that differs is
+/// never lost. (Multiplication carries bits upwards, the shift brings them down again.)
 #[inline(always)]
 #[must_use]
 pub fn mixed(hash: u64, number: u64) -> u64 {

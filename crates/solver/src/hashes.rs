@@ -1,7 +1,10 @@
-//! What a state was, as few numbers: hashes of each part, of the contacts and of the rigid bodies, for a log by which two runs are told apart later.
+//! What a state was, as few numbers: hashes of each part, of the contacts and of the rigid bodies, for a log
+//! by which two runs are told apart later.
 //!
-//! [`crate::simulation`] takes them every `output.hash_steps` steps and tells its observer. They are made of the values that [`crate::parting`] compares one by one: positions and velocities of
-//! the nodes, energies of the elements, sums of the contacts, motion of the bodies. What is a sum over nodes or names depends on no order of storage.
+//! [`crate::simulation`] takes them every `output.hash_steps` steps and tells its observer. They are made of
+//! the values that [`crate::parting`] compares one by one: positions and velocities of the nodes, energies of
+//! the elements, sums of the contacts, motion of the bodies. What is a sum over nodes or names depends on no
+//! order of storage.
 
 use crate::contact::{Contact, ContactKind};
 use crate::dimension::Dimension;
@@ -75,7 +78,8 @@ where
     groups.filter(move |(group, _)| group.part == part).map(|(_, report)| [report.stored, report.dissipated])
 }
 
-/// The nodes of a part as they are stored, each with its place in the part, in ascending order: memory is read from one end to the other.
+/// The nodes of a part as they are stored, each with its place in the part, in ascending order: memory is
+/// read from one end to the other.
 pub(crate) fn nodes<const D: usize>(system: &System<D>, part: usize) -> Vec<[u32; 2]>
 where
     Dim<D>: Dimension<D>,

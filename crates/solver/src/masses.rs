@@ -4,8 +4,8 @@
 pub(crate) struct PartMasses {
     /// Mass of the elements of each part, kg/m (kg).
     pub(crate) whole: Vec<f64>,
-    /// Mass of each part on nodes that weigh more than it gives them, kg/m (kg): other parts have them too, or there are
-    /// point masses. Nodes ascend.
+    /// Mass of each part on nodes that weigh more than it gives them, kg/m (kg): other parts have them too,
+    /// or there are point masses. Nodes ascend.
     shared: Vec<Vec<(u32, f64)>>,
 }
 

@@ -1,14 +1,18 @@
-//! The catalogue of messages: each kind of error and warning has a code that stays, a title, an example, a cause and a cure.
+//! The catalogue of messages: each kind of error and warning has a code that stays, a title, an example, a
+//! cause and a cure.
 //!
-//! Entries stand beside the code that raises them, as statics that a `MESSAGES` list of their file names; [`crate::catalogue`] joins those of the solver, and the rooms above
-//! add theirs. Whatever tells an error takes a `&'static Message`, so there is none without an entry. `embate explain` and `docs/messages.md` print them.
+//! Entries stand beside the code that raises them, as statics that a `MESSAGES` list of their file names;
+//! [`crate::catalogue`] joins those of the solver, and the rooms above add theirs. Whatever tells an error
+//! takes a `&'static Message`, so there is none without an entry. `embate explain` and `docs/messages.md`
+//! print them.
 
 use std::fmt;
 
 /// One kind of message.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Message {
-    /// `E0123` for an error, `W0123` for a warning; the first two digits are the area. A code is never given to another kind.
+    /// `E0123` for an error, `W0123` for a warning; the first two digits are the area. A code is never given
+    /// to another kind.
     pub code: &'static str,
     /// What it is, in a few words.
     pub title: &'static str,

@@ -5,10 +5,11 @@
 pub struct Outline {
     /// Name of the obstacle.
     pub name: String,
-    /// Points of its surface, m. In the plane (z is zero) they follow each other, the solid on the right; what is without end reaches far beyond the model, a closed line ends at its
-    /// first point.
+    /// Points of its surface, m. In the plane (z is zero) they follow each other, the solid on the right;
+    /// what is without end reaches far beyond the model, a closed line ends at its first point.
     pub points: Vec<[f64; 3]>,
-    /// In space: facets of it, each by its points, outward by the right-hand rule; a triangle repeats its last point.
+    /// In space: facets of it, each by its points, outward by the right-hand rule; a triangle repeats its
+    /// last point.
     pub facets: Vec<[u32; 4]>,
 }
 

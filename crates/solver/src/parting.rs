@@ -1,7 +1,8 @@
 //! Where two simulations part: their states held against each other, value by value, after each step.
 //!
-//! Made for `embate diff`, which steps two simulations side by side. Compared are the values of which [`crate::hashes`] makes hashes. Parts correspond by their names and nodes by their places in
-//! them, whatever else the models have, and only where their meshes are the same.
+//! Made for `embate diff`, which steps two simulations side by side. Compared are the values of which
+//! [`crate::hashes`] makes hashes. Parts correspond by their names and nodes by their places in them,
+//! whatever else the models have, and only where their meshes are the same.
 
 use crate::body_columns::BodyColumns;
 use crate::hash::mixed;
@@ -70,7 +71,8 @@ pub struct NodeParting {
     pub number: usize,
     /// The number that field files and messages have.
     pub user: u32,
-    /// Position, velocity at the half step that follows, and the forces that led to it (those that are zero in both left out), with their units.
+    /// Position, velocity at the half step that follows, and the forces that led to it (those that are zero
+    /// in both left out), with their units.
     pub values: Vec<(String, Value)>,
 }
 
@@ -92,7 +94,8 @@ impl Value {
         self.0.to_bits() != self.1.to_bits()
     }
 
-    /// How many double-precision numbers lie from one to the other, the last one counted: 1 for neighbours, 0 for 0 and −0. `None`: one is not a number.
+    /// How many double-precision numbers lie from one to the other, the last one counted: 1 for neighbours, 0
+    /// for 0 and −0. `None`: one is not a number.
     #[must_use]
     pub fn ulps(self) -> Option<u64> {
         if self.0.is_nan() || self.1.is_nan() {
@@ -245,7 +248,8 @@ impl Pair {
     }
 }
 
-/// What differs of contacts and rigid bodies that are in both; what is in one alone and acts differs by what it does to parts, or by its hash.
+/// What differs of contacts and rigid bodies that are in both; what is in one alone and acts differs by what
+/// it does to parts, or by its hash.
 fn others<const D: usize>(systems: [&System<D>; 2]) -> Vec<(String, Value)>
 where
     Dim<D>: Runs<D>,

@@ -3,7 +3,8 @@
 
 use std::fmt;
 
-/// Physical dimension as integer exponents of kilogram, metre, second and kelvin, and of bytes. Values are SI `f64`.
+/// Physical dimension as integer exponents of kilogram, metre, second and kelvin, and of bytes. Values are SI
+/// `f64`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Dimension {
     /// Exponent of mass (kg).
@@ -144,7 +145,8 @@ impl fmt::Display for Range {
     }
 }
 
-/// One parameter of a material law, an element or a contact law, described once for input, lists and documentation.
+/// One parameter of a material law, an element or a contact law, described once for input, lists and
+/// documentation.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
     /// Key in the model file.
@@ -157,7 +159,8 @@ pub struct Parameter {
     pub range: Range,
     /// Value when the key is left out; `None`: the key is required.
     pub default: Option<f64>,
-    /// Most values of a list; 0: a single number. A list without a default may not be left out, one with a default may be empty.
+    /// Most values of a list; 0: a single number. A list without a default may not be left out, one with a
+    /// default may be empty.
     pub list: usize,
     /// One line: what it is.
     pub doc: &'static str,

@@ -1,6 +1,6 @@
-//! Reductions: what a step learns of all chunks, bodies and contacts together. Minima and maxima don't depend on the
-//! order of what they are taken over, and sums here don't either: they are exact until they are rounded once, so
-//! whoever adds what, and in which order, finds the same bits.
+//! Reductions: what a step learns of all chunks, bodies and contacts together. Minima and maxima don't depend
+//! on the order of what they are taken over, and sums here don't either: they are exact until they are
+//! rounded once, so whoever adds what, and in which order, finds the same bits.
 //!
 //! Loops over chunks themselves go through [`embate_lanes::Team::each`].
 
@@ -10,11 +10,12 @@ const BITS: u32 = 32;
 const DIGITS: usize = 68;
 /// Exponent of the smallest number.
 const LEAST: i32 = -1074;
-/// Additions after which carries are handed on: each adds less than 2^32 to a digit, which holds less than 2^63.
+/// Additions after which carries are handed on: each adds less than 2^32 to a digit, which holds less than
+/// 2^63.
 const ADDITIONS: u32 = 1 << 30;
 
-/// A sum of numbers without rounding: an integer of 68 digits, each of 32 bits in a signed number of 64, in units of
-/// 2^−1074. Adding is splitting a mantissa over three digits; the order doesn't matter.
+/// A sum of numbers without rounding: an integer of 68 digits, each of 32 bits in a signed number of 64, in
+/// units of 2^−1074. Adding is splitting a mantissa over three digits; the order doesn't matter.
 ///
 /// Source: R. M. Neal, Fast exact summation using small and large superaccumulators, arXiv:1505.05571 (2015).
 #[derive(Clone, Debug)]
@@ -73,7 +74,8 @@ impl ExactSum {
         self.not_finite += other.not_finite;
     }
 
-    /// Hands carries on, so that digits lie in 0..2^32; only the highest of those in use may be negative: it has the sign.
+    /// Hands carries on, so that digits lie in 0..2^32; only the highest of those in use may be negative: it
+    /// has the sign.
     fn carry(&mut self) {
         self.additions = 0;
         let [first, end] = self.used;
@@ -90,7 +92,8 @@ impl ExactSum {
         }
     }
 
-    /// The sum, rounded to the nearest number, to the even one of two. Not finite where something added was not.
+    /// The sum, rounded to the nearest number, to the even one of two. Not finite where something added was
+    /// not.
     #[must_use]
     pub fn value(&self) -> f64 {
         if self.not_finite != 0.0 {
@@ -105,15 +108,16 @@ impl ExactSum {
             size.carry();
         }
         let Some(top) = (size.used[0]..size.used[1]).rev().find(|&k| size.digits[k] != 0) else { return 0.0 };
-        // The highest digits, and in the last bit whether there is anything below: far beyond what rounding looks at.
+        // The highest digits, and in the last bit whether there is anything below: far beyond what rounding
+        // looks at.
         let lowest = top.saturating_sub(3);
         let mut head = (lowest..=top).rev().fold(0u128, |head, k| head << BITS | size.digits[k] as u128);
         if size.digits[size.used[0].min(lowest)..lowest].iter().any(|&digit| digit != 0) {
             head |= 1;
         }
         let exponent = BITS as i32 * lowest as i32 + LEAST;
-        // In two steps, neither of which leaves the range of the powers; the first is exact, and so is the second where the
-        // sum is below the normal numbers, since then nothing was rounded.
+        // In two steps, neither of which leaves the range of the powers; the first is exact, and so is the
+        // second where the sum is below the normal numbers, since then nothing was rounded.
         let half = exponent / 2;
         let found = head as f64 * power(half) * power(exponent - half);
         if is_negative { -found } else { found }
@@ -143,7 +147,8 @@ pub fn min(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// The largest of numbers that are not negative; zero where there is none. A number that is none counts for nothing.
+/// The largest of numbers that are not negative; zero where there is none. A number that is none counts for
+/// nothing.
 #[must_use]
 pub fn max(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, f64::max)
@@ -185,7 +190,8 @@ mod tests {
         proptest::collection::vec(number, 3..60)
     }
 
-    /// The sum of integers in units of 2^-40, each less than 2^60: exact in 128 bits, rounded by the conversion.
+    /// The sum of integers in units of 2^-40, each less than 2^60: exact in 128 bits, rounded by the
+    /// conversion.
     fn of_integers(values: &[i64]) -> f64 {
         values.iter().map(|&value| i128::from(value)).sum::<i128>() as f64 * 2f64.powi(-40)
     }

@@ -1,12 +1,15 @@
-//! Rigid bodies: obstacles and rigid parts. Each has a reference point, an angle and its velocities, and moves by the same central differences as the nodes.
+//! Rigid bodies: obstacles and rigid parts. Each has a reference point, an angle and its velocities, and
+//! moves by the same central differences as the nodes.
 //!
-//! Contact forces reach a body at its nodes, or at points; corner forces of deformable elements at the nodes that they share with it. With F the sum of the forces
-//! and T their moment about X^n:
+//! Contact forces reach a body at its nodes, or at points; corner forces of deformable elements at the nodes
+//! that they share with it. With F the sum of the forces and T their moment about X^n:
 //!
-//! V^{n+½} = V^{n−½} + ½ (dt^{n−1} + dt^n) F / M,   ω^{n+½} = ω^{n−½} + ½ (dt^{n−1} + dt^n) T / I,   X^{n+1} = X^n + dt^n V^{n+½},   θ^{n+1} = θ^n + dt^n ω^{n+½}
+//! V^{n+½} = V^{n−½} + ½ (dt^{n−1} + dt^n) F / M, ω^{n+½} = ω^{n−½} + ½ (dt^{n−1} + dt^n) T / I,
+//! X^{n+1} = X^n + dt^n V^{n+½}, θ^{n+1} = θ^n + dt^n ω^{n+½}
 //!
-//! and a node is at x = X + R(θ) r. In space a rotation takes the place of the angle and the angular momentum that of the spin ([`space`]). Where a degree of freedom is driven its velocity is prescribed, it has no mass in the books, and what drives it does
-//! the work that the forces do not.
+//! and a node is at x = X + R(θ) r. In space a rotation takes the place of the angle and the angular momentum
+//! that of the spin ([`space`]). Where a degree of freedom is driven its velocity is prescribed, it has no
+//! mass in the books, and what drives it does the work that the forces do not.
 
 use crate::angle::cos_sin;
 use crate::archive::{Archive, Keep, Kept, keep_each};
@@ -57,9 +60,11 @@ where
     pub velocity_free: Row<D>,
     /// v^{n+½}.
     pub velocity: Row<D>,
-    /// Mass, mass (kg/m) and inertia (kg m); zero where it is driven. In space the mass (kg) three times; inertia is in `turning`.
+    /// Mass, mass (kg/m) and inertia (kg m); zero where it is driven. In space the mass (kg) three times;
+    /// inertia is in `turning`.
     pub mass: Row<D>,
-    /// Change of velocity per impulse: 1/mass, 1/mass and 1/inertia, less with damping; zero where it is driven. In space that of spins is in `turning`.
+    /// Change of velocity per impulse: 1/mass, 1/mass and 1/inertia, less with damping; zero where it is
+    /// driven. In space that of spins is in `turning`.
     pub inverse_mass: Row<D>,
     /// Contact forces (N/m) and their moment about the reference point (N).
     pub force: Row<D>,
@@ -107,7 +112,8 @@ where
 {
     /// Force, N/m.
     pub force: [f64; D],
-    /// Σ r × f and Σ r · f of what is not uniform, N: the moment at angle θ is cos θ times the first less sin θ times the second. In space Σ r fᵀ.
+    /// Σ r × f and Σ r · f of what is not uniform, N: the moment at angle θ is cos θ times the first less sin
+    /// θ times the second. In space Σ r fᵀ.
     pub moments: <Dim<D> as RigidMotion<D>>::Moments,
 }
 
@@ -339,7 +345,8 @@ where
         sums.kinetic += 0.5 * m * old * new;
     }
 
-    /// Velocities of the nodes that lead them over the coming step (s) to where the body will have them: chords of their arcs.
+    /// Velocities of the nodes that lead them over the coming step (s) to where the body will have them:
+    /// chords of their arcs.
     fn lead(&self, time_step: f64, positions: &[[f64; D]], velocities: &mut [[f64; D]]) {
         let chords = Dim::<D>::chords(self, time_step);
         for member in &self.members {
@@ -440,7 +447,8 @@ where
         self.list.iter()
     }
 
-    /// Takes what acts on their mass now: accelerations of all nodes, m/s² (empty: none act on them), that of what is everywhere at a place, and the `mass` of the nodes, kg/m.
+    /// Takes what acts on their mass now: accelerations of all nodes, m/s² (empty: none act on them), that of
+    /// what is everywhere at a place, and the `mass` of the nodes, kg/m.
     pub fn weigh_by(&mut self, accelerations: &[[f64; D]], everywhere: impl Fn([f64; D]) -> [f64; D], mass: &[f64]) {
         for body in &mut self.list {
             if !body.of_elements {
@@ -487,7 +495,8 @@ where
         Body::<D>::add_force(&mut body.force, &force);
     }
 
-    /// Velocities at time zero: those of the model where the bodies are free, else those that drive them. Their nodes get them too.
+    /// Velocities at time zero: those of the model where the bodies are free, else those that drive them.
+    /// Their nodes get them too.
     pub fn start(&mut self, curves: &Curves, positions: &[[f64; D]], velocities: &mut [[f64; D]]) {
         for body in &mut self.list {
             for k in 0..Dim::<D>::FREEDOMS {
@@ -516,7 +525,8 @@ where
         }
     }
 
-    /// v^{n+½} with the contact forces, those on their nodes included. The velocities of the nodes over the coming step (s) follow, and the books get the bodies' part.
+    /// v^{n+½} with the contact forces, those on their nodes included. The velocities of the nodes over the
+    /// coming step (s) follow, and the books get the bodies' part.
     pub fn accelerate(
         &mut self,
         [mean_step, time_step]: [f64; 2],

@@ -1,4 +1,5 @@
-//! Matrices and rotations about an axis, in 2D and 3D ([`Rotate`], on [`Dim`]). In 2D axes are normal to the plane.
+//! Matrices and rotations about an axis, in 2D and 3D ([`Rotate`], on [`Dim`]). In 2D axes are normal to the
+//! plane.
 
 use crate::angle::cos_sin;
 use crate::tensor::{Dim, Space, cross};
@@ -9,8 +10,9 @@ pub type Square<const D: usize> = [[f64; D]; D];
 
 /// Rotations about an axis.
 pub trait Rotate<const D: usize> {
-    /// Velocity (m/s) that leads the point `arm` (m) from a centre that rests along the chord of an arc about `axis` (a unit vector), with `spin` (rad/s) over `time_step` (s); without a
-    /// step that along the tangent.
+    /// Velocity (m/s) that leads the point `arm` (m) from a centre that rests along the chord of an arc about
+    /// `axis` (a unit vector), with `spin` (rad/s) over `time_step` (s); without a step that along the
+    /// tangent.
     fn chord_velocity(arm: [f64; D], axis: [f64; 3], spin: f64, time_step: f64) -> [f64; D];
     /// Rotation by an angle (rad) about `axis`, a unit vector.
     fn rotation(axis: [f64; 3], angle: f64) -> Square<D>;

@@ -1,4 +1,5 @@
-//! Lists side by side, one for each key: slots of a node, elements at it, edges from it. Counted, then put into their places, so that building costs what there is.
+//! Lists side by side, one for each key: slots of a node, elements at it, edges from it. Counted, then put
+//! into their places, so that building costs what there is.
 //!
 //! Mesh, blocks, assembly and contact make them from connectivities; whoever walks around a node reads them.
 
@@ -27,7 +28,8 @@ impl<T: Copy + Default> Rows<T> {
     /// The same in the memory that is there.
     pub fn fill(&mut self, count: usize, pairs: impl Iterator<Item = (u32, T)> + Clone) {
         let Self { starts, items } = self;
-        // Counted two places further: the sums are then one place further, where each moves on to the end of its key, which is the start of the next.
+        // Counted two places further: the sums are then one place further, where each moves on to the end of
+        // its key, which is the start of the next.
         starts.clear();
         starts.resize(count + 2, 0);
         pairs.clone().for_each(|(key, _)| starts[key as usize + 2] += 1);

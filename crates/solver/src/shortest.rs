@@ -20,7 +20,8 @@ impl Default for Shortest {
 }
 
 impl Shortest {
-    /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and by more than the schedule.
+    /// Takes the step of `system`. Who governs is found by a search: only when the step falls noticeably, and
+    /// by more than the schedule.
     pub(crate) fn note<const D: usize>(&mut self, system: &System<D>)
     where
         Dim<D>: Dimension<D>,

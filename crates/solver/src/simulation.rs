@@ -1,4 +1,5 @@
-//! A model that is stepped: of the plane or of space, with one face. Speaks to an [`Observer`]; what it does is in `simulation/run.rs`, written once for both.
+//! A model that is stepped: of the plane or of space, with one face. Speaks to an [`Observer`]; what it does
+//! is in `simulation/run.rs`, written once for both.
 
 mod clock;
 mod course;
@@ -91,7 +92,8 @@ pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Who listens to a run.
 pub trait Observer {
-    /// A frame that the observer is done with: its buffers are filled for the next one. An empty frame will do.
+    /// A frame that the observer is done with: its buffers are filled for the next one. An empty frame will
+    /// do.
     fn spare(&mut self) -> Frame {
         Frame::default()
     }
@@ -118,7 +120,8 @@ pub trait Observer {
     fn keeps_states(&self) -> bool {
         false
     }
-    /// The state of the run: asked for by [`Control::Keep`], or due by `run.checkpoint_steps`. Rows and frames of the steps until then have been told, and no others.
+    /// The state of the run: asked for by [`Control::Keep`], or due by `run.checkpoint_steps`. Rows and
+    /// frames of the steps until then have been told, and no others.
     ///
     /// # Errors
     /// As [`Observer::frame`].
@@ -129,7 +132,8 @@ pub trait Observer {
     fn keeps_hashes(&self) -> bool {
         false
     }
-    /// Hashes of the first state, of those that are due, and of the one at the end; told before anything else of a later step.
+    /// Hashes of the first state, of those that are due, and of the one at the end; told before anything else
+    /// of a later step.
     ///
     /// # Errors
     /// As [`Observer::frame`].
@@ -138,11 +142,13 @@ pub trait Observer {
     }
     /// The run has failed: the row and the frame that follow show the state of the failure.
     fn failing(&mut self) {}
-    /// Whether it wants to see the state now, between two output times; asked before each [`Observer::progress`].
+    /// Whether it wants to see the state now, between two output times; asked before each
+    /// [`Observer::progress`].
     fn wants_glance(&mut self) -> bool {
         false
     }
-    /// The state now, because it was wanted. The run waits meanwhile, and its results are the same however long that is.
+    /// The state now, because it was wanted. The run waits meanwhile, and its results are the same however
+    /// long that is.
     fn glance(&mut self, _shown: &dyn Shown) {}
     /// Steps after which it wants to be asked again at the latest.
     fn stride(&self) -> u64 {
@@ -238,8 +244,9 @@ impl Simulation {
         }))
     }
 
-    /// A simulation of a model that stands where another one of the same model stood: what it does from there on is the same to the last bit, whatever the options of both. The model may differ
-    /// in when it ends, in its limits, and in what it tells.
+    /// A simulation of a model that stands where another one of the same model stood: what it does from there
+    /// on is the same to the last bit, whatever the options of both. The model may differ in when it ends, in
+    /// its limits, and in what it tells.
     ///
     /// # Errors
     /// Those of [`Simulation::new`]; [`Error::State`] where the state is of another model.
@@ -258,7 +265,8 @@ impl Simulation {
         }
     }
 
-    /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it, after every step from number `from` on.
+    /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it,
+    /// after every step from number `from` on.
     pub fn follow(&mut self, suspect: &Suspect, at_failure: &Self, from: u64) {
         match (&mut self.0, &at_failure.0) {
             (Either::Plane(run), Either::Plane(failed)) => run.follow(suspect, failed, from),
@@ -268,18 +276,21 @@ impl Simulation {
         }
     }
 
-    /// Lets the run keep states in memory, in so many bytes for all of them together: see [`Simulation::states`].
+    /// Lets the run keep states in memory, in so many bytes for all of them together: see
+    /// [`Simulation::states`].
     pub fn keep_states_in(&mut self, bytes: usize) {
         either!(mut self, run => run.keep_states_in(bytes))
     }
 
-    /// States of the run so far that are in memory, the newest first; none where they are too large for their room.
+    /// States of the run so far that are in memory, the newest first; none where they are too large for their
+    /// room.
     #[must_use]
     pub fn states(&self) -> &[State] {
         either!(self, run => run.states())
     }
 
-    /// What the user should know of the model: it was accepted. [`Simulation::summary`] has them as texts, with those of the run.
+    /// What the user should know of the model: it was accepted. [`Simulation::summary`] has them as texts,
+    /// with those of the run.
     #[must_use]
     pub fn model_warnings(&self) -> &[Warning] {
         either!(self, run => run.model_warnings())
@@ -297,7 +308,8 @@ impl Simulation {
         either!(self, run => run.time_step())
     }
 
-    /// Most sweeps over the contact springs that a step took, and steps whose forces were not solved to the last digit.
+    /// Most sweeps over the contact springs that a step took, and steps whose forces were not solved to the
+    /// last digit.
     #[must_use]
     pub fn sweeps(&self) -> (usize, u64) {
         either!(self, run => run.sweeps())
@@ -335,7 +347,8 @@ impl Simulation {
         either!(self, run => run.is_over())
     }
 
-    /// Runs to the end, telling `observer` of rows, frames and progress. A simulation of a kept state ([`Simulation::resumed`]) goes on as if it had never been stopped.
+    /// Runs to the end, telling `observer` of rows, frames and progress. A simulation of a kept state
+    /// ([`Simulation::resumed`]) goes on as if it had never been stopped.
     ///
     /// # Errors
     /// Any [`Error`]; the last state has been given to the observer before.
@@ -343,8 +356,8 @@ impl Simulation {
         self.run_until(f64::INFINITY, u64::MAX, observer)
     }
 
-    /// The same until `time` is reached (s), and at most `steps` steps. A run in pieces, with whatever was asked in between, tells `observer` the same as one that was never stopped, and its
-    /// bits are the same.
+    /// The same until `time` is reached (s), and at most `steps` steps. A run in pieces, with whatever was
+    /// asked in between, tells `observer` the same as one that was never stopped, and its bits are the same.
     ///
     /// # Errors
     /// As [`Simulation::run`].
@@ -352,22 +365,26 @@ impl Simulation {
         either!(mut self, run => run.run(time, steps, observer))
     }
 
-    /// Nodes of a part, of a side of it or of a group, by their numbers in frames, ascending; `None` where there is nothing of this name.
+    /// Nodes of a part, of a side of it or of a group, by their numbers in frames, ascending; `None` where
+    /// there is nothing of this name.
     #[must_use]
     pub fn nodes_of(&self, name: &str) -> Option<Vec<u32>> {
         either!(self, run => run.nodes_of(name))
     }
 
-    /// Gives nodes, by their numbers in frames, other velocities at the present time, m/s, one node after the other: what is held goes on as prescribed. The change is booked as work from outside.
+    /// Gives nodes, by their numbers in frames, other velocities at the present time, m/s, one node after the
+    /// other: what is held goes on as prescribed. The change is booked as work from outside.
     ///
     /// # Errors
-    /// Nodes that are not there, of rigid parts or joined to others, and numbers that are not finite or too few; then nothing has changed.
+    /// Nodes that are not there, of rigid parts or joined to others, and numbers that are not finite or too
+    /// few; then nothing has changed.
     pub fn set_velocities(&mut self, nodes: &[u32], velocities: &[f64]) -> Result<(), Fault> {
         either!(mut self, run => run.set_velocities(nodes, velocities))
     }
 
-    /// Lets forces (in the plane N per metre of depth, in space and of bodies of revolution N), one node after the other, act on nodes besides the loads of the model, from the next velocity update
-    /// on until others are given; zero ends them. Their work is booked as that of loads.
+    /// Lets forces (in the plane N per metre of depth, in space and of bodies of revolution N), one node
+    /// after the other, act on nodes besides the loads of the model, from the next velocity update on until
+    /// others are given; zero ends them. Their work is booked as that of loads.
     ///
     /// # Errors
     /// Nodes that are not there, and numbers that are not finite or too few; then nothing has changed.
@@ -381,8 +398,9 @@ impl Simulation {
         either!(self, run => run.hashes())
     }
 
-    /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there every `every`, and at the first step at or after `to`, all in s. The steps are those
-    /// of any run of the model.
+    /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there
+    /// every `every`, and at the first step at or after `to`, all in s. The steps are those of any run of the
+    /// model.
     ///
     /// # Errors
     /// As [`Simulation::run`].
@@ -402,13 +420,15 @@ impl Simulation {
         either!(self, run => run.frame())
     }
 
-    /// Where the nodes of each of the model's meshes from files are among those of a [`Frame`], in the file's order; `u32::MAX`: no part has it.
+    /// Where the nodes of each of the model's meshes from files are among those of a [`Frame`], in the file's
+    /// order; `u32::MAX`: no part has it.
     #[must_use]
     pub fn imported(&self) -> &[Vec<u32>] {
         either!(self, run => run.imported())
     }
 
-    /// A field now by its name in [`crate::output::FIELDS`], whether the model asks for it or not; `None`: there is none of this name.
+    /// A field now by its name in [`crate::output::FIELDS`], whether the model asks for it or not; `None`:
+    /// there is none of this name.
     #[must_use]
     pub fn field(&self, name: &str) -> Option<Field> {
         either!(self, run => run.field(name))

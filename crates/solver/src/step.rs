@@ -1,7 +1,8 @@
 //! One step of the central difference method, in the order of the textbook box.
 //!
-//! The state between two steps is x^n, v^{n+1/2} and the step dt^n that leads to x^{n+1}; forces have been evaluated at x^n. Everything that
-//! is shared by threads is cut in chunks that come from the mesh, and sums are joined in chunk order: the same bits for any number of threads.
+//! The state between two steps is x^n, v^{n+1/2} and the step dt^n that leads to x^{n+1}; forces have been
+//! evaluated at x^n. Everything that is shared by threads is cut in chunks that come from the mesh, and sums
+//! are joined in chunk order: the same bits for any number of threads.
 
 pub(crate) mod erosion;
 pub(crate) mod free;
@@ -47,25 +48,28 @@ pub(crate) const CHUNK: usize = 1024;
 const HOLD: f64 = 1.25;
 /// A step that grows does so by at most this factor from one to the next.
 ///
-/// Central differences with the step dt keep a vibration of the circular frequency ω at A² ω² (1 − ω² dt²/4) = v², of its amplitude A
-/// and its largest velocity v. The step is cut when the elements that decide it are pressed most, which leaves A as it is, and grows at
-/// all times, which takes as much from A as from v. So each cut that is made up for by growth adds up to ω² dt²/8 of twice its relative
-/// size to the vibrations that it follows, and the energy grows by up to exp(½ n (g − 1)) in n steps with the factor g: by e in 2,000 of
-/// them with 1.001, in 20,000 with 1.0001 (two soft blocks in a box: 5 % of drift in 32,000 steps, and 0.8 % in 49,000). A constant step
-/// keeps the energy.
+/// Central differences with the step dt keep a vibration of the circular frequency ω at A² ω² (1 − ω²
+/// dt²/4) = v², of its amplitude A and its largest velocity v. The step is cut when the elements that decide
+/// it are pressed most, which leaves A as it is, and grows at all times, which takes as much from A as from
+/// v. So each cut that is made up for by growth adds up to ω² dt²/8 of twice its relative size to the
+/// vibrations that it follows, and the energy grows by up to exp(½ n (g − 1)) in n steps with the factor g:
+/// by e in 2,000 of them with 1.001, in 20,000 with 1.0001 (two soft blocks in a box: 5 % of drift in 32,000
+/// steps, and 0.8 % in 49,000). A constant step keeps the energy.
 const GROWTH: f64 = 1.0001;
 
-/// How far something may go into another body within a step, in depths at which the springs of contact stiffen: an eighth of the local
-/// thickness. Springs are made before they close, but they give way while they take up the momentum, so a body that comes at some
-/// tenths of the wave speed of one that is an element thick would be deep in it before they hold.
+/// How far something may go into another body within a step, in depths at which the springs of contact
+/// stiffen: an eighth of the local thickness. Springs are made before they close, but they give way while
+/// they take up the momentum, so a body that comes at some tenths of the wave speed of one that is an element
+/// thick would be deep in it before they hold.
 const APPROACH: f64 = 2.5;
 /// The step is not cut below this fraction of the stable one for that.
 const LEAST_APPROACH: f64 = 0.125;
-/// Springs are made for what may come in with some times the last motion, and at the start there was none: where bodies are fast, the
-/// first step is short, and the next ones, so many, grow by two.
+/// Springs are made for what may come in with some times the last motion, and at the start there was none:
+/// where bodies are fast, the first step is short, and the next ones, so many, grow by two.
 const FIRST: u64 = 4;
 
-/// How many times as fast as the fastest wave and the fastest node at the start together a node may become. Gas into empty space reaches 2/(γ − 1) times its speed of sound.
+/// How many times as fast as the fastest wave and the fastest node at the start together a node may become.
+/// Gas into empty space reaches 2/(γ − 1) times its speed of sound.
 pub const RUNAWAY: f64 = 20.0;
 
 /// Steps before the end that are made equal.
@@ -84,7 +88,8 @@ pub struct Limits {
     pub step: f64,
     /// Largest time step, s; infinite: none is given.
     pub largest: f64,
-    /// Largest speed of a node, m/s; before the start, where none is given: that of the fastest wave, negative.
+    /// Largest speed of a node, m/s; before the start, where none is given: that of the fastest wave,
+    /// negative.
     pub velocity: f64,
     /// Largest depth of a contact, m.
     pub penetration: f64,
@@ -99,7 +104,8 @@ pub enum Governor {
     Element(f64),
     /// The model, by the largest step that it allows.
     Given,
-    /// Bodies that come at each other so fast that a longer step would let them overlap before a contact sees it.
+    /// Bodies that come at each other so fast that a longer step would let them overlap before a contact sees
+    /// it.
     Contact,
     /// The end of the run, or growth from a smaller step.
     Schedule,
@@ -174,7 +180,8 @@ where
     pub(crate) of_bodies: Sums,
     pub(crate) ledger: Ledger,
     pub(crate) penetration_max: f64,
-    /// Largest speed of a node in the coming step, m/s, and the way that no node has exceeded since the start, m.
+    /// Largest speed of a node in the coming step, m/s, and the way that no node has exceeded since the
+    /// start, m.
     pub(crate) speed: f64,
     pub(crate) travel: f64,
     /// Penetrations of contacts at the start, one line each.
@@ -187,7 +194,8 @@ where
     pub(crate) mass_added: [f64; 2],
 }
 
-/// What the velocity update of the system's nodes reads: its fields one by one, so that the new velocities can be written meanwhile.
+/// What the velocity update of the system's nodes reads: its fields one by one, so that the new velocities
+/// can be written meanwhile.
 macro_rules! nodes {
     ($system:ident, $velocities_old:ident, $time_step:expr) => {
         Nodes {
@@ -219,7 +227,8 @@ where
     /// One step: x, forces, stable step, v, ledger.
     ///
     /// # Errors
-    /// An inverted element, a collapsed step, a value that is not finite, too much energy drift, a node that runs away, a contact that is too deep.
+    /// An inverted element, a collapsed step, a value that is not finite, too much energy drift, a node that
+    /// runs away, a contact that is too deep.
     pub fn step(&mut self) -> Result<(), Error> {
         self.move_nodes();
         self.respond()?;
@@ -323,7 +332,8 @@ where
         }
     }
 
-    /// The next step: the elements' bound (which is that of the nodes in contact too, see [`crate::contact::springs`]), the largest one of the model, growth, and the end.
+    /// The next step: the elements' bound (which is that of the nodes in contact too, see
+    /// [`crate::contact::springs`]), the largest one of the model, growth, and the end.
     fn stable_step(&mut self, elements: &Report) -> Result<f64, Error> {
         if elements.determinant <= 0.0 {
             return Err(self.inverted());
@@ -386,8 +396,9 @@ where
         }
     }
 
-    /// The step in which nothing goes farther into another body than [`APPROACH`] allows; a fraction of `time_step` at least. In the plane
-    /// who goes through a body in a step is known to have, and comes back: there the step is as it is.
+    /// The step in which nothing goes farther into another body than [`APPROACH`] allows; a fraction of
+    /// `time_step` at least. In the plane who goes through a body in a step is known to have, and comes back:
+    /// there the step is as it is.
     fn approaching(&mut self, time_step: f64) -> f64 {
         if D == 2 {
             return time_step;
@@ -530,19 +541,22 @@ where
         self.groups = Groups::new(self.mass.len(), is_free);
     }
 
-    /// Energy of the elements when every node is off by 1e-12 of the model's size, J/m: thousands of roundings.
+    /// Energy of the elements when every node is off by 1e-12 of the model's size, J/m: thousands of
+    /// roundings.
     fn energy_of_round_off(&self) -> f64 {
         let size = self.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
         let stiffness: f64 = self.blocks.iter().map(|block| block.wave_modulus() * block.elements() as f64).sum();
         stiffness * (1e-12 * size) * (1e-12 * size)
     }
 
-    /// Part of the last velocity update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n); zero at time zero.
+    /// Part of the last velocity update that lies before the whole step: dt^{n-1} / (dt^{n-1} + dt^n); zero
+    /// at time zero.
     pub(crate) fn before(&self) -> f64 {
         self.time_step_old / (self.time_step_old + self.time_step)
     }
 
-    /// Gives rigid parts their first and last look: they never pull. Only where nothing else does, nor the model, they set the step: that which their elements would need.
+    /// Gives rigid parts their first and last look: they never pull. Only where nothing else does, nor the
+    /// model, they set the step: that which their elements would need.
     fn see_rigid_parts(&mut self) {
         let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: 0.0 };
         let alone = self.rigid.iter().all(|&rigid| rigid) && self.limits.largest == f64::INFINITY;
@@ -558,7 +572,8 @@ where
         }
     }
 
-    /// Velocities of a node before and after the whole step, m/s: of a rigid body those of the point, not those of the chord that leads it on.
+    /// Velocities of a node before and after the whole step, m/s: of a rigid body those of the point, not
+    /// those of the chord that leads it on.
     pub(crate) fn velocities_around(&self, node: usize) -> [[f64; D]; 2] {
         match self.bodies.of_node(node as u32) {
             Some(body) => {
@@ -569,13 +584,15 @@ where
         }
     }
 
-    /// Velocity of a node at the whole step, m/s: v^{n-1/2} and v^{n+1/2} lie ½ dt^{n-1} before and ½ dt^n after it (v⁰ itself at time zero).
+    /// Velocity of a node at the whole step, m/s: v^{n-1/2} and v^{n+1/2} lie ½ dt^{n-1} before and ½ dt^n
+    /// after it (v⁰ itself at time zero).
     pub(crate) fn velocity(&self, node: usize) -> [f64; D] {
         let ([a, b], before) = (self.velocities_around(node), self.before());
         plus(a, times(before, minus(b, a)))
     }
 
-    /// Kinetic energy of a node at the whole step by its mass, J/kg: its share in [`Stores::kinetic`] as the ledger books it.
+    /// Kinetic energy of a node at the whole step by its mass, J/kg: its share in [`Stores::kinetic`] as the
+    /// ledger books it.
     pub(crate) fn specific_kinetic(&self, node: usize) -> f64 {
         let [old, new] = match self.bodies.of_node(node as u32) {
             Some(body) => {

@@ -1,8 +1,10 @@
-//! Small tensors over lanes: symmetric second-order tensors of the plane (xx yy zz xy) and of space (xx yy zz xy yz zx) behind
-//! one trait, and what a dimension knows of matrices ([`Space`]). Material laws see only [`SymmetricTensor`].
+//! Small tensors over lanes: symmetric second-order tensors of the plane (xx yy zz xy) and of space (xx yy zz
+//! xy yz zx) behind one trait, and what a dimension knows of matrices ([`Space`]). Material laws see only
+//! [`SymmetricTensor`].
 //!
-//! Code over lanes has no closures: the compiler gives a closure the instruction set of the machine's baseline, and every operation
-//! in it becomes a call (measured: ten times slower than scalar code). Loops over small arrays are unrolled instead.
+//! Code over lanes has no closures: the compiler gives a closure the instruction set of the machine's
+//! baseline, and every operation in it becomes a call (measured: ten times slower than scalar code). Loops
+//! over small arrays are unrolled instead.
 
 mod principal;
 mod space;
@@ -11,7 +13,8 @@ pub use space::{cross, dot};
 
 use embate_lanes::{Batch, Lane};
 
-/// A symmetric second-order tensor whose components are lanes. The plane form keeps the out-of-plane normal component.
+/// A symmetric second-order tensor whose components are lanes. The plane form keeps the out-of-plane normal
+/// component.
 pub trait SymmetricTensor<L: Lane>: Copy {
     /// Number of stored components.
     const COMPONENTS: usize;
@@ -51,7 +54,8 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     fn components(self) -> [L; 6];
     /// From xx yy zz xy yz zx; what the dimension does not have is dropped.
     fn from_components(components: [L; 6]) -> Self;
-    /// Eigenvalues λ_i, in no order, and projections n_i n_iᵀ onto their axes; any orthogonal axes where eigenvalues coincide.
+    /// Eigenvalues λ_i, in no order, and projections n_i n_iᵀ onto their axes; any orthogonal axes where
+    /// eigenvalues coincide.
     fn principal(self) -> ([L; 3], [Self; 3]);
     /// Q T Qᵀ.
     #[must_use]
@@ -229,7 +233,8 @@ impl<L: Lane> Turn<L> for Matrix<L, 3> {
     }
     #[inline(always)]
     fn then(&self, next: &Self) -> Self {
-        // One step of Newton's iteration for the polar factor, Q ← ½ Q (3 I − Qᵀ Q): round-off off a rotation is squared away.
+        // One step of Newton's iteration for the polar factor, Q ← ½ Q (3 I − Qᵀ Q): round-off off a rotation
+        // is squared away.
         let q = product(next, self);
         let mut mend = product(&q.inverse(), &q);
         for i in 0..3 {
@@ -389,9 +394,11 @@ pub trait Space<const D: usize> {
     fn adjugate<L: Lane>(m: &Matrix<L, D>) -> Matrix<L, D>;
     /// Symmetric part of a displacement gradient: the strain increment.
     fn symmetric<L: Lane>(gradient: &Matrix<L, D>) -> Self::Tensor<L>;
-    /// Gradient A B⁻¹ of a displacement with the natural gradient A in the mid-step configuration with Jacobian B, and Hughes and Winget's rotation
-    /// (I − ½W)⁻¹ (I + ½W) of its skew part W, [half of it, all of it]; exact (and the strain increment zero) for a rigid rotation. Half of it turns the mid-step
-    /// strain increment to the end of the step. B is given as adjugate and determinant: one division does it all. Hughes and Winget 1980.
+    /// Gradient A B⁻¹ of a displacement with the natural gradient A in the mid-step configuration with
+    /// Jacobian B, and Hughes and Winget's rotation (I − ½W)⁻¹ (I + ½W) of its skew part W, [half of it, all
+    /// of it]; exact (and the strain increment zero) for a rigid rotation. Half of it turns the mid-step
+    /// strain increment to the end of the step. B is given as adjugate and determinant: one division does it
+    /// all. Hughes and Winget 1980.
     #[inline(always)]
     fn displaced<L: Lane>(natural: &Matrix<L, D>, adjugate: &Matrix<L, D>, determinant: L) -> (Matrix<L, D>, Turns<Self::Tensor<L>, L>) {
         Self::increment(&product(natural, adjugate), determinant)

@@ -1,5 +1,6 @@
-// How the page is built: one script and one style sheet with fixed names into ../bundle, which is committed and compiled into the program.
-// The same sources give the same bytes: no hashes in names, no source maps, no dates. The licences of three and uPlot stand at the script's head.
+// How the page is built: one script and one style sheet with fixed names into ../bundle, which is committed
+// and compiled into the program. The same sources give the same bytes: no hashes in names, no source maps, no
+// dates. The licences of three and uPlot stand at the script's head.
 import { readFileSync } from "node:fs";
 import { defineConfig, type Plugin } from "vite";
 

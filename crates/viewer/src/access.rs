@@ -1,7 +1,9 @@
-//! Who may ask: only who knows the token, by an address that is really this server's, from a page that this server has sent.
+//! Who may ask: only who knows the token, by an address that is really this server's, from a page that this
+//! server has sent.
 //!
-//! A page of another site can make the browser ask a server of this machine; it can't read the token, its `Origin` is another one, and a name that was bent to this machine (DNS rebinding) is none of
-//! the hosts that are accepted here: `localhost` and plain addresses.
+//! A page of another site can make the browser ask a server of this machine; it can't read the token, its
+//! `Origin` is another one, and a name that was bent to this machine (DNS rebinding) is none of the hosts
+//! that are accepted here: `localhost` and plain addresses.
 
 use axum::http::HeaderMap;
 use axum::http::header::{HOST, ORIGIN};

@@ -1,8 +1,8 @@
 //! Connections: how many there are at a time, and how long each may keep the server waiting.
 //!
-//! Who opens a connection and sends half a request, or takes no answer, or is gone without a word, holds a socket and memory of the
-//! program, which may be running a simulation. Each such wait has an
-//! end ([`Patience`]), and beyond [`Patience::most`] connections new ones wait until others are closed.
+//! Who opens a connection and sends half a request, or takes no answer, or is gone without a word, holds a
+//! socket and memory of the program, which may be running a simulation. Each such wait has an end
+//! ([`Patience`]), and beyond [`Patience::most`] connections new ones wait until others are closed.
 
 use crate::server::over;
 use axum::Router;
@@ -76,7 +76,8 @@ pub(crate) async fn serve(listener: TcpListener, router: Router, patience: Patie
     }
 }
 
-/// A connection that fails when the other side takes nothing for too long. It has its place among those at a time as long as it lives, also as a WebSocket.
+/// A connection that fails when the other side takes nothing for too long. It has its place among those at a
+/// time as long as it lives, also as a WebSocket.
 struct Patient {
     stream: TcpStream,
     stall: Duration,

@@ -1,7 +1,9 @@
-//! What is told of a run while it goes on, and what its viewers want of it: the state that the run and the sockets share.
+//! What is told of a run while it goes on, and what its viewers want of it: the state that the run and the
+//! sockets share.
 //!
-//! The run's side ([`crate::tap`]) leaves progress, rows and the newest frame here and never waits for a viewer; each socket takes what is new when it is ready. Frames that nobody has taken are
-//! replaced, so a slow viewer costs the run nothing.
+//! The run's side ([`crate::tap`]) leaves progress, rows and the newest frame here and never waits for a
+//! viewer; each socket takes what is new when it is ready. Frames that nobody has taken are replaced, so a
+//! slow viewer costs the run nothing.
 
 use axum::body::Bytes;
 use embate_files::results::{History, ThinnedRows};
@@ -104,7 +106,8 @@ pub struct Live {
 pub(crate) const PAUSE: Duration = Duration::from_millis(60);
 
 impl Live {
-    /// A run with these bodies and columns of its history; `past`: the history of a run that goes on from a state, and the time (s) of that.
+    /// A run with these bodies and columns of its history; `past`: the history of a run that goes on from a
+    /// state, and the time (s) of that.
     #[must_use]
     pub fn new(bodies: Arc<Bodies>, columns: Vec<String>, of_whole_bodies: bool, past: (Option<&History>, f64)) -> Arc<Self> {
         let mut shared = Shared::default();
@@ -258,7 +261,8 @@ impl Live {
         (seconds, (done > 0.0 && end > time).then(|| seconds * (end - time) / done))
     }
 
-    /// Whether a viewer waits for a frame that is not there: one that has come, or wants to see something else.
+    /// Whether a viewer waits for a frame that is not there: one that has come, or wants to see something
+    /// else.
     pub(crate) fn lacks(&self) -> bool {
         let shared = self.shared();
         shared.viewers.values().any(|wish| !shared.frames.contains_key(wish))
@@ -270,8 +274,8 @@ impl Live {
         self.shared().next_viewer > 0
     }
 
-    /// Shows the state at the end of a run that was over before any viewer had seen a frame of it: waits for the first
-    /// viewer, and until it has seen one; at most for `patience`, and not once `gives_up` says so.
+    /// Shows the state at the end of a run that was over before any viewer had seen a frame of it: waits for
+    /// the first viewer, and until it has seen one; at most for `patience`, and not once `gives_up` says so.
     pub fn show_last(&self, shown: &dyn Shown, patience: Duration, gives_up: impl Fn() -> bool) {
         let last = Instant::now() + patience;
         while !gives_up() && Instant::now() < last {

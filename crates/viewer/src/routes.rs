@@ -1,4 +1,5 @@
-//! What can be asked of the server: the page, and the runs that it shows. Nothing can be changed here; orders to a run come by its socket alone.
+//! What can be asked of the server: the page, and the runs that it shows. Nothing can be changed here; orders
+//! to a run come by its socket alone.
 
 use crate::connections::Patience;
 use crate::live::Live;
@@ -200,8 +201,8 @@ async fn admit(State(shown): State<Arc<Shown>>, request: Request, next: Next) ->
 /// Bytes of a reason that a library gives.
 const REASON: usize = 4096;
 
-/// An error that a library has told in its own way, told as all others are: a number that is none, another method, a socket that is asked
-/// for without its headers.
+/// An error that a library has told in its own way, told as all others are: a number that is none, another
+/// method, a socket that is asked for without its headers.
 async fn as_json(response: Response<Body>) -> Response<Body> {
     let (status, kind) = (response.status(), response.headers().get(CONTENT_TYPE));
     if !(status.is_client_error() || status.is_server_error()) || kind.is_some_and(|kind| kind == "application/json") {

@@ -67,7 +67,8 @@ pub struct Server {
 const GOODBYE: Duration = Duration::from_millis(1500);
 
 impl Server {
-    /// Starts to listen. `runs`: folders that are shown, or why they can't be; the first is that of `live`. `view`: what the page shows first, as it stands in a link.
+    /// Starts to listen. `runs`: folders that are shown, or why they can't be; the first is that of `live`.
+    /// `view`: what the page shows first, as it stands in a link.
     ///
     /// # Errors
     /// [`ViewerError`].

@@ -1,7 +1,8 @@
 //! The socket of one viewer of a running simulation: tells what is new, newest first, and takes orders.
 //!
-//! A page that says nothing, not even that it is still there, is not waited for. A frame is sent when the page has seen the one before;
-//! what came in between is dropped and counted. Whoever is slow makes nobody wait.
+//! A page that says nothing, not even that it is still there, is not waited for. A frame is sent when the
+//! page has seen the one before; what came in between is dropped and counted. Whoever is slow makes nobody
+//! wait.
 
 use crate::connections::Patience;
 use crate::live::{Live, Order, PAUSE};

@@ -1,6 +1,8 @@
-//! Between a simulation and its recorder: takes rows and, now and then, a frame for the viewers, and lets them pause the run.
+//! Between a simulation and its recorder: takes rows and, now and then, a frame for the viewers, and lets
+//! them pause the run.
 //!
-//! Everything goes on to the recorder unchanged. A frame is taken only while somebody looks, at most every [`LEAST`], and so seldom that taking frames takes no more than a small part of the time.
+//! Everything goes on to the recorder unchanged. A frame is taken only while somebody looks, at most every
+//! [`LEAST`], and so seldom that taking frames takes no more than a small part of the time.
 
 use crate::live::{Live, Order};
 use embate_solver::hashes::Hashes;

@@ -1,7 +1,8 @@
 //! `embate diff`: the first step, part and node at which two runs part.
 //!
-//! First by what the runs left: models, and the logs of their hashes, which tell the stretch of steps in which they part. Then both are gone over this stretch once more, side by side, and their
-//! states compared after each step. Exit codes: 0 the runs are the same, 1 they are not, 2 they can't be compared.
+//! First by what the runs left: models, and the logs of their hashes, which tell the stretch of steps in
+//! which they part. Then both are gone over this stretch once more, side by side, and their states compared
+//! after each step. Exit codes: 0 the runs are the same, 1 they are not, 2 they can't be compared.
 
 mod words;
 

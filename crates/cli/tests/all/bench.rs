@@ -1,4 +1,5 @@
-//! `embate bench`: that its figures are figures, and that it keeps to its time. How fast the machine is, no test says.
+//! `embate bench`: that its figures are figures, and that it keeps to its time. How fast the machine is, no
+//! test says.
 
 use crate::{embate, fresh};
 use serde_json::Value;
@@ -38,7 +39,8 @@ fn a_short_measurement_has_finite_positive_figures_and_says_what_it_left_out() {
         positive(&row["operations_per_second"]);
     }
     assert!(json["contact"].is_null(), "not in so short a time");
-    // Each figure takes three rounds even where there is no time for them: much more than half a second, much less than a minute.
+    // Each figure takes three rounds even where there is no time for them: much more than half a second, much
+    // less than a minute.
     assert!(positive(&json["wall_seconds"]) <= seconds && seconds < 60.0, "{seconds} s");
 }
 

@@ -1,4 +1,5 @@
-//! The same bits whatever a model runs on: every example with any number of threads and each instruction set that the machine has.
+//! The same bits whatever a model runs on: every example with any number of threads and each instruction set
+//! that the machine has.
 
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};

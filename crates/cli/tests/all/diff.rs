@@ -1,10 +1,12 @@
-//! `embate diff`: it names the step, part and node at which two runs part. Cases whose answer is known without it, and the answer by brute force: logs of every step.
+//! `embate diff`: it names the step, part and node at which two runs part. Cases whose answer is known
+//! without it, and the answer by brute force: logs of every step.
 
 use crate::{Answer, embate, fresh};
 use std::fs;
 use std::path::Path;
 
-/// Two blocks apart from each other; from 12.34 µs on a force pulls at the right side of the second. Steps are given: step n is at n times 0.1 µs.
+/// Two blocks apart from each other; from 12.34 µs on a force pulls at the right side of the second. Steps
+/// are given: step n is at n times 0.1 µs.
 const PULLED: &str = r#"
 run = { end = "1 ms", max_steps = 330, time_step = "0.1 µs" }
 material.steel = { law = "elastic", density = 7800, young = "200 GPa", poisson = 0.3 }
@@ -78,7 +80,8 @@ fn a_load_that_begins_later_parts_the_runs_where_and_when_it_begins() {
     run(&folder, "a.toml", "a", []);
     run(&folder, "b.toml", "b", []);
     let answer = diff(&folder, 1, []);
-    // A load means the update, from half a step before to half a step after: the first that sees it is that around 12.3 µs. The right side has three of 5 times 3 nodes, the lowest is the fifth.
+    // A load means the update, from half a step before to half a step after: the first that sees it is that
+    // around 12.3 µs. The right side has three of 5 times 3 nodes, the lowest is the fifth.
     for text in [
         "load[0].force[0]: A has 1000.0, B has 2000.0",
         "the same at step 100 (1.000000e-5 s), not at step 150",
@@ -270,7 +273,8 @@ fn other_meshes_are_left_out_and_nothing_in_common_is_refused() {
     let answer = diff(&folder, 1, []);
     let text = "not compared: part \"still\" has another mesh: as many nodes, but other elements";
     assert!(answer.out.contains(text), "{}", answer.out);
-    // One more part, far from the others: all that both have is the same, and the hashes of their parts are, too.
+    // One more part, far from the others: all that both have is the same, and the hashes of their parts are,
+    // too.
     let more = r#"    { name = "new", material = "steel", rectangle = { corner = ["0.05 m", 0], size = ["10 mm", "10 mm"], elements = [7, 5] }, velocity = [0, 3] },"#;
     write(&folder, "b.toml", &PULLED.replace("part = [\n", &format!("part = [\n{more}\n")));
     run(&folder, "b.toml", "b", []);

@@ -1,7 +1,9 @@
-//! What examples are held against where the theory is more than a line: crushed columns of foam, and the slab theory of rolling.
-//! Values of the models stand here once more, so that a changed model does not change what is expected of it; used by `examples.rs`.
+//! What examples are held against where the theory is more than a line: crushed columns of foam, and the slab
+//! theory of rolling. Values of the models stand here once more, so that a changed model does not change what
+//! is expected of it; used by `examples.rs`.
 
-/// Energy per area of a column of the pad of `examples/foam-pad` that is pressed by `depth`: H ∫ σ e^(−ε) dε in logarithmic strains, J/m².
+/// Energy per area of a column of the pad of `examples/foam-pad` that is pressed by `depth`: H ∫ σ e^(−ε) dε
+/// in logarithmic strains, J/m².
 pub(crate) fn column_energy(depth: f64) -> f64 {
     const CURVE: [(f64, f64); 6] = [(0.0, 0.2e6), (0.2, 0.22e6), (0.6, 0.3e6), (1.0, 0.5e6), (1.4, 1.2e6), (1.8, 4e6)];
     let (young, height, steps) = (8e6, 40e-3, 4000);
@@ -29,7 +31,8 @@ pub(crate) fn depth_of_rest(mass: f64, velocity: f64, energy: impl Fn(f64) -> f6
     low
 }
 
-/// A strip rolled from `from` to `to`, m, without tension between rolls of radius `radius`, m, that don't flatten, with the friction `mu`.
+/// A strip rolled from `from` to `to`, m, without tension between rolls of radius `radius`, m, that don't
+/// flatten, with the friction `mu`.
 pub(crate) struct Pass {
     pub(crate) from: f64,
     pub(crate) to: f64,
@@ -48,7 +51,8 @@ impl Pass {
         factor * (100e6 + 150e6 * factor * (self.from / self.thickness(angle)).ln())
     }
 
-    /// Roll pressure p at each of these angles by von Kármán's equation d(h q)/dφ = 2 R p (sin φ ± µ cos φ), p = q + S, q = 0 at the first.
+    /// Roll pressure p at each of these angles by von Kármán's equation d(h q)/dφ = 2 R p (sin φ ± µ cos φ),
+    /// p = q + S, q = 0 at the first.
     fn pressure(&self, angles: impl Iterator<Item = f64>, mu: f64) -> Vec<f64> {
         let pressure = |angle: f64, thrust: f64| thrust / self.thickness(angle) + self.strength(angle);
         let slope = |angle: f64, thrust: f64| 2.0 * self.radius * pressure(angle, thrust) * (angle.sin() + mu * angle.cos());

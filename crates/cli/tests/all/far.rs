@@ -1,12 +1,12 @@
-//! Examples far from the origin: moved by a million times their size they do what they do at home, as far as the digits of their coordinates allow.
+//! Examples far from the origin: moved by a million times their size they do what they do at home, as far as
+//! the digits of their coordinates allow.
 //!
-//! How far that is: at S = 10⁶ L places are kept to u = 2⁻⁵³ S, and each step rounds each coordinate once more, independently of the
-//! others: after n steps they are off by about √n u.
-//! Strains, and with them forces and energies, come from the way v dt that bodies of the speed v go in a step, and what contact presses
-//! from the depth δ of its springs. So energies may be off by
-//! the fraction √n u / (v dt) and what contact tells by √n u / δ besides, times a factor of four for what rounds in the sums of an element.
-//! An area from products of coordinates would be off by
-//! u S / h², a million times u / h.
+//! How far that is: at S = 10⁶ L places are kept to u = 2⁻⁵³ S, and each step rounds each coordinate once
+//! more, independently of the others: after n steps they are off by about √n u. Strains, and with them forces
+//! and energies, come from the way v dt that bodies of the speed v go in a step, and what contact presses
+//! from the depth δ of its springs. So energies may be off by the fraction √n u / (v dt) and what contact
+//! tells by √n u / δ besides, times a factor of four for what rounds in the sums of an element. An area from
+//! products of coordinates would be off by u S / h², a million times u / h.
 
 use embate_files::model_file;
 use embate_solver::model::{Load, Model, ObstacleShape, ProbeAt};
@@ -77,8 +77,8 @@ impl Course {
         self.rows.iter().map(|row| row[column].abs()).filter(|value| value.is_finite()).fold(0.0, f64::max)
     }
 
-    /// What a column of contact is measured against: the largest of its kind in all contacts, of all components of forces. Surfaces that
-    /// just touch at home press or not by rounding elsewhere.
+    /// What a column of contact is measured against: the largest of its kind in all contacts, of all
+    /// components of forces. Surfaces that just touch at home press or not by rounding elsewhere.
     fn scale(&self, column: usize) -> f64 {
         let kind = |name: &str| {
             let kind = name.split_once('.').map_or(name, |(_, kind)| kind.split(['[', '_']).next().unwrap_or(kind));
@@ -113,7 +113,8 @@ fn is_of_contact(column: &str) -> bool {
     of("contact.") || of("obstacle.") || column == "energy.contact" || column == "energy.friction"
 }
 
-/// Runs some steps of an example with bodies of a speed (m/s) at home and far away, and tells what is off by more than may be.
+/// Runs some steps of an example with bodies of a speed (m/s) at home and far away, and tells what is off by
+/// more than may be.
 fn compare(name: &str, speed: f64, steps: u64) -> Vec<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name).join("model.toml");
     let model = model_file::load(&path, &[]).unwrap_or_else(|faults| panic!("{name}: {faults}"));

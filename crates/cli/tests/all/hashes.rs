@@ -1,7 +1,9 @@
-//! The same results as before, to the last bit: `hashes.txt` has the `state_hash` of every example and of every case of verification.
+//! The same results as before, to the last bit: `hashes.txt` has the `state_hash` of every example and of
+//! every case of verification.
 //!
-//! A change of the code that should change no result leaves the table as it is. One that changes results makes it anew with
-//! `EMBATE_BLESS=1`, and its lines tell which models those are. The runs are those of other tests.
+//! A change of the code that should change no result leaves the table as it is. One that changes results
+//! makes it anew with `EMBATE_BLESS=1`, and its lines tell which models those are. The runs are those of
+//! other tests.
 
 use crate::root;
 use std::collections::BTreeMap;
@@ -30,7 +32,8 @@ pub(crate) fn is_as_before(name: &str, hash: &str) {
     );
 }
 
-/// The same for all cases of verification of which results are in a folder, as `embate verify --out` leaves them.
+/// The same for all cases of verification of which results are in a folder, as `embate verify --out` leaves
+/// them.
 pub(crate) fn cases_are_as_before(results: &Path) {
     let mut count = 0;
     for case in fs::read_dir(results).unwrap().map(|entry| entry.unwrap().path()) {

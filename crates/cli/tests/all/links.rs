@@ -1,5 +1,5 @@
-//! Every file that the program writes, with a symbolic link in its way: what the link leads to stays as it was. And folders of results with
-//! pipes in place of files: nobody waits for them.
+//! Every file that the program writes, with a symbolic link in its way: what the link leads to stays as it
+//! was. And folders of results with pipes in place of files: nobody waits for them.
 
 use crate::{FLIGHT, embate, fresh};
 use std::collections::BTreeMap;
@@ -42,8 +42,8 @@ const HEAVY: &str = "run model.toml --out out --quiet --set run.mass_scaling.tim
 const RESUME: &str = "resume out --quiet --threads 1";
 const SWEEP: &str = "sweep model.toml --vary part.block.velocity[0]=1,2 --out s --quiet";
 
-/// The link, what it leads to from where it lies, what is done before, and the command. `out` has results of a run that was stopped by its
-/// number of steps; of a path with `!` it is removed before.
+/// The link, what it leads to from where it lies, what is done before, and the command. `out` has results of
+/// a run that was stopped by its number of steps; of a path with `!` it is removed before.
 const CASES: &[(&str, &str, &str, Comes)] = &[
     // A run that begins.
     ("!out/fields", "elsewhere", RUN, Refused),

@@ -1,4 +1,5 @@
-//! Several programs that want one folder of results: one has it, the others say so, and what is there at the end is of one run.
+//! Several programs that want one folder of results: one has it, the others say so, and what is there at the
+//! end is of one run.
 
 use crate::restart::Running;
 use crate::{FLIGHT, embate, fresh};

@@ -1,4 +1,5 @@
-//! The catalogue of messages: complete, each code once, and provoked by its example. What is printed then is kept in `tests/messages/`, one file for each area.
+//! The catalogue of messages: complete, each code once, and provoked by its example. What is printed then is
+//! kept in `tests/messages/`, one file for each area.
 
 #[path = "../../src/messages.rs"]
 mod own;

@@ -1,4 +1,5 @@
-//! `--allow-outside` at every command that reads a model; without it files outside of the model's folder are refused.
+//! `--allow-outside` at every command that reads a model; without it files outside of the model's folder are
+//! refused.
 
 use crate::{Answer, embate, fresh};
 use std::fs;

@@ -1,4 +1,5 @@
-//! What goes with the program: its version, completions for shells, pages of the manual, and the book's page of the command line.
+//! What goes with the program: its version, completions for shells, pages of the manual, and the book's page
+//! of the command line.
 
 use crate::{embate, fresh, held, root};
 use std::fs;

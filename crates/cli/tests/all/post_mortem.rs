@@ -1,10 +1,12 @@
-//! Post-mortems: each failure of `failures/` names its culprit, with pictures that are whole and keys that can be found.
+//! Post-mortems: each failure of `failures/` names its culprit, with pictures that are whole and keys that
+//! can be found.
 
 use crate::{Answer, embate, fresh};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A failure: its folder, its code, its culprit, and two of the keys to change with the lines on which they stand.
+/// A failure: its folder, its code, its culprit, and two of the keys to change with the lines on which they
+/// stand.
 struct Failure {
     name: &'static str,
     code: &'static str,
@@ -98,7 +100,8 @@ fn links(page: &str) -> Vec<&str> {
     page.split("](").skip(1).filter_map(|rest| rest.split(')').next()).collect()
 }
 
-/// What is wrong with the form of an SVG file, if anything: tags that don't close, quotes that don't, numbers that are none.
+/// What is wrong with the form of an SVG file, if anything: tags that don't close, quotes that don't, numbers
+/// that are none.
 fn fault_of_svg(text: &str) -> Option<String> {
     let mut open: Vec<&str> = Vec::new();
     let body = text.strip_prefix("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n")?;

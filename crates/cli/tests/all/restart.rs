@@ -1,4 +1,5 @@
-//! Runs that are stopped, killed, or run out of room, and go on: what they leave is what one that was never stopped leaves, byte by byte.
+//! Runs that are stopped, killed, or run out of room, and go on: what they leave is what one that was never
+//! stopped leaves, byte by byte.
 //!
 //! The long form of the test that kills: `cargo test -p embate --test all -- --ignored two_hundred`.
 
@@ -39,7 +40,8 @@ fn summary(folder: &Path) -> serde_json::Value {
     serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap()
 }
 
-/// All files of results below a folder but those of checkpoints and the one that says with which keys it was started; of the summary what is no time of the machine.
+/// All files of results below a folder but those of checkpoints and the one that says with which keys it was
+/// started; of the summary what is no time of the machine.
 fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut all = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
@@ -109,7 +111,8 @@ fn a_run_that_goes_on_leaves_the_files_of_one_that_was_never_stopped() {
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     assert!(answer.err.contains("going on from step 600"), "{}", answer.err);
     is_the_same(&whole, &out);
-    // From the end as well, to another end: the same as a run with that end from the start, as the steps before it had not begun to land.
+    // From the end as well, to another end: the same as a run with that end from the start, as the steps
+    // before it had not begun to land.
     let answer =
         run(&folder, "long", ["--set", "run.end=\"0.7 ms\"", "--set", "output.fields=\"20 us\"", "--set", "output.history=\"1 us\""]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
@@ -132,7 +135,8 @@ fn checkpoints_that_a_run_replaces_while_they_are_looked_for_are_looked_for_agai
     model(&folder);
     let out = stopped(&folder, "out");
     let threads = embate_files::threads::Threads::one();
-    // Between the list of the folder and the reading the run writes a newer one and removes the two that are listed.
+    // Between the list of the folder and the reading the run writes a newer one and removes the two that are
+    // listed.
     let is_replaced = std::cell::Cell::new(false);
     let fits = |_: &embate_files::checkpoint::Generation| {
         if !is_replaced.replace(true) {
@@ -353,7 +357,8 @@ fn a_hangup_stops_a_run_unless_it_was_started_to_live_through_it() {
     }
 }
 
-/// Everything under its final name is whole, and tables hold the first lines of those of the run that was never stopped.
+/// Everything under its final name is whole, and tables hold the first lines of those of the run that was
+/// never stopped.
 fn nothing_is_torn(out: &Path, whole: &Path) {
     for (path, bytes) in files(out) {
         let (name, text) = (path.to_str().unwrap(), String::from_utf8_lossy(&bytes));
@@ -381,7 +386,8 @@ fn nothing_is_torn(out: &Path, whole: &Path) {
     }
 }
 
-/// Kills runs so many times, at moments that a fixed sequence spreads over the first `longest` milliseconds of each.
+/// Kills runs so many times, at moments that a fixed sequence spreads over the first `longest` milliseconds
+/// of each.
 fn killed(name: &str, times: usize, longest: u64) {
     let folder = fresh(name);
     let whole = whole(&folder);
@@ -440,7 +446,8 @@ fn two_hundred_kills_change_no_byte() {
 fn a_full_disk_is_told_the_state_is_kept_and_with_room_the_run_goes_on() {
     let folder = fresh("full");
     let whole = whole(&folder);
-    // No file may grow beyond so many blocks of 512 or 1024 bytes; the system refuses the write as on a full disk.
+    // No file may grow beyond so many blocks of 512 or 1024 bytes; the system refuses the write as on a full
+    // disk.
     let program = env!("CARGO_BIN_EXE_embate");
     let limited = |blocks: u32, command: &str| {
         let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec {program} {command}");

@@ -1,4 +1,5 @@
-//! `embate view` and `run --watch` from outside: who is let in, what is answered, when it ends, and that a run that is watched is the run that it is otherwise.
+//! `embate view` and `run --watch` from outside: who is let in, what is answered, when it ends, and that a
+//! run that is watched is the run that it is otherwise.
 
 use crate::{FLIGHT, embate, fresh};
 use std::fs;

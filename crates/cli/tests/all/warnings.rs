@@ -1,4 +1,5 @@
-//! Warnings as a user meets them: printed once on standard error, the model accepted, and listed in the summary.
+//! Warnings as a user meets them: printed once on standard error, the model accepted, and listed in the
+//! summary.
 
 use crate::{embate, fresh};
 use std::fs;

@@ -80,7 +80,8 @@ fn a_run_tells_of_the_search_when_asked() {
 #[test]
 fn a_run_that_fails_keeps_its_results() {
     let folder = fresh("collapsed");
-    // At half the speed of sound the block is crushed at the wall: its elements get thinner, and their step falls below the limit.
+    // At half the speed of sound the block is crushed at the wall: its elements get thinner, and their step
+    // falls below the limit.
     let wall = "obstacle=[{ plane = { point = [\"10 mm\", 0], normal = [-1, 0] } }]";
     let crush =
         ["--set", wall, "--set", "part.block.velocity=[2500, 0]", "--set", "run.energy_limit=0.9", "--set", "run.step_limit=\"0.5 us\""];

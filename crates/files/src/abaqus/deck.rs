@@ -1,7 +1,9 @@
-//! What a deck says about geometry, with all instances in place: nodes, elements, sets and surfaces under their full names.
+//! What a deck says about geometry, with all instances in place: nodes, elements, sets and surfaces under
+//! their full names.
 //!
-//! Blocks come from `text.rs`. Nodes and elements are read first, then sets and surfaces in the order of the file (`sets.rs`). Inside of a
-//! part or an instance names are local: outside they are `INSTANCE.NAME`. `mesh.rs` makes a mesh of it, the import looks names up in it.
+//! Blocks come from `text.rs`. Nodes and elements are read first, then sets and surfaces in the order of the
+//! file (`sets.rs`). Inside of a part or an instance names are local: outside they are `INSTANCE.NAME`.
+//! `mesh.rs` makes a mesh of it, the import looks names up in it.
 
 use super::element_kind::{self, ElementKind, Found};
 use super::text::{Block, Line, Text, folded, shown};
@@ -138,7 +140,8 @@ pub(super) struct Deck {
     pub(super) node_sets: Sets<u32>,
     pub(super) element_sets: Sets<u32>,
     pub(super) surfaces: BTreeMap<String, Set<Surface>>,
-    /// Element numbers of masses, springs, rigid lines and the like, by instance and set: how many, and the first line.
+    /// Element numbers of masses, springs, rigid lines and the like, by instance and set: how many, and the
+    /// first line.
     pub(super) beside: BTreeMap<String, (String, usize, Line)>,
     /// Where each block stands.
     pub(super) scopes: Vec<Scope>,
@@ -441,7 +444,8 @@ fn sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
-/// Reads *INSTANCE: the first data line is a displacement, the second two points of an axis and an angle in degrees.
+/// Reads *INSTANCE: the first data line is a displacement, the second two points of an axis and an angle in
+/// degrees.
 fn instance(text: &Text, block: &Block, name: &str) -> Result<Instance, Fault> {
     let mut instance =
         Instance { name: name.to_string(), part: folded(block.parameter("PART").unwrap_or_default()), ..Instance::default() };

@@ -1,6 +1,8 @@
-//! The element types of a deck: which are bodies with nodes at their corners, what embate makes of them, and why others are refused.
+//! The element types of a deck: which are bodies with nodes at their corners, what embate makes of them, and
+//! why others are refused.
 //!
-//! Names are those of Abaqus and CalculiX. `deck.rs` looks types up; the import takes stress state and element from here.
+//! Names are those of Abaqus and CalculiX. `deck.rs` looks types up; the import takes stress state and
+//! element from here.
 
 use embate_solver::mesh::cell::CellKind;
 

@@ -1,4 +1,5 @@
-//! From the geometry of a deck to a mesh of the plane or of space: names of groups, dense node numbers, the checks of positions.
+//! From the geometry of a deck to a mesh of the plane or of space: names of groups, dense node numbers, the
+//! checks of positions.
 //!
 //! [`super::parse`] calls [`mesh`]; the import asks [`names`] how sets are called in the mesh.
 
@@ -24,7 +25,8 @@ pub(super) struct Names {
     pub(super) nodes: BTreeMap<String, String>,
 }
 
-/// How sets and surfaces are called in the mesh: by their names; a surface or node set whose name is taken gets `-surface` or `-nodes`.
+/// How sets and surfaces are called in the mesh: by their names; a surface or node set whose name is taken
+/// gets `-surface` or `-nodes`.
 pub(super) fn names(deck: &Deck) -> Names {
     let mut names = Names::default();
     let mut taken = BTreeSet::new();

@@ -1,8 +1,9 @@
 //! Decks of Abaqus and CalculiX: .inp files become an [`ImportedMesh`], or a whole model.
 //!
-//! The walk of the data: `text.rs` (files, includes, keywords with their data lines) → `deck.rs` and `sets.rs` (nodes, elements, sets and
-//! surfaces, with instances in place; `element_kind.rs` is the table of element types) → `mesh.rs` (the mesh), or `import/` (a model file
-//! with a report of what became of each keyword).
+//! The walk of the data: `text.rs` (files, includes, keywords with their data lines) → `deck.rs` and
+//! `sets.rs` (nodes, elements, sets and surfaces, with instances in place; `element_kind.rs` is the table of
+//! element types) → `mesh.rs` (the mesh), or `import/` (a model file with a report of what became of each
+//! keyword).
 
 pub(crate) mod messages;
 mod deck;
@@ -34,23 +35,27 @@ pub(crate) fn read_within(path: &Path, scale: f64, bounds: &Bounds) -> Result<Im
     mesh(&text, scale)
 }
 
-/// Makes a mesh from the bytes of a deck (.inp), of space if it has solids, else of the plane; what it includes is looked for in `folder` and
-/// nowhere else.
+/// Makes a mesh from the bytes of a deck (.inp), of space if it has solids, else of the plane; what it
+/// includes is looked for in `folder` and nowhere else.
 ///
-/// - Positions are those of the file times `scale` (m per unit of the file), with instances in place; in the plane z is 0 within 1e-9 of the mesh's size.
-/// - Groups: element sets (of dimension two, of solids three, elements in the order of the set), surfaces of element sides (lines, of solids
-///   surfaces), surfaces of nodes and node sets (points). Outside of its part the set of an instance is called `INSTANCE.SET`. Names keep their first spelling. A surface or node
-///   set whose name is taken is called `NAME-surface` or `NAME-nodes`. If the deck has no element sets, its elements are the group `all`.
+/// - Positions are those of the file times `scale` (m per unit of the file), with instances in place; in the
+///   plane z is 0 within 1e-9 of the mesh's size.
+/// - Groups: element sets (of dimension two, of solids three, elements in the order of the set), surfaces of
+///   element sides (lines, of solids surfaces), surfaces of nodes and node sets (points). Outside of its part
+///   the set of an instance is called `INSTANCE.SET`. Names keep their first spelling. A surface or node set
+///   whose name is taken is called `NAME-surface` or `NAME-nodes`. If the deck has no element sets, its
+///   elements are the group `all`.
 /// - Nodes keep the file's order; those of no body are left out, also of sets.
 /// - Clockwise elements and those of negative volume are turned, their first node kept.
-/// - Masses, springs, rigid lines, beams and the like are stepped over, and so is every keyword that is not about geometry.
+/// - Masses, springs, rigid lines, beams and the like are stepped over, and so is every keyword that is not
+///   about geometry.
 ///
 /// `source` names the file in messages.
 ///
 /// # Errors
-/// The first fault of the text with its line: what is no keyword, number or name, a missing node, a number twice, elements of second order,
-/// shells in space or elements of unknown type, keywords that generate nodes or elements; or all nodes that are off the plane, or all solids
-/// without volume.
+/// The first fault of the text with its line: what is no keyword, number or name, a missing node, a number
+/// twice, elements of second order, shells in space or elements of unknown type, keywords that generate nodes
+/// or elements; or all nodes that are off the plane, or all solids without volume.
 pub fn parse(bytes: &[u8], source: &str, folder: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     let text = Text::parse(bytes, source, folder, &Bounds::of(folder, "deck's", Reach::Folder)).map_err(|fault| vec![fault])?;
     mesh(&text, scale)

@@ -1,6 +1,7 @@
 //! Sets and surfaces of a deck, in the order of the file: *NSET, *ELSET, *SURFACE.
 //!
-//! Part of [`Deck`]; what they name must stand above them. Members are indices into the deck's nodes and elements.
+//! Part of [`Deck`]; what they name must stand above them. Members are indices into the deck's nodes and
+//! elements.
 
 use super::deck::{Deck, Scope, Set, Surface, extend};
 use super::text::{Block, Line, Text, folded, shown};
@@ -156,7 +157,8 @@ impl Deck {
         }
     }
 
-    /// Sides of elements: `set, S1` is one side of each, `set` alone those that belong to one element of the deck only, `,` all of these.
+    /// Sides of elements: `set, S1` is one side of each, `set` alone those that belong to one element of the
+    /// deck only, `,` all of these.
     fn sides(&self, text: &Text, block: &Block, instance: usize) -> Result<Surface, Fault> {
         let mut sides = Vec::new();
         let mut counts = None;

@@ -1,7 +1,9 @@
-//! The text of an Abaqus or CalculiX deck: files and what they include become blocks, one for each keyword with its parameters and data lines.
+//! The text of an Abaqus or CalculiX deck: files and what they include become blocks, one for each keyword
+//! with its parameters and data lines.
 //!
-//! Every later message takes its place (file, line) from here. Keywords and names of parameters are in capitals with single spaces; values
-//! keep their spelling, because names are compared without case but shown as written.
+//! Every later message takes its place (file, line) from here. Keywords and names of parameters are in
+//! capitals with single spaces; values keep their spelling, because names are compared without case but shown
+//! as written.
 
 use crate::abaqus::messages::{DECK, SYNTAX};
 use crate::reach::Bounds;

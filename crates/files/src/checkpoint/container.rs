@@ -1,11 +1,14 @@
-//! The bytes of a checkpoint file: a head, then blocks, each with a check sum over what is stored, so that a torn or flipped byte is found before anything is made of it.
+//! The bytes of a checkpoint file: a head, then blocks, each with a check sum over what is stored, so that a
+//! torn or flipped byte is found before anything is made of it.
 //!
 //! ```text
 //! head    magic 8 | format 4 | length of the header 4 | header (JSON) | CRC32 of all that 4
-//! block   length of the name 4 | name | plain length 8 | packed length 8 | CRC32 of the packed bytes 4 | CRC32 of all that 4 | packed bytes
+//! block   length of the name 4 | name | plain length 8 | packed length 8 | CRC32 of the packed bytes 4
+//!         | CRC32 of all that 4 | packed bytes
 //! ```
 //!
-//! Numbers are little-endian. Lengths are held against what is left of the file before room is made; the number of blocks is in the header.
+//! Numbers are little-endian. Lengths are held against what is left of the file before room is made; the
+//! number of blocks is in the header.
 
 use super::pack::{self, Packed};
 use crate::threads::Threads;

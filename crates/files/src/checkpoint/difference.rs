@@ -1,7 +1,9 @@
 //! What a model is, line by line: to tell whether it is still the one that ran, and what has changed.
 //!
-//! Lines come from the model's own structure (`parts[0].velocity[1] = 3.0`), so a new key is seen without anything being told here. Meshes count by their size and a check sum. A run that goes on may end
-//! at another time, have other limits, checkpoints and output; all else must be the same, else its bits would mean nothing.
+//! Lines come from the model's own structure (`parts[0].velocity[1] = 3.0`), so a new key is seen without
+//! anything being told here. Meshes count by their size and a check sum. A run that goes on may end at
+//! another time, have other limits, checkpoints and output; all else must be the same, else its bits would
+//! mean nothing.
 
 use embate_solver::hash::Fnv;
 use embate_solver::model::{ImportedMesh, Model};
@@ -91,7 +93,8 @@ impl Identity {
         hash.to_string()
     }
 
-    /// What of `self` is not as `before`, of all that must be the same if a run is to go on: a line for each key.
+    /// What of `self` is not as `before`, of all that must be the same if a run is to go on: a line for each
+    /// key.
     #[must_use]
     pub fn differences(&self, before: &Self) -> Vec<String> {
         self.differing(before, |key| !is_free(key))
@@ -103,7 +106,8 @@ impl Identity {
         self.differing(before, |key| !is_free(key) || key == "run.end")
     }
 
-    /// What of two models is not the same: a line for each key that acts on the steps, and one for each of the others.
+    /// What of two models is not the same: a line for each key that acts on the steps, and one for each of
+    /// the others.
     #[must_use]
     pub fn apart(&self, other: &Self) -> [Vec<String>; 2] {
         let side = |value: Option<&String>| value.map_or("has no such key".to_string(), |value| format!("has {value}"));
@@ -160,10 +164,12 @@ fn summed(mesh: &ImportedMesh) -> String {
     format!("{} nodes and {cells} cells, check sum {:08x}", mesh.positions.len(), crc.sum())
 }
 
-/// Keys and values of a structure as the compiler shows it, one value a line. What has no name in a list is numbered.
+/// Keys and values of a structure as the compiler shows it, one value a line. What has no name in a list is
+/// numbered.
 fn flattened(shown: &str) -> BTreeMap<String, String> {
     let mut lines = BTreeMap::new();
-    // Path so far, how many nameless items it has had, and whether the first of them stands for the whole: what an option or a variant holds.
+    // Path so far, how many nameless items it has had, and whether the first of them stands for the whole:
+    // what an option or a variant holds.
     let mut stack: Vec<(String, usize, bool)> = Vec::new();
     for line in shown.lines().map(str::trim) {
         if matches!(line.trim_end_matches(','), "}" | "]" | ")") {

@@ -1,8 +1,10 @@
 //! Checkpoints: what a run needs to go on, in files `checkpoint/<step>.embate` of its result folder.
 //!
-//! States come from the simulation through the writer of results, which knows how far history, fields and film are (`Told`); [`Checkpoint::write`] puts them into a file (`container`, its blocks
-//! packed by `pack`), under its final name only when it is on the disk as a whole. Two generations are kept. [`generations`] finds them, [`Checkpoint::read`] tells a damaged one from a sound
-//! one, and [`Identity`] whether a model is still the one that ran.
+//! States come from the simulation through the writer of results, which knows how far history, fields and
+//! film are (`Told`); [`Checkpoint::write`] puts them into a file (`container`, its blocks packed by `pack`),
+//! under its final name only when it is on the disk as a whole. Two generations are kept. [`generations`]
+//! finds them, [`Checkpoint::read`] tells a damaged one from a sound one, and [`Identity`] whether a model is
+//! still the one that ran.
 
 mod container;
 mod difference;
@@ -134,12 +136,14 @@ impl Checkpoint {
         Self { state: Arc::new(state), origin: Origin::default(), identity: Identity::of(model), told, film: Vec::new() }
     }
 
-    /// Lets go of the state, which is large, once a simulation has taken it over; what else is known of it stays.
+    /// Lets go of the state, which is large, once a simulation has taken it over; what else is known of it
+    /// stays.
     pub fn release_state(&mut self) {
         self.state = Arc::new(State { sections: Vec::new(), ..*self.state });
     }
 
-    /// Writes it as the newest generation of a result folder and removes those that are too old; an interrupted or failed write leaves the older ones as they are.
+    /// Writes it as the newest generation of a result folder and removes those that are too old; an
+    /// interrupted or failed write leaves the older ones as they are.
     ///
     /// # Errors
     /// [`CheckpointError::File`].
@@ -149,7 +153,8 @@ impl Checkpoint {
         plain::folder(&folder).map_err(CheckpointError::file("create", &folder))?;
         let path = folder.join(format!("{:012}.{ENDING}", self.state.step));
         self.write_file(&path, threads)?;
-        // The name, too, must outlive a power failure; where folders can't be synchronised there is nothing to do.
+        // The name, too, must outlive a power failure; where folders can't be synchronised there is nothing
+        // to do.
         let _ = File::open(&folder).and_then(|folder| folder.sync_all());
         for old in generations(results).into_iter().filter(|generation| generation.step < self.state.step).skip(GENERATIONS - 1) {
             fs::remove_file(&old.path).map_err(CheckpointError::file("remove", &old.path))?;
@@ -188,7 +193,8 @@ impl Checkpoint {
     /// Reads a file back.
     ///
     /// # Errors
-    /// [`CheckpointError::Damaged`] where not every byte is as it was written, [`CheckpointError::Version`] where another program wrote it.
+    /// [`CheckpointError::Damaged`] where not every byte is as it was written, [`CheckpointError::Version`]
+    /// where another program wrote it.
     pub fn read(path: &Path, threads: &Threads) -> Result<Self, CheckpointError> {
         Self::parse(&plain::read(path).map_err(CheckpointError::file("read", path))?, path, threads)
     }
@@ -256,8 +262,8 @@ pub(crate) fn is_checkpoint(name: &str) -> Option<u64> {
 /// How often [`newest`] looks at the folder again while a run beside it replaces its checkpoints.
 const LOOKS: usize = 10;
 
-/// The newest sound checkpoint that `fits`, and what is wrong with those that are newer. A file that a run beside it has removed since the
-/// folder was listed is none: where all are, the folder is listed again.
+/// The newest sound checkpoint that `fits`, and what is wrong with those that are newer. A file that a run
+/// beside it has removed since the folder was listed is none: where all are, the folder is listed again.
 ///
 /// # Errors
 /// What is wrong with each; empty where there is none at all.

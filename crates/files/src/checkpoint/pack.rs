@@ -1,8 +1,11 @@
-//! Numbers packed fast and to the last bit: in pieces, the bytes of equal weight side by side, and only those are compressed that are no noise.
+//! Numbers packed fast and to the last bit: in pieces, the bytes of equal weight side by side, and only those
+//! are compressed that are no noise.
 //!
-//! A piece of numbers of eight bytes is turned into differences from the number one or two before it where that leaves less to say, then into eight planes of bytes, from the lowest to the highest. Exponents and
-//! leading digits of neighbours are alike, so their planes shrink to little in a fast zlib; the last digits are noise, and are stored as they are without being tried. Each piece is packed from its
-//! bytes alone, several at a time.
+//! A piece of numbers of eight bytes is turned into differences from the number one or two before it where
+//! that leaves less to say, then into eight planes of bytes, from the lowest to the highest. Exponents and
+//! leading digits of neighbours are alike, so their planes shrink to little in a fast zlib; the last digits
+//! are noise, and are stored as they are without being tried. Each piece is packed from its bytes alone,
+//! several at a time.
 
 use crate::threads::{Rooms, Threads};
 use flate2::{Compress, Compression, Decompress, FlushCompress, FlushDecompress, Status};
@@ -175,7 +178,8 @@ impl Room {
 /// Appends a zlib stream of `bytes`; whether it is shorter than they are.
 fn squeeze(zlib: &mut Compress, bytes: &[u8], packed: &mut Vec<u8>) -> bool {
     zlib.reset();
-    // What does not shrink grows by an eighth at most, and there must be room for that: zlib-rs panics where there is not.
+    // What does not shrink grows by an eighth at most, and there must be room for that: zlib-rs panics where
+    // there is not.
     packed.reserve(bytes.len() + bytes.len() / 4 + 64);
     let begin = packed.len();
     let status = zlib.compress_vec(bytes, packed, FlushCompress::Finish);

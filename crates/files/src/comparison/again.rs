@@ -1,4 +1,5 @@
-//! A stretch of two runs gone over once more, side by side in memory: each from its nearest state, with its own model, threads and instruction set.
+//! A stretch of two runs gone over once more, side by side in memory: each from its nearest state, with its
+//! own model, threads and instruction set.
 
 use crate::checkpoint::{self, Identity};
 use crate::threads::Threads;

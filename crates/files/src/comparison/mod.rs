@@ -1,6 +1,8 @@
-//! Two runs held against each other by what they left: where their logs part, and where they part when both are gone over once more.
+//! Two runs held against each other by what they left: where their logs part, and where they part when both
+//! are gone over once more.
 //!
-//! [`RunLeft`] reads a folder of results, [`Window`] finds the stretch of steps in which two of them part; `again` steps both side by side through it. Texts are made by the program.
+//! [`RunLeft`] reads a folder of results, [`Window`] finds the stretch of steps in which two of them part;
+//! `again` steps both side by side through it. Texts are made by the program.
 
 mod again;
 

@@ -1,4 +1,5 @@
-//! The checks of the cells of a group that need more than one line of the file: forms, twins, bodies that they lie on.
+//! The checks of the cells of a group that need more than one line of the file: forms, twins, bodies that
+//! they lie on.
 //!
 //! `mesh.rs` hands in the cells with node indices and the places of nodes; faults go into its list.
 
@@ -10,7 +11,8 @@ use crate::gmsh::messages::CELL;
 use embate_solver::mesh::cell::{CellKind, MOST_NODES};
 use embate_solver::mesh::signed_volume;
 
-/// Area (volume), as a fraction of the square (cube) of an element's longest diagonal or side, below which it counts as none.
+/// Area (volume), as a fraction of the square (cube) of an element's longest diagonal or side, below which it
+/// counts as none.
 const NOTHING: f64 = 1e-12;
 
 /// The checks of the cells of one group.
@@ -112,8 +114,8 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Whether the sides of a quadrilateral of space cross (seen along the normal at its first corner two corners turn each way), and the area of a
-/// triangle or quadrilateral, m².
+/// Whether the sides of a quadrilateral of space cross (seen along the normal at its first corner two corners
+/// turn each way), and the area of a triangle or quadrilateral, m².
 fn of_space(kind: CellKind, x: &[[f64; 3]]) -> (bool, f64) {
     let (n, is_quadrilateral) = (kind.corners(), kind == CellKind::Quadrilateral);
     let turn = |k: usize| cross_in_space(x[k], x[(k + 1) % n], x[(k + 1) % n], x[(k + 2) % n]);

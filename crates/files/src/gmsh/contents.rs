@@ -1,6 +1,7 @@
 //! What a .msh file holds, as it stands there: nodes by tag, elements by physical group, names of groups.
 //!
-//! `version2.rs` and `version4.rs` fill it, `mesh.rs` checks it and makes the mesh. Numbers are the file's own; nothing is looked up yet.
+//! `version2.rs` and `version4.rs` fill it, `mesh.rs` checks it and makes the mesh. Numbers are the file's
+//! own; nothing is looked up yet.
 
 use super::element_kind::ElementKind;
 use super::reader::{Least, Reader};

@@ -1,6 +1,7 @@
 //! The faults of a mesh: at most [`PLACES`] of each kind with their places, the rest counted.
 //!
-//! `mesh.rs` and `check.rs` fill it while it goes through the cells and nodes; [`super::parse`] hands the list to the caller.
+//! `mesh.rs` and `check.rs` fill it while it goes through the cells and nodes; [`super::parse`] hands the
+//! list to the caller.
 
 use embate_solver::error::Fault;
 

@@ -1,11 +1,13 @@
 //! The form of cells: area, volume, and which of them are turned the wrong way.
 //!
-//! Corners come from mesh files of every kind (`mesh.rs` here, `abaqus/mesh.rs`); what is found goes into their messages and cells.
+//! Corners come from mesh files of every kind (`mesh.rs` here, `abaqus/mesh.rs`); what is found goes into
+//! their messages and cells.
 
 use embate_solver::mesh::cell::CellKind;
 use embate_solver::mesh::signed_volume;
 
-/// Area of a triangle or quadrilateral of the plane, in the square of the positions' unit; negative when its nodes run clockwise.
+/// Area of a triangle or quadrilateral of the plane, in the square of the positions' unit; negative when its
+/// nodes run clockwise.
 pub(crate) fn area(kind: CellKind, corners: &[[f64; 3]]) -> f64 {
     // Half the product of the diagonals; of a triangle, two sides.
     match corners[..kind.corners()] {

@@ -1,4 +1,5 @@
-//! From the contents of a .msh file to a mesh: groups and their names, dense node numbers, places of nodes. `check.rs` looks at the cells.
+//! From the contents of a .msh file to a mesh: groups and their names, dense node numbers, places of nodes.
+//! `check.rs` looks at the cells.
 //!
 //! [`super::parse`] calls [`mesh`] once the whole file is read; what comes out goes into the model.
 
@@ -185,7 +186,8 @@ fn resolve<'a>(group: &Group<'a>, index: &NodeIndex, reader: &Reader, faults: &m
         }
         cells.push(cell);
     }
-    // Version 2 files are in this order, version 4 files in that of the surfaces: both shall give the same mesh.
+    // Version 2 files are in this order, version 4 files in that of the surfaces: both shall give the same
+    // mesh.
     cells.sort_by_key(|cell| cell.file.kind.nodes);
     cells
 }

@@ -1,8 +1,10 @@
-//! Meshes of Gmsh: .msh files of version 2.2 and 4.1, text and binary of either byte order, become an [`ImportedMesh`].
+//! Meshes of Gmsh: .msh files of version 2.2 and 4.1, text and binary of either byte order, become an
+//! [`ImportedMesh`].
 //!
-//! The walk of the data: `reader.rs` (numbers and section marks) → `version2.rs` or `version4.rs` (what stands in which section) →
-//! `contents.rs` (nodes, elements by physical group, as in the file) → `mesh.rs` (dense node numbers, groups of cells) with `check.rs` (the forms
-//! of cells, `form.rs`). `element_kind.rs` is the format's table of element types, `faults.rs` the list of what is wrong. Parts, contacts and
+//! The walk of the data: `reader.rs` (numbers and section marks) → `version2.rs` or `version4.rs` (what
+//! stands in which section) → `contents.rs` (nodes, elements by physical group, as in the file) → `mesh.rs`
+//! (dense node numbers, groups of cells) with `check.rs` (the forms of cells, `form.rs`). `element_kind.rs`
+//! is the format's table of element types, `faults.rs` the list of what is wrong. Parts, contacts and
 //! constraints of a model name the groups.
 
 mod check;
@@ -25,7 +27,8 @@ use reader::{Encoding, Reader, shown};
 use std::path::Path;
 use version4::Entities;
 
-/// Reads a Gmsh mesh file; see [`parse`]. `scale` is the length of the file's unit in metres, 1e-3 for a mesh drawn in millimetres.
+/// Reads a Gmsh mesh file; see [`parse`]. `scale` is the length of the file's unit in metres, 1e-3 for a mesh
+/// drawn in millimetres.
 ///
 /// # Errors
 /// The file can't be read, or what [`parse`] finds.
@@ -42,26 +45,31 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     parse(&bytes, &source, scale)
 }
 
-/// Makes a mesh from the bytes of a Gmsh mesh file (.msh 2.2 or 4.1, text or binary of either byte order): of space if a physical group holds
-/// volumes, else of the plane.
+/// Makes a mesh from the bytes of a Gmsh mesh file (.msh 2.2 or 4.1, text or binary of either byte order): of
+/// space if a physical group holds volumes, else of the plane.
 ///
-/// - Positions are those of the file times `scale` (m per unit of the file); in the plane z is 0 within 1e-9 of the mesh's size.
-/// - Physical groups become [`groups`](ImportedMesh::groups), ordered by dimension and tag: points, lines, surfaces of triangles and
-///   quadrilaterals, volumes of tetrahedra, prisms and hexahedra. Their cells keep the file's order, but those of fewer nodes come first. A group
-///   without a name is called `point-TAG`, `curve-TAG`, `surface-TAG` or `volume-TAG`. An element of several groups is in each of them. Groups
+/// - Positions are those of the file times `scale` (m per unit of the file); in the plane z is 0 within 1e-9
+///   of the mesh's size.
+/// - Physical groups become [`groups`](ImportedMesh::groups), ordered by dimension and tag: points, lines,
+///   surfaces of triangles and quadrilaterals, volumes of tetrahedra, prisms and hexahedra. Their cells keep
+///   the file's order, but those of fewer nodes come first. A group without a name is called `point-TAG`,
+///   `curve-TAG`, `surface-TAG` or `volume-TAG`. An element of several groups is in each of them. Groups
 ///   without elements are left out.
-/// - Elements of no group are left out; but if the file has no physical groups at all, its volumes are the group `all`, and if it has none, its
-///   triangles and quadrilaterals are.
-/// - Nodes keep the file's order; those of no volume (in the plane: of no triangle or quadrilateral) of a group are left out.
-/// - Clockwise cells and those of negative volume are turned, their first node kept. What is outside of a surface in space follows from the volume.
+/// - Elements of no group are left out; but if the file has no physical groups at all, its volumes are the
+///   group `all`, and if it has none, its triangles and quadrilaterals are.
+/// - Nodes keep the file's order; those of no volume (in the plane: of no triangle or quadrilateral) of a
+///   group are left out.
+/// - Clockwise cells and those of negative volume are turned, their first node kept. What is outside of a
+///   surface in space follows from the volume.
 ///
 /// `source` names the file in messages.
 ///
 /// # Errors
-/// Every fault with its line (text) or byte offset (binary), at most 20 of a kind, the rest counted: wrong version, text where a number
-/// should be, a cut file, counts that don't agree (these end the reading at once); nodes that are missing, there twice, or off the plane;
-/// elements of higher order and pyramids in a group; elements without area or volume, with crossing sides, or there twice; points, lines and
-/// surfaces away from every body; two groups of one name.
+/// Every fault with its line (text) or byte offset (binary), at most 20 of a kind, the rest counted: wrong
+/// version, text where a number should be, a cut file, counts that don't agree (these end the reading at
+/// once); nodes that are missing, there twice, or off the plane; elements of higher order and pyramids in a
+/// group; elements without area or volume, with crossing sides, or there twice; points, lines and surfaces
+/// away from every body; two groups of one name.
 pub fn parse(bytes: &[u8], source: &str, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     if !(scale.is_finite() && scale > 0.0) {
         return Err(vec![Fault::new(&MESH_FILE, source, format!("the mesh's unit is {scale} m"), "it is a finite number greater than 0")]);

@@ -1,8 +1,10 @@
-//! A cursor over the bytes of a .msh file: numbers of a text or binary file through the same calls, and the `$Section` marks around them.
+//! A cursor over the bytes of a .msh file: numbers of a text or binary file through the same calls, and the
+//! `$Section` marks around them.
 //!
-//! The bytes come from [`super::parse`]; `version2.rs` and `version4.rs` ask for what the format says comes next. Whatever is not there becomes
-//! a fault with its line (text) or byte offset (binary). A count is handed out only after a check against the bytes that are left, so no
-//! file makes the program allocate more than a small multiple of its own size.
+//! The bytes come from [`super::parse`]; `version2.rs` and `version4.rs` ask for what the format says comes
+//! next. Whatever is not there becomes a fault with its line (text) or byte offset (binary). A count is
+//! handed out only after a check against the bytes that are left, so no file makes the program allocate more
+//! than a small multiple of its own size.
 
 use crate::gmsh::messages::DAMAGED;
 use embate_solver::error::Fault;
@@ -80,7 +82,8 @@ impl<'a> Reader<'a> {
         &self.bytes[self.at.min(self.bytes.len())..]
     }
 
-    // ---- text -------------------------------------------------------------------------------------------------------------------
+    // ----
+    // text
 
     /// Skips blanks and line ends.
     pub(super) fn skip_space(&mut self) {
@@ -151,7 +154,8 @@ impl<'a> Reader<'a> {
         self.checked(count, at, what, least)
     }
 
-    // ---- numbers of either encoding ---------------------------------------------------------------------------------------------
+    // ---- numbers of either
+    // encoding ---------------------------------------------------------------------------------------------
 
     /// In a text file: goes to the next line with something on it.
     pub(super) fn start_of_record(&mut self) {
@@ -243,7 +247,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    // ---- sections ---------------------------------------------------------------------------------------------------------------
+    // ----
+    // sections
 
     /// The name on a line `$Name`.
     pub(super) fn section_start(&mut self) -> Result<&'a str, Fault> {

@@ -1,15 +1,17 @@
 //! Sections of .msh version 2.2: `$Nodes` (or `$ParametricNodes`) and `$Elements`, text and binary.
 //!
-//! Each element carries its own tags; the first is its physical group (0: none). An element of several groups stands in the file once for each.
-//! In a binary file the counts are still text, nodes are `int, 3 double`, and elements come in runs with a header of three ints
-//! (type, how many, tags each). Source: "MSH file format version 2" of the Gmsh reference manual.
+//! Each element carries its own tags; the first is its physical group (0: none). An element of several groups
+//! stands in the file once for each. In a binary file the counts are still text, nodes are `int, 3 double`,
+//! and elements come in runs with a header of three ints (type, how many, tags each). Source: "MSH file
+//! format version 2" of the Gmsh reference manual.
 
 use super::contents::{Contents, FileNode, element_kind, element_nodes};
 use super::reader::{Least, Reader};
 use crate::gmsh::messages::DAMAGED;
 use embate_solver::error::Fault;
 
-/// Reads `$Nodes`; with `parametric`, `$ParametricNodes`: each node's entity and its parameters there follow and are left out.
+/// Reads `$Nodes`; with `parametric`, `$ParametricNodes`: each node's entity and its parameters there follow
+/// and are left out.
 pub(super) fn read_nodes(reader: &mut Reader, contents: &mut Contents, parametric: bool) -> Result<(), Fault> {
     let least = if parametric { Least { numbers: 6, bytes: 36 } } else { Least { numbers: 4, bytes: 28 } };
     let count = reader.count_line("nodes", least)?;

@@ -1,7 +1,9 @@
-//! Sections of .msh version 4.1: `$Entities`, `$PartitionedEntities`, `$Nodes` and `$Elements`, text and binary.
+//! Sections of .msh version 4.1: `$Entities`, `$PartitionedEntities`, `$Nodes` and `$Elements`, text and
+//! binary.
 //!
-//! Nodes and elements stand in blocks, one for each entity of the geometry; an entity's physical groups are those of its elements. Both
-//! kinds of file hold the same sequence of `int`, `size_t` and `double`. Source: "MSH file format" of the Gmsh reference manual.
+//! Nodes and elements stand in blocks, one for each entity of the geometry; an entity's physical groups are
+//! those of its elements. Both kinds of file hold the same sequence of `int`, `size_t` and `double`. Source:
+//! "MSH file format" of the Gmsh reference manual.
 
 use super::contents::{Contents, FileNode, element_kind, element_nodes};
 use super::reader::{Least, Reader};
@@ -12,7 +14,8 @@ use std::collections::BTreeMap;
 /// Physical groups of each entity, by dimension and tag.
 pub(super) type Entities = BTreeMap<(i64, i64), Vec<u64>>;
 
-/// Reads `$Entities` or, with `partitioned`, `$PartitionedEntities`, whose entities have a parent and partitions besides.
+/// Reads `$Entities` or, with `partitioned`, `$PartitionedEntities`, whose entities have a parent and
+/// partitions besides.
 pub(super) fn read_entities(reader: &mut Reader, entities: &mut Entities, partitioned: bool) -> Result<(), Fault> {
     let size = reader.size_bytes();
     reader.start_of_record();

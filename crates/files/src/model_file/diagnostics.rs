@@ -1,6 +1,7 @@
 //! Faults and warnings of a model file as a person reads them: file, line, column, excerpt, and what to do.
 //!
-//! They come from the parser, the reader, the builder and [`Model::check`](embate_solver::model::Model::check); the texts go to a terminal.
+//! They come from the parser, the reader, the builder and
+//! [`Model::check`](embate_solver::model::Model::check); the texts go to a terminal.
 
 use super::tree::{Node, Place};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
@@ -217,8 +218,8 @@ impl Diagnostics {
         faults.into_diagnostics(&[Source { name: file, text: String::new() }], None)
     }
 
-    /// Faults of several variants of a model as one list: what is wrong in several is told once, with the runs that have it;
-    /// run 0: no run's fault. `of`: the number of runs.
+    /// Faults of several variants of a model as one list: what is wrong in several is told once, with the
+    /// runs that have it; run 0: no run's fault. `of`: the number of runs.
     pub(crate) fn merged(found: Vec<(usize, Self)>, of: usize) -> Self {
         let mut all = Self { rendered: String::new(), count: 0, entries: Vec::new(), lines: Vec::new(), severity: Severity::Fault };
         let mut runs: Vec<Vec<usize>> = Vec::new();
@@ -245,7 +246,8 @@ impl Diagnostics {
         all
     }
 
-    /// The text for a terminal, coloured if wanted: every fault or warning with its excerpt, at most 20 of one kind; empty where there is none.
+    /// The text for a terminal, coloured if wanted: every fault or warning with its excerpt, at most 20 of
+    /// one kind; empty where there is none.
     #[must_use]
     pub fn render(&self, color: bool) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() }.term_width(160);

@@ -1,8 +1,10 @@
 //! The model file: TOML with units, read into a [`Model`].
 //!
-//! The walk: text (`mod.rs`) -> tree with places (`tree.rs`) -> overrides (`set.rs`, `template.rs`) -> checked values (`reader.rs`, `value.rs`, `units.rs`) -> model
-//! (`build.rs`) -> [`Model::check`]. What a section may hold is described once, in [`embate_solver::model::describe`]; the JSON schema (`schema.rs`) and
-//! the manual (`manual.rs`) come from there too. Faults (`diagnostics.rs`) are collected all the way and shown together; warnings of a model without faults likewise.
+//! The walk: text (`mod.rs`) -> tree with places (`tree.rs`) -> overrides (`set.rs`, `template.rs`) ->
+//! checked values (`reader.rs`, `value.rs`, `units.rs`) -> model (`build.rs`) -> [`Model::check`]. What a
+//! section may hold is described once, in [`embate_solver::model::describe`]; the JSON schema (`schema.rs`)
+//! and the manual (`manual.rs`) come from there too. Faults (`diagnostics.rs`) are collected all the way and
+//! shown together; warnings of a model without faults likewise.
 
 mod build;
 mod decimal;
@@ -45,8 +47,8 @@ pub const FILE_NAME: &str = "model.toml";
 /// Largest model file, bytes: large meshes belong in mesh files.
 const SIZE_MAX: u64 = 16 << 20;
 
-/// Reads a model from a file, or from `model.toml` in a folder; `set` overrides keys (`path.to.key=value`). The model is named after the folder if
-/// the file is `model.toml`, else after the file.
+/// Reads a model from a file, or from `model.toml` in a folder; `set` overrides keys (`path.to.key=value`).
+/// The model is named after the folder if the file is `model.toml`, else after the file.
 ///
 /// # Errors
 /// All faults at once; a file outside of the model's folder is one.
@@ -54,7 +56,8 @@ pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
     load_with_places(path, set, Reach::Folder).map(|loaded| loaded.model)
 }
 
-/// [`load`], with what is needed to show warnings at their places in the file. `reach`: from where files are read that the model names.
+/// [`load`], with what is needed to show warnings at their places in the file. `reach`: from where files are
+/// read that the model names.
 ///
 /// # Errors
 /// All faults at once.
@@ -62,7 +65,8 @@ pub fn load_with_places(path: &Path, set: &[String], reach: Reach) -> Result<Loa
     Template::load(path, set, reach)?.loaded(&[])
 }
 
-/// [`load_with_places`] of a model with faults of one kind alone: as if it had none; `None` where it has others.
+/// [`load_with_places`] of a model with faults of one kind alone: as if it had none; `None` where it has
+/// others.
 #[must_use]
 pub fn load_despite(kind: &Message, path: &Path, set: &[String], reach: Reach) -> Option<Loaded> {
     Template::load(path, set, reach).ok()?.loaded_despite(kind)
@@ -109,7 +113,8 @@ impl Loaded {
         }
     }
 
-    /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines and columns; no text where there are none.
+    /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines
+    /// and columns; no text where there are none.
     #[must_use]
     pub fn told(&self, warnings: &[Warning]) -> Diagnostics {
         Faults::warnings(warnings).into_diagnostics(&self.sources, Some(&self.root))
@@ -171,7 +176,8 @@ fn source(file: &Path) -> Result<Source, Diagnostics> {
     }
 }
 
-/// Reads a model from a text. `name` becomes the model's name and stands for the file in messages; mesh files are looked for in `folder` and nowhere else.
+/// Reads a model from a text. `name` becomes the model's name and stands for the file in messages; mesh files
+/// are looked for in `folder` and nowhere else.
 ///
 /// # Errors
 /// All faults at once.
@@ -190,7 +196,8 @@ pub fn load_text_with_places(name: &str, text: &str, folder: &Path, set: &[Strin
 /// Meshes in memory, each the bytes of a .msh file, by the names by which a model's text calls them as files.
 pub type GivenMeshes = BTreeMap<String, Vec<u8>>;
 
-/// [`load_text_with_places`] of a text that calls some meshes by names of what is in memory; other files are looked for in `folder`, as far as `reach` lets.
+/// [`load_text_with_places`] of a text that calls some meshes by names of what is in memory; other files are
+/// looked for in `folder`, as far as `reach` lets.
 ///
 /// # Errors
 /// All faults at once.

@@ -1,6 +1,8 @@
-//! Reads the tree of a model file section by section, key by key, as [`describe`](embate_solver::model::describe) says.
+//! Reads the tree of a model file section by section, key by key, as
+//! [`describe`](embate_solver::model::describe) says.
 //!
-//! The tree comes from `tree.rs`; records of checked values go to `build.rs`. Every fault is noted and reading goes on.
+//! The tree comes from `tree.rs`; records of checked values go to `build.rs`. Every fault is noted and
+//! reading goes on.
 
 use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
@@ -267,7 +269,8 @@ enum Extent {
     Solid,
 }
 
-/// What the keys of its parts say: whether one is axisymmetric or a solid; those that don't agree are told later. Of groups of mesh files the files know ([`read`]).
+/// What the keys of its parts say: whether one is axisymmetric or a solid; those that don't agree are told
+/// later. Of groups of mesh files the files know ([`read`]).
 fn extent(root: &Node) -> Extent {
     let Value::Table(sections) = &root.value else { return Extent::Slice };
     let parts = sections.iter().filter(|section| section.key == "part").filter_map(|section| match &section.node.value {
@@ -293,7 +296,8 @@ fn extent(root: &Node) -> Extent {
 }
 
 impl Extent {
-    /// A key without the metre of depth where bodies are whole ones. Springs of a body of revolution are those of its circumference, per metre of it.
+    /// A key without the metre of depth where bodies are whole ones. Springs of a body of revolution are
+    /// those of its circumference, per metre of it.
     fn of(self, key: &Key) -> Key {
         let whole = |dimension: Dimension| match (dimension, key.name) {
             (other, _) if self == Self::Slice => other,
@@ -525,7 +529,8 @@ pub(super) fn written((by, value): (&str, &str)) -> String {
     if matches!(value, "true" | "false") { format!("`{by} = {value}`") } else { format!("`{by} = \"{value}\"`") }
 }
 
-/// The keys that a table may have, and whether these are all: not while the key that decides over the others is unknown.
+/// The keys that a table may have, and whether these are all: not while the key that decides over the others
+/// is unknown.
 fn keys_of(section: &Section, entries: &[Entry]) -> (Vec<Key>, bool) {
     let mut keys: Vec<Key> = section.all_keys().copied().collect();
     let mut complete = true;

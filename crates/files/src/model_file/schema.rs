@@ -1,6 +1,7 @@
 //! The JSON schema of the model file, for completion and checks in editors.
 //!
-//! Made by iteration over [`describe`](embate_solver::model::describe) and the registries; `embate schema` prints it.
+//! Made by iteration over [`describe`](embate_solver::model::describe) and the registries; `embate schema`
+//! prints it.
 
 use super::tree::{self, Value};
 use super::units;
@@ -8,7 +9,8 @@ use embate_solver::material;
 use embate_solver::model::describe::{Form, Key, Kind, More, Need, Rule, SECTIONS, Section, TOP};
 use embate_solver::quantity::{Dimension, Range};
 
-/// Names: no ASCII character but letters, digits, `-` and `_`. Written without classes, which not every reader of schemas knows.
+/// Names: no ASCII character but letters, digits, `-` and `_`. Written without classes, which not every
+/// reader of schemas knows.
 const NAME_PATTERN: &str = r"^[^\u0000-\u002c\u002e\u002f\u003a-\u0040\u005b-\u005e\u0060\u007b-\u007f]{1,64}$";
 
 /// A JSON value; objects keep their order.
@@ -142,7 +144,8 @@ fn variants(section: &Section) -> Json {
     Json::List(names.iter().map(variant).collect())
 }
 
-/// Keys that come with the values of a key that may be left out: each only with its value, and there if that needs it.
+/// Keys that come with the values of a key that may be left out: each only with its value, and there if that
+/// needs it.
 fn keys_by(more: &More, keys: &mut Vec<Key>, rules: &mut Vec<Json>) {
     let Some(Kind::Choice(values)) = keys.iter().find(|key| key.name == more.by).map(|key| key.kind) else { return };
     let variants: Vec<(&str, Vec<Key>)> = values().into_iter().map(|value| (value, (more.keys)(value).unwrap_or_default())).collect();

@@ -1,6 +1,7 @@
 //! `--set path.to.key=value`: values that replace or join those of the file before it is read.
 //!
-//! Texts come from the command line; the tree is changed in place, and each new value remembers that it came from `--set`.
+//! Texts come from the command line; the tree is changed in place, and each new value remembers that it came
+//! from `--set`.
 
 use super::diagnostics::{Faults, Source};
 use super::tree::{self, Entry, Node, Place, Value};

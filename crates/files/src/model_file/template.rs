@@ -1,7 +1,8 @@
 //! A model file that has been read once, from which models with other values are made.
 //!
-//! The tree comes from `tree.rs`, overrides and changes go into it through `set.rs` before a model is read from it, so every check of the reader holds for
-//! every variant, and a fault shows the text that a value came from. [`Template::model`] gives models to `load` and to sweeps.
+//! The tree comes from `tree.rs`, overrides and changes go into it through `set.rs` before a model is read
+//! from it, so every check of the reader holds for every variant, and a fault shows the text that a value
+//! came from. [`Template::model`] gives models to `load` and to sweeps.
 
 use super::diagnostics::{Diagnostics, Faults, Source};
 use super::tree::{self, Node, Place, Value};

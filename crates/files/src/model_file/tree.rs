@@ -1,7 +1,7 @@
 //! The model file as a tree of values, each with its place in the text.
 //!
-//! Texts come from the file and from `--set`; the tree is changed by `set.rs` and read by `reader.rs`. TOML's own syntax is left to the `toml` crate,
-//! which bounds the depth of nesting.
+//! Texts come from the file and from `--set`; the tree is changed by `set.rs` and read by `reader.rs`. TOML's
+//! own syntax is left to the `toml` crate, which bounds the depth of nesting.
 
 use std::ops::Range;
 use toml::Spanned;
@@ -113,7 +113,8 @@ impl Node {
         (place, Some(node).filter(|_| rest.is_empty()))
     }
 
-    /// Goes down a path as far as there is something: where that is, what it is, and what is left of the path.
+    /// Goes down a path as far as there is something: where that is, what it is, and what is left of the
+    /// path.
     fn walk<'a>(&'a self, path: &'a str) -> (Place, &'a Self, &'a str) {
         let (mut here, mut found, mut rest) = (self, self.place, path);
         loop {

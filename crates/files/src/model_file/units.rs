@@ -1,8 +1,9 @@
 //! Numbers with units: `"210 GPa"`, `"7.85 g/cm^3"`, `"-50 m/s"` become SI values with a dimension check.
 //!
-//! A text comes from the reader, the value goes back to it. Units are powers of ten and ratios of whole numbers, applied to the decimal digits
-//! before the only rounding: `"94 mm"` is the same `f64` as 0.094. A unit text is read from left to right; a space, `*` or `·` multiplies, `/`
-//! divides by the one unit that follows it.
+//! A text comes from the reader, the value goes back to it. Units are powers of ten and ratios of whole
+//! numbers, applied to the decimal digits before the only rounding: `"94 mm"` is the same `f64` as 0.094. A
+//! unit text is read from left to right; a space, `*` or `·` multiplies, `/` divides by the one unit that
+//! follows it.
 
 use super::decimal::Decimal;
 use embate_solver::model::describe::nearest;
@@ -22,7 +23,8 @@ pub(super) struct Wanted<'a> {
     pub angle: bool,
 }
 
-/// A unit or a product of units: `value = number · numerator / denominator · 10^ten`, and degrees if `degrees` is one.
+/// A unit or a product of units: `value = number · numerator / denominator · 10^ten`, and degrees if
+/// `degrees` is one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Unit {
     /// Exponents of kg, m, s, K, B.
@@ -37,14 +39,16 @@ struct Unit {
 
 const ONE: Unit = Unit { powers: [0; 5], numerator: 1, denominator: 1, ten: 0, degrees: 0, radians: 0 };
 
-/// A unit of the table: name, exponents of kg, m, s, K, B, numerator, power of ten, and the prefixes that it takes.
+/// A unit of the table: name, exponents of kg, m, s, K, B, numerator, power of ten, and the prefixes that it
+/// takes.
 struct Entry(&'static str, [i32; 5], u128, i32, &'static [&'static str]);
 
 const ALL: &[&str] = &["f", "p", "n", "u", "µ", "μ", "m", "c", "d", "da", "h", "k", "M", "G", "T", "P"];
 const SMALL: &[&str] = &["f", "p", "n", "u", "µ", "μ", "m"];
 const LARGE: &[&str] = &["k", "M"];
 
-/// Every unit. Inch, foot and pound are exact by definition (1959); the pound-force is the pound times 9.80665 m/s².
+/// Every unit. Inch, foot and pound are exact by definition (1959); the pound-force is the pound times
+/// 9.80665 m/s².
 const TABLE: &[Entry] = &[
     Entry("m", [0, 1, 0, 0, 0], 1, 0, ALL),
     Entry("g", [1, 0, 0, 0, 0], 1, -3, ALL),
@@ -109,7 +113,8 @@ const MEANT: &[(&str, &str)] = &[
     ("kmh", "km/h"),
 ];
 
-/// Numerators and denominators beyond this are refused: ten times more still fits into the arithmetic of `decimal.rs`.
+/// Numerators and denominators beyond this are refused: ten times more still fits into the arithmetic of
+/// `decimal.rs`.
 const FACTOR_MAX: u128 = 10u128.pow(36);
 
 fn prefix_power(prefix: &str) -> i32 {
@@ -438,7 +443,8 @@ pub(super) fn shorten(text: &str) -> String {
     format!("\"{shown}\"")
 }
 
-/// The units as a line for the documentation: names, with a star where prefixes are taken, which is written so that it is none of Markdown's.
+/// The units as a line for the documentation: names, with a star where prefixes are taken, which is written
+/// so that it is none of Markdown's.
 pub(super) fn names() -> String {
     TABLE.iter().map(|entry| format!("`{}`{}", entry.0, if entry.4.is_empty() { "" } else { "\\*" })).collect::<Vec<_>>().join(", ")
 }

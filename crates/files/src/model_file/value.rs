@@ -1,7 +1,7 @@
 //! Reads one value as its key's kind says: type, unit, range, choice.
 //!
-//! Nodes come from `tree.rs` through `reader.rs`; typed values in SI units, or what is wrong with them, go back to it. Each kind of value is one
-//! arm of `read`, one of `example`, and one of `words`.
+//! Nodes come from `tree.rs` through `reader.rs`; typed values in SI units, or what is wrong with them, go
+//! back to it. Each kind of value is one arm of `read`, one of `example`, and one of `words`.
 
 use super::reader::Record;
 use super::tree::{Node, Place, Value};

@@ -1,5 +1,6 @@
-//! Bodies in pixels: filled cells, element edges that fade out where the mesh is dense, outlines.
-//! Cells come once from [`Cells`], points and values per frame from `film` or `mesh`; everything is drawn on a [`Layer`].
+//! Bodies in pixels: filled cells, element edges that fade out where the mesh is dense, outlines. Cells come
+//! once from [`Cells`], points and values per frame from `film` or `mesh`; everything is drawn on a
+//! [`Layer`].
 
 use super::colour::{self, LEVELS, MAP, NO_VALUE};
 use super::raster::{Layer, Shade};
@@ -53,7 +54,8 @@ pub(super) struct Look {
     pub(super) edge_width: f32,
     pub(super) outline: f32,
     pub(super) outline_width: f32,
-    /// Pixels by which each side of the part is drawn too far out: what is as thin as a hair would not show its colour.
+    /// Pixels by which each side of the part is drawn too far out: what is as thin as a hair would not show
+    /// its colour.
     pub(super) swell: f32,
 }
 
@@ -126,8 +128,9 @@ impl Mesh {
         sums.iter().map(look).collect()
     }
 
-    /// Draws all cells and lines; `points` are pixels within the layer, not finite where there is nothing to show. `planes`: x and y at which
-    /// the body goes on in its mirror image; there it has no outline. `looks`: one per part, as from [`Mesh::looks`].
+    /// Draws all cells and lines; `points` are pixels within the layer, not finite where there is nothing to
+    /// show. `planes`: x and y at which the body goes on in its mirror image; there it has no outline.
+    /// `looks`: one per part, as from [`Mesh::looks`].
     pub(super) fn draw(&self, layer: &mut Layer, points: &[[f32; 2]], planes: [Option<f32>; 2], values: Values<'_>, looks: &[Look]) {
         let map: Vec<[f32; 3]> = MAP.iter().map(|c| floats(*c)).collect();
         for cell in &self.cells {
@@ -166,8 +169,9 @@ impl Mesh {
     }
 }
 
-/// Levels at the corners, where values live at nodes. Some fields have values on the surface alone: a cell with a side there shows them through to
-/// its other side, so that they can be seen; a cell without such a side has no levels.
+/// Levels at the corners, where values live at nodes. Some fields have values on the surface alone: a cell
+/// with a side there shows them through to its other side, so that they can be seen; a cell without such a
+/// side has no levels.
 fn node_levels(cell: &DrawnCell, values: Values<'_>) -> Option<[f32; 4]> {
     let Values::Nodes(values, range) = values else { return None };
     let count = usize::from(cell.corners);
@@ -248,7 +252,8 @@ pub(super) fn level(value: f32, range: [f64; 2]) -> Option<f32> {
     (!level.is_nan()).then(|| level.clamp(0.0, (LEVELS - 1) as f64) as f32)
 }
 
-/// Fills a cell whose colour varies linearly from corner to corner: a triangle as it is, a quadrilateral as four around its middle.
+/// Fills a cell whose colour varies linearly from corner to corner: a triangle as it is, a quadrilateral as
+/// four around its middle.
 fn smooth(layer: &mut Layer, map: &[[f32; 3]], corners: &[[f32; 2]], levels: &[f32; 4]) {
     let count = corners.len();
     if count == 3 {

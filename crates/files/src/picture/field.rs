@@ -1,5 +1,5 @@
-//! Which number of a frame is shown as colour: a scalar field, one component, or the size of a vector or stress.
-//! Taken from [`Frame::fields`]; goes to `film` as one `f32` per node or cell.
+//! Which number of a frame is shown as colour: a scalar field, one component, or the size of a vector or
+//! stress. Taken from [`Frame::fields`]; goes to `film` as one `f32` per node or cell.
 
 use embate_solver::output::{Field, FieldKind, Frame, Location};
 
@@ -31,7 +31,8 @@ impl Scalar {
         Some(Self { kind, component })
     }
 
-    /// The scalars that are shown when none was chosen, the best first: plastic strain, equivalent stress, else the frame's first field.
+    /// The scalars that are shown when none was chosen, the best first: plastic strain, equivalent stress,
+    /// else the frame's first field.
     pub(super) fn defaults(frame: &Frame) -> Vec<Self> {
         let mut found: Vec<Self> = ["plastic_strain", "von_mises"].iter().filter_map(|name| Self::named(frame, name)).collect();
         if found.is_empty() {

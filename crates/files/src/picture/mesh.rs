@@ -1,5 +1,5 @@
-//! The picture of a mesh: bodies coloured by part, element edges, names of the parts; for looking at a model before it runs.
-//! A frame comes from the simulation at time zero; the PNG goes next to the model's check.
+//! The picture of a mesh: bodies coloured by part, element edges, names of the parts; for looking at a model
+//! before it runs. A frame comes from the simulation at time zero; the PNG goes next to the model's check.
 
 use super::body::{Mesh, Values};
 use super::film::FilmSettings;

@@ -1,4 +1,5 @@
-//! Pictures of a run, as an engineer would show them: the moving field, the last state, the mesh, the history.
+//! Pictures of a run, as an engineer would show them: the moving field, the last state, the mesh, the
+//! history.
 //!
 //! Data comes from [`embate_solver::output`] (cells once, frames, history rows) and leaves as
 //! `animation.gif`, `final.png`, a mesh picture and two SVG plots. The way of a picture: `film` or `mesh`

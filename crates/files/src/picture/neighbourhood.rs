@@ -1,6 +1,8 @@
-//! A few elements at a few times, as SVG: the neighbourhood of the culprit of a failure, each element with its number.
+//! A few elements at a few times, as SVG: the neighbourhood of the culprit of a failure, each element with
+//! its number.
 //!
-//! Elements and times come from a [`Trace`]; every panel has the same scale and the culprit in its middle. The text goes to a file of the post-mortem.
+//! Elements and times come from a [`Trace`]; every panel has the same scale and the culprit in its middle.
+//! The text goes to a file of the post-mortem.
 
 use super::colour::{BORDER, DISTINCT, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAINT, WHITE, mix};
 use super::scale::{number, unit};
@@ -11,7 +13,8 @@ use std::fmt::Write;
 
 /// Colour of the culprit.
 pub(crate) const CULPRIT: Rgb = [214, 20, 60];
-/// Width of a panel where there are several, and of one alone, pixels; limits of its height over its width; the air around it, and the room for the culprit's name in it.
+/// Width of a panel where there are several, and of one alone, pixels; limits of its height over its width;
+/// the air around it, and the room for the culprit's name in it.
 pub(super) const WIDE: [f64; 2] = [500.0, 760.0];
 pub(super) const HIGH: [f64; 2] = [0.3, 1.1];
 pub(super) const AIR: f64 = 16.0;
@@ -30,7 +33,8 @@ pub(crate) struct Panel<'a> {
     pub(crate) moment: &'a Moment,
 }
 
-/// The picture as the text of an SVG file; `mark` is what the culprit is called in it, `depth` the unit of forces.
+/// The picture as the text of an SVG file; `mark` is what the culprit is called in it, `depth` the unit of
+/// forces.
 pub(crate) fn neighbourhood(title: &str, near: &Neighbourhood, panels: &[Panel<'_>], mark: &str, depth: &str) -> String {
     let scene = Scene::new(near, panels, width_of(panels.len()));
     laid_out(
@@ -47,7 +51,8 @@ pub(super) fn width_of(panels: usize) -> f64 {
     WIDE[usize::from(panels.clamp(1, 2) == 1)]
 }
 
-/// Panels of one size in two columns, with a title above and a legend below; both are told where they begin, and the legend how wide the picture is.
+/// Panels of one size in two columns, with a title above and a legend below; both are told where they begin,
+/// and the legend how wide the picture is.
 pub(super) fn laid_out(
     title: &str,
     panels: usize,

@@ -1,6 +1,7 @@
-//! Obstacles in pixels: a firm line on the surface and, on the solid side, a light band with the short strokes by which drawings mark what is held
-//! fast; solids within a closed line are filled. Everything lies on the solid side of the surface, so that it hides no body that touches it.
-//! Lines come from `film` and `mesh`; everything is drawn on a [`Layer`] before the bodies.
+//! Obstacles in pixels: a firm line on the surface and, on the solid side, a light band with the short
+//! strokes by which drawings mark what is held fast; solids within a closed line are filled. Everything lies
+//! on the solid side of the surface, so that it hides no body that touches it. Lines come from `film` and
+//! `mesh`; everything is drawn on a [`Layer`] before the bodies.
 
 use super::colour::SOLID;
 use super::raster::{Layer, Shade, clip};
@@ -14,7 +15,8 @@ const STROKES: f64 = 7.0;
 const SURFACE: (f64, f32) = (1.8, 0.88);
 /// Thickness and strength of a stroke.
 const STROKE: (f64, f32) = (0.9, 0.5);
-/// Surfaces that come this close to a mirror line, pixels, are walls of the half model and no obstacles of the whole.
+/// Surfaces that come this close to a mirror line, pixels, are walls of the half model and no obstacles of
+/// the whole.
 const ON_MIRROR: f64 = 0.75;
 
 type Point = [f64; 2];
@@ -25,7 +27,8 @@ pub(super) struct Frame {
     /// From metres to pixels within the layer: `zero + scale · x`.
     pub(super) zero: Point,
     pub(super) scale: Point,
-    /// Lower and upper corner of what may be drawn on, pixels: the part of the plot on this side of the mirror lines.
+    /// Lower and upper corner of what may be drawn on, pixels: the part of the plot on this side of the
+    /// mirror lines.
     pub(super) region: [Point; 2],
     /// x and y of mirror lines, pixels.
     pub(super) mirrors: [Option<f64>; 2],
@@ -71,7 +74,8 @@ impl Drawn {
         if points.len() < 2 || !points.iter().flatten().all(|v| v.abs() < 1e12) {
             return None;
         }
-        // The solid is on the right in the model; y grows downwards in pixels, and a mirror image turns sides around.
+        // The solid is on the right in the model; y grows downwards in pixels, and a mirror image turns sides
+        // around.
         let side = if frame.scale[0] * frame.scale[1] < 0.0 { 1.0 } else { -1.0 };
         let normal = |w: &[Point]| {
             let along = direction(w[0], w[1]);
@@ -88,7 +92,8 @@ impl Drawn {
         Some(Self { points, normals, is_closed: line.is_closed(), is_filled, band })
     }
 
-    /// How far `depth` below the surface lies from vertex `vertex` of segment `k`: along the bisector, so that bands join without gap or overlap.
+    /// How far `depth` below the surface lies from vertex `vertex` of segment `k`: along the bisector, so
+    /// that bands join without gap or overlap.
     fn below(&self, k: usize, vertex: usize, depth: f64) -> Point {
         let (own, is_start) = (self.normals[k], vertex == k);
         let Some(neighbour) = self.neighbour(k, is_start) else { return own.map(|v| depth * v) };
@@ -146,7 +151,8 @@ impl Drawn {
         }
     }
 
-    /// The short strokes below the surface, at fixed places of the obstacle, so that they move and turn with it.
+    /// The short strokes below the surface, at fixed places of the obstacle, so that they move and turn with
+    /// it.
     fn strokes(&self, layer: &mut Layer, frame: &Frame) {
         let lengths = self.points.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]));
         let ends: Vec<f64> = std::iter::once(0.0)
@@ -178,7 +184,8 @@ impl Drawn {
         }
     }
 
-    /// A stroke from `base` on segment `k`, slanted backwards; it ends where it meets another part of the surface.
+    /// A stroke from `base` on segment `k`, slanted backwards; it ends where it meets another part of the
+    /// surface.
     fn stroke(&self, layer: &mut Layer, k: usize, base: Point, along: Point, frame: &Frame) {
         let normal = self.normals[k];
         let reach = [0, 1].map(|a| self.band * (normal[a] - along[a]));
@@ -216,7 +223,8 @@ fn crossing(base: Point, span: Point, a: Point, b: Point) -> Option<f64> {
     (t > -1e-6 && t < 1.0 && (0.0..=1.0).contains(&s)).then_some(t)
 }
 
-/// The part of a segment within a box (parametric clipping; Liang and Barsky 1984). An end that lies inside keeps its exact place.
+/// The part of a segment within a box (parametric clipping; Liang and Barsky 1984). An end that lies inside
+/// keeps its exact place.
 fn cut(a: Point, b: Point, [low, high]: [Point; 2]) -> Option<(Point, Point)> {
     let along = [b[0] - a[0], b[1] - a[1]];
     let (mut from, mut to) = (0.0f64, 1.0f64);

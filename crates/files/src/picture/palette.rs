@@ -5,7 +5,8 @@ use super::body::Look;
 use super::colour::{BORDER, GRID, INK, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAINT, WHITE, mix};
 use super::raster::Canvas;
 
-/// Colours of the film: the map itself, the map under element edges and outlines, the map fading into the white background, greys.
+/// Colours of the film: the map itself, the map under element edges and outlines, the map fading into the
+/// white background, greys.
 #[derive(Clone, Debug)]
 pub(super) struct Palette {
     colours: Vec<Rgb>,
@@ -47,7 +48,8 @@ impl Palette {
         palette
     }
 
-    /// The colours of some pictures. Their boxes in the cube of colours are halved until there are enough (median cut; Heckbert 1982).
+    /// The colours of some pictures. Their boxes in the cube of colours are halved until there are enough
+    /// (median cut; Heckbert 1982).
     pub(super) fn of(pictures: &[Canvas]) -> Self {
         let mut counts = vec![0u32; 1 << 18];
         for pixel in pictures.iter().flat_map(|picture| &picture.pixels) {
@@ -102,7 +104,8 @@ fn key(colour: Rgb) -> usize {
 pub(super) type Indices = Vec<u8>;
 
 impl Palette {
-    /// A canvas in the colours of the palette. `like`: another one and its indices; rows that are the same are not looked up again.
+    /// A canvas in the colours of the palette. `like`: another one and its indices; rows that are the same
+    /// are not looked up again.
     pub(super) fn indices(&mut self, canvas: &Canvas, like: Option<(&Canvas, &[u8])>) -> Indices {
         let mut indices = Vec::with_capacity(canvas.pixels.len());
         let mut last = (WHITE, self.index(WHITE));

@@ -99,7 +99,8 @@ impl Sheet {
         [on(0, 0.5 * WIDTH, 1.0), on(1, TOP + 0.5 * self.high, -1.0)]
     }
 
-    /// Adds the mark at a point of the picture and what stands below the plot; `note`: what else is to be known; `colour`: that of a part.
+    /// Adds the mark at a point of the picture and what stands below the plot; `note`: what else is to be
+    /// known; `colour`: that of a part.
     pub(super) fn finish(
         mut self,
         title: &str,

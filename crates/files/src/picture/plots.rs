@@ -6,11 +6,12 @@ use super::svg::{Curve, Group, Panel, chart};
 use super::{PictureError, write_whole};
 use std::path::Path;
 
-/// Writes `energy.svg` (all energies of the whole model over time) and `history.svg` (probe positions and forces of contacts and obstacles, in panels over one
-/// time axis) into `folder`.
+/// Writes `energy.svg` (all energies of the whole model over time) and `history.svg` (probe positions and
+/// forces of contacts and obstacles, in panels over one time axis) into `folder`.
 ///
-/// `columns`: names as in `history.csv`, one of them `time` (else the first is the time); `rows`: one value per column, SI. Values that are
-/// not finite leave gaps; missing columns leave a plot without curves. Energies and forces are per metre of depth, `of_whole_bodies` those of whole bodies.
+/// `columns`: names as in `history.csv`, one of them `time` (else the first is the time); `rows`: one value
+/// per column, SI. Values that are not finite leave gaps; missing columns leave a plot without curves.
+/// Energies and forces are per metre of depth, `of_whole_bodies` those of whole bodies.
 ///
 /// # Errors
 /// [`PictureError::Io`] if a file can't be written.
@@ -108,10 +109,12 @@ const CURVES_MAX: usize = 9;
 
 /// Components smaller than this beside the largest of their kind are round-off and not shown.
 const ROUND_OFF: f64 = 1e-9;
-/// Probes that move less than this fraction of the distances between them are shown by their displacements: their positions would be flat lines.
+/// Probes that move less than this fraction of the distances between them are shown by their displacements:
+/// their positions would be flat lines.
 const FLAT: f64 = 0.05;
 
-/// One quantity of probes, contacts or obstacles: its columns, with the names of their curves, by axis (z, then y first: the direction in which most things fall).
+/// One quantity of probes, contacts or obstacles: its columns, with the names of their curves, by axis (z,
+/// then y first: the direction in which most things fall).
 struct Quantity {
     name: &'static str,
     si: &'static str,

@@ -113,7 +113,8 @@ pub(super) enum Shade<'a> {
     Gradient { map: &'a [[f32; 3]], at: f32, along: [f32; 2], low: f32, high: f32 },
 }
 
-/// What is drawn of the bodies in one frame, before it is laid over the background: sums of colour × coverage, and lines.
+/// What is drawn of the bodies in one frame, before it is laid over the background: sums of colour ×
+/// coverage, and lines.
 ///
 /// Only what was touched is cleared and composed, so empty regions cost nothing.
 #[derive(Clone, Debug)]
@@ -249,8 +250,8 @@ impl Layer {
     }
 }
 
-/// Corners of a line with a thickness, half of which it reaches beyond its ends (so that a chain of short ones has no gaps); none for a line
-/// without length.
+/// Corners of a line with a thickness, half of which it reaches beyond its ends (so that a chain of short
+/// ones has no gaps); none for a line without length.
 fn thickened(from: [f32; 2], to: [f32; 2], thick: f32) -> Option<[[f32; 2]; 4]> {
     let along = [to[0] - from[0], to[1] - from[1]];
     let length = along[0].hypot(along[1]);
@@ -311,7 +312,8 @@ fn area(polygon: &[[f32; 2]]) -> f32 {
         .sum()
 }
 
-/// The part of `polygon` between the corners `low` and `high` (one side after the other; Sutherland and Hodgman 1974).
+/// The part of `polygon` between the corners `low` and `high` (one side after the other; Sutherland and
+/// Hodgman 1974).
 pub(super) fn clip(polygon: &[[f64; 2]], low: [f64; 2], high: [f64; 2], out: &mut Vec<[f64; 2]>) {
     let mut points = polygon.to_vec();
     for (axis, bound, keep_below) in [(0, low[0], false), (0, high[0], true), (1, low[1], false), (1, high[1], true)] {

@@ -19,8 +19,8 @@ impl Unit {
 const PREFIXES: [(i32, &str); 10] =
     [(-12, "p"), (-9, "n"), (-6, "µ"), (-3, "m"), (0, ""), (3, "k"), (6, "M"), (9, "G"), (12, "T"), (15, "P")];
 
-/// The unit for SI values up to `magnitude`, as engineers write them: mm up to some metres, MPa for everything between soft and hard,
-/// else the prefix that leaves one to three digits before the point.
+/// The unit for SI values up to `magnitude`, as engineers write them: mm up to some metres, MPa for
+/// everything between soft and hard, else the prefix that leaves one to three digits before the point.
 pub(crate) fn unit(si: &str, magnitude: f64) -> Unit {
     let magnitude = magnitude.abs();
     if !(magnitude.is_finite() && magnitude > 0.0) {
@@ -67,7 +67,8 @@ pub(crate) struct Ticks {
 }
 
 impl Ticks {
-    /// Label of a tick: as many decimals as the step needs, a true minus sign, powers of ten when it would get long.
+    /// Label of a tick: as many decimals as the step needs, a true minus sign, powers of ten when it would
+    /// get long.
     pub(crate) fn label(&self, value: f64) -> String {
         number(value, self.step)
     }
@@ -77,7 +78,8 @@ impl Ticks {
     }
 }
 
-/// Round ticks (steps of 1, 2, 2.5 or 5 times a power of ten) within `low..=high`, at most `count` of them (at least 2 are allowed for).
+/// Round ticks (steps of 1, 2, 2.5 or 5 times a power of ten) within `low..=high`, at most `count` of them
+/// (at least 2 are allowed for).
 pub(crate) fn ticks(low: f64, high: f64, count: usize) -> Ticks {
     let span = high - low;
     if !((1e-200..1e200).contains(&span) && low.is_finite()) || span < 1e-13 * low.abs().max(high.abs()) {

@@ -1,5 +1,6 @@
-//! Pixel pictures of the plane: the plot with its axes and grid, drawn once on a `sheet`; then one frame after the other on a copy of it.
-//! `film` and `mesh` say what there is to show; obstacles and bodies are drawn by `obstacle` and `body`, the canvas goes to `animation` or to a PNG.
+//! Pixel pictures of the plane: the plot with its axes and grid, drawn once on a `sheet`; then one frame
+//! after the other on a copy of it. `film` and `mesh` say what there is to show; obstacles and bodies are
+//! drawn by `obstacle` and `body`, the canvas goes to `animation` or to a PNG.
 
 use super::body::{Look, Mesh, Values};
 use super::colour::{BORDER, GRID, TEXT, TEXT_FAINT};
@@ -52,7 +53,8 @@ pub(super) struct Moment<'a> {
 }
 
 impl Scene {
-    /// Lays out and draws what does not change. The picture has the wanted width; it is as high as the bodies need, at most the wanted height.
+    /// Lays out and draws what does not change. The picture has the wanted width; it is as high as the bodies
+    /// need, at most the wanted height.
     pub(super) fn new(plan: &Plan<'_>) -> Self {
         let (width, height_max, font) = measures(plan.size);
         let view = padded(plan.view);
@@ -60,7 +62,8 @@ impl Scene {
         let top = (4.6 * font).round();
         let below = (3.9 * font).round();
         let right = (width - key_width(plan, font, width)).round();
-        // The width of the labels on the y axis follows from the layout and the layout from it: the second round settles.
+        // The width of the labels on the y axis follows from the layout and the layout from it: the second
+        // round settles.
         let mut left = (4.0 * font).round();
         let mut axes = None;
         for _ in 0..2 {
@@ -126,7 +129,8 @@ impl Scene {
         self.sheet.note(canvas, moment.note);
     }
 
-    /// Where obstacles are drawn in one of the mirror images: on its side of the mirror lines, or a floor would be drawn twice.
+    /// Where obstacles are drawn in one of the mirror images: on its side of the mirror lines, or a floor
+    /// would be drawn twice.
     fn obstacle_frame(&self, sign: [f64; 2]) -> obstacle::Frame {
         let zero = self.camera.pixel([0.0, 0.0]);
         let zero = [0, 1].map(|k| zero[k] - self.sheet.plot[k] as f64);

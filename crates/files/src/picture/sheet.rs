@@ -1,5 +1,6 @@
-//! The sheet of a pixel picture: what stands around the plot of a model of the plane or of space. Title, note, colour bar or names of parts, all drawn once.
-//! `film` and `mesh` say what there is; `scene` and `space` lay out the plot and draw in it.
+//! The sheet of a pixel picture: what stands around the plot of a model of the plane or of space. Title,
+//! note, colour bar or names of parts, all drawn once. `film` and `mesh` say what there is; `scene` and
+//! `space` lay out the plot and draw in it.
 
 use super::colour::{self, INK, MAP, TEXT, TEXT_FAINT};
 use super::raster::Canvas;
@@ -11,7 +12,8 @@ use super::text::{self, Align, Pen, Weight};
 pub(super) enum Key {
     /// Nothing.
     Empty,
-    /// A colour bar: name of the field, SI unit, range, whether values lie below or above it, and names of the values 0, 1, ... if they are states.
+    /// A colour bar: name of the field, SI unit, range, whether values lie below or above it, and names of
+    /// the values 0, 1, ... if they are states.
     Bar { label: String, si: &'static str, range: [f64; 2], beyond: [bool; 2], states: &'static [&'static str] },
     /// Names of parts.
     Parts(Vec<String>),
@@ -26,7 +28,8 @@ pub(super) struct Plan<'a> {
     pub(super) sides: [f64; 2],
     /// Largest size, pixels.
     pub(super) size: [u32; 2],
-    /// Lower and upper corner of everything that must be seen, m, mirrored bodies included; in space to the right and upwards in the picture.
+    /// Lower and upper corner of everything that must be seen, m, mirrored bodies included; in space to the
+    /// right and upwards in the picture.
     pub(super) view: [[f64; 2]; 2],
     pub(super) key: Key,
     /// The longest text that stands at the upper right.

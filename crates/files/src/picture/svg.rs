@@ -1,5 +1,6 @@
-//! Line charts as SVG: panels one above the other over one axis or several, names at the ends of the curves, right of the plot.
-//! Panels come from `plots` and `sweep`; the text goes to a file. Any viewer's sans-serif font will do: room is kept for the widest in use.
+//! Line charts as SVG: panels one above the other over one axis or several, names at the ends of the curves,
+//! right of the plot. Panels come from `plots` and `sweep`; the text goes to a file. Any viewer's sans-serif
+//! font will do: room is kept for the widest in use.
 
 use super::colour::{self, BORDER, GRID, Rgb, TEXT, TEXT_FAINT};
 use super::scale::{Ticks, Unit, number, ticks, unit};
@@ -273,7 +274,8 @@ fn draw_curves(out: &mut String, panel: &Panel, frame: &Frame, plot: [f64; 4], x
             ends.push((frame.y(last[1], plot), curve, style));
         }
     }
-    // Names stand where their curves end, moved apart where these are close; a short line leads from one to the other.
+    // Names stand where their curves end, moved apart where these are close; a short line leads from one to
+    // the other.
     let wanted: Vec<f64> = ends.iter().map(|(y, ..)| *y).collect();
     for (y, (end, curve, style)) in apart(&wanted, LINE, plot[1] + 2.0, plot[3] - 2.0).into_iter().zip(&ends) {
         let right = plot[2];
@@ -284,7 +286,8 @@ fn draw_curves(out: &mut String, panel: &Panel, frame: &Frame, plot: [f64; 4], x
     }
 }
 
-/// Places at least `distance` apart, close to the wanted ones and in their order, within `low..=high` if there is room.
+/// Places at least `distance` apart, close to the wanted ones and in their order, within `low..=high` if
+/// there is room.
 fn apart(wanted: &[f64], distance: f64, low: f64, high: f64) -> Vec<f64> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by(|a, b| wanted[*a].total_cmp(&wanted[*b]));
@@ -324,7 +327,8 @@ fn apart(wanted: &[f64], distance: f64, low: f64, high: f64) -> Vec<f64> {
     result
 }
 
-/// At most `most` points that look the same: of each bucket the lowest and the highest in their order, first and last always; gaps stay.
+/// At most `most` points that look the same: of each bucket the lowest and the highest in their order, first
+/// and last always; gaps stay.
 pub(crate) fn thinned(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
     if points.len() <= most {
         return points.to_vec();

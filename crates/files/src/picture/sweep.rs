@@ -1,7 +1,8 @@
 //! Plot of a sweep: outputs over inputs.
 //!
-//! Inputs and outputs come from the table of a sweep; this file chooses panels and curves, `svg` draws them. One input: a panel for each output. Two inputs of which
-//! every value meets every other one: the same with a curve for each value of the second. Else: the first output over each input.
+//! Inputs and outputs come from the table of a sweep; this file chooses panels and curves, `svg` draws them.
+//! One input: a panel for each output. Two inputs of which every value meets every other one: the same with a
+//! curve for each value of the second. Else: the first output over each input.
 
 use super::colour::DISTINCT;
 use super::scale::{number, unit};
@@ -37,7 +38,8 @@ pub(crate) struct Run<'a> {
 
 /// Panels of one plot.
 const PANELS_MAX: usize = 6;
-/// Numbers smaller than this beside the largest of their unit, and changes smaller than this beside the numbers, are round-off.
+/// Numbers smaller than this beside the largest of their unit, and changes smaller than this beside the
+/// numbers, are round-off.
 const ROUND_OFF: f64 = 1e-9;
 /// Curves of one panel.
 const CURVES_MAX: usize = 9;

@@ -14,7 +14,8 @@ pub(super) const fn nothing<const D: usize>() -> Extent<D> {
 const WHOLE: f64 = 2.0;
 /// Obstacles count as far as this fraction of the bodies' size away on each side.
 const ROOM: f64 = 0.5;
-/// Of other obstacles the points below nodes are shown that are closer than this fraction of the bodies' size.
+/// Of other obstacles the points below nodes are shown that are closer than this fraction of the bodies'
+/// size.
 const NEAR: f64 = 0.35;
 /// Nodes times segments that are looked at in one frame.
 const LOOKS_MAX: usize = 20_000;
@@ -76,7 +77,8 @@ pub(super) fn room(bodies: Extent, mirror: [bool; 2], sides: [f64; 2]) -> Extent
     [low, high]
 }
 
-/// What is to be seen of obstacles within `room` of `bodies`, with the nodes of one frame. A long line adds no more than its points near the bodies.
+/// What is to be seen of obstacles within `room` of `bodies`, with the nodes of one frame. A long line adds
+/// no more than its points near the bodies.
 pub(super) fn obstacles(lines: &[Line], nodes: impl ExactSizeIterator<Item = [f64; 2]> + Clone, bodies: Extent, room: Extent) -> Extent {
     let large = size(bodies);
     let mut seen = NOTHING;

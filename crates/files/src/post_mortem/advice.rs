@@ -1,6 +1,7 @@
 //! What to change in the model after a failure: keys, with what this failure says about them.
 //!
-//! General causes and cures are in the catalogue of messages; here is only what follows from the culprit, its history, and what acts on it.
+//! General causes and cures are in the catalogue of messages; here is only what follows from the culprit, its
+//! history, and what acts on it.
 
 use super::Failed;
 use super::page::shown;

@@ -1,7 +1,9 @@
-//! The second pass of a run that has failed: from a state that is near to the failure once more, step by step, with the same bits.
+//! The second pass of a run that has failed: from a state that is near to the failure once more, step by
+//! step, with the same bits.
 //!
-//! Where the state comes from: the nearest checkpoint on the disk, or the states that the run kept in memory, or time zero where the run was short. It serves twice: what was seen goes to the page, and
-//! the state of the last good step to the checkpoints of runs that have some.
+//! Where the state comes from: the nearest checkpoint on the disk, or the states that the run kept in memory,
+//! or time zero where the run was short. It serves twice: what was seen goes to the page, and the state of
+//! the last good step to the checkpoints of runs that have some.
 
 use super::Failed;
 use crate::checkpoint::{generations, newest};
@@ -64,7 +66,8 @@ struct Pass {
 }
 
 impl Failed<'_> {
-    /// Goes to the failure once more, where that can be done in sensible time, and looks at the culprit. `goes_on` is asked now and then, and may say no.
+    /// Goes to the failure once more, where that can be done in sensible time, and looks at the culprit.
+    /// `goes_on` is asked now and then, and may say no.
     #[must_use]
     pub fn findings(&self, mut goes_on: impl FnMut() -> bool) -> Findings {
         let suspect = self.simulation.suspect(self.error);
@@ -111,7 +114,8 @@ impl Failed<'_> {
         findings
     }
 
-    /// Where energies went wrong nobody is to blame until the worst step is known; then the run goes there a third time.
+    /// Where energies went wrong nobody is to blame until the worst step is known; then the run goes there a
+    /// third time.
     fn blame_energies(&self, from: &From, findings: &mut Findings, goes_on: &mut impl FnMut() -> bool) {
         let Some(jump) = findings.trace.jump.filter(|_| findings.suspect.is_nobody()) else { return };
         let step = self.simulation.steps();

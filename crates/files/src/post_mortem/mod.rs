@@ -1,7 +1,8 @@
 //! The post-mortem of a run that failed: `post-mortem/` in its result folder, a page and its pictures.
 //!
-//! The failed simulation and what the second pass saw (`again.rs`) come from the solver; `advice.rs` says which keys to change, `page.rs` writes the text, `plots.rs` chooses curves, and
-//! [`crate::picture`] draws. Failures at the start, before there is a simulation, are in `start.rs`.
+//! The failed simulation and what the second pass saw (`again.rs`) come from the solver; `advice.rs` says
+//! which keys to change, `page.rs` writes the text, `plots.rs` chooses curves, and [`crate::picture`] draws.
+//! Failures at the start, before there is a simulation, are in `start.rs`.
 
 mod advice;
 mod again;

@@ -1,4 +1,5 @@
-//! The page: what failed, where, how it came, and what to change; Markdown with the pictures that lie beside it.
+//! The page: what failed, where, how it came, and what to change; Markdown with the pictures that lie beside
+//! it.
 
 use super::advice::{Advice, Case, key_now};
 use super::again::Findings;

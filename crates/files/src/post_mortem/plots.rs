@@ -33,7 +33,8 @@ fn panel(name: &str, si: &'static str, from_zero: bool, curves: Vec<Curve>) -> P
     Panel { name: name.into(), si, from_zero, height, curves, remark: String::new() }
 }
 
-/// The culprit's step, shape, strains, stresses, energy, speed and contact; `None` where there are no two steps.
+/// The culprit's step, shape, strains, stresses, energy, speed and contact; `None` where there are no two
+/// steps.
 pub(super) fn culprit(title: &str, trace: &Trace, failed: u64, is_of_whole_bodies: bool) -> Option<String> {
     let of = |value: &dyn Fn(&Vitals) -> f64| -> Vec<[f64; 2]> {
         trace.moments.iter().map(|moment| [moment.step as f64 - failed as f64, value(&moment.vitals)]).collect()
@@ -90,7 +91,8 @@ const WHOLE: [(&str, Rgb); 9] = [
 /// Curves of parts and contacts in one panel.
 const MOST: usize = 6;
 
-/// All energies, how much the sum of all is off, and the energies of parts and contacts that changed most; `None` where there are no two steps.
+/// All energies, how much the sum of all is off, and the energies of parts and contacts that changed most;
+/// `None` where there are no two steps.
 pub(super) fn energies(title: &str, trace: &Trace, failed: u64, is_of_whole_bodies: bool) -> Option<String> {
     let si = if is_of_whole_bodies { "J" } else { "J/m" };
     let closed: Vec<&Moment> = trace.moments.iter().filter(|moment| !moment.row.is_empty()).collect();
@@ -118,7 +120,8 @@ pub(super) fn energies(title: &str, trace: &Trace, failed: u64, is_of_whole_bodi
     (closed.len() > 1).then(|| over_steps(title, panels)).flatten()
 }
 
-/// By how much each energy of a part or contact changed between two of the steps whose books are closed, the largest change first: change, column.
+/// By how much each energy of a part or contact changed between two of the steps whose books are closed, the
+/// largest change first: change, column.
 pub(super) fn changes(trace: &Trace, [from, to]: [usize; 2]) -> Vec<(f64, usize)> {
     let closed: Vec<&Moment> = trace.moments.iter().filter(|moment| !moment.row.is_empty()).collect();
     let (Some(from), Some(to)) = (closed.get(from), closed.get(to)) else { return Vec::new() };

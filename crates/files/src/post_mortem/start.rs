@@ -17,7 +17,8 @@ use embate_solver::simulation::Options;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The page of a model that can't begin because of what its numbers need: more mass than its limit, more memory than there may be; `None` if that is not among the faults.
+/// The page of a model that can't begin because of what its numbers need: more mass than its limit, more
+/// memory than there may be; `None` if that is not among the faults.
 ///
 /// # Errors
 /// What the system says.

@@ -1,4 +1,5 @@
-//! The frame of the page, tables and figures. Whatever comes from a file goes through [`escape`]; there are no scripts and no addresses.
+//! The frame of the page, tables and figures. Whatever comes from a file goes through [`escape`]; there are
+//! no scripts and no addresses.
 
 pub(crate) use crate::picture::svg::escape;
 

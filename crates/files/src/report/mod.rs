@@ -1,7 +1,9 @@
-//! The report of a run: one HTML file with everything in it, good enough to send to a colleague (`embate report`).
+//! The report of a run: one HTML file with everything in it, good enough to send to a colleague
+//! (`embate report`).
 //!
-//! What a run left is read here (`Left`), from `summary.json`, `run.json` and the history; `model.rs` tells what ran, `outcome.rs` how it ended and its figures,
-//! `energies.rs` the books, `pictures.rs` puts pictures and plots in, `html.rs` has the frame of the page and escapes all that comes from files.
+//! What a run left is read here (`Left`), from `summary.json`, `run.json` and the history; `model.rs` tells
+//! what ran, `outcome.rs` how it ended and its figures, `energies.rs` the books, `pictures.rs` puts pictures
+//! and plots in, `html.rs` has the frame of the page and escapes all that comes from files.
 
 mod energies;
 pub(crate) mod html;
@@ -86,10 +88,12 @@ impl Left {
     }
 }
 
-/// The report of a result folder, finished, failed, stopped or not at its end yet, as the text of an HTML file.
+/// The report of a result folder, finished, failed, stopped or not at its end yet, as the text of an HTML
+/// file.
 ///
 /// # Errors
-/// [`ResultsError::NoRun`]: nothing of a run is there; [`ResultsError::Damaged`] with the line of a file that can't be read; what the system says.
+/// [`ResultsError::NoRun`]: nothing of a run is there; [`ResultsError::Damaged`] with the line of a file that
+/// can't be read; what the system says.
 pub fn page(folder: &Path) -> Result<String, ResultsError> {
     let left = Left::read(folder)?;
     let sections = [

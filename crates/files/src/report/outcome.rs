@@ -1,4 +1,5 @@
-//! How a run ended: status, command, warnings and error with what the catalogue says of them, its figures, and how the report was made.
+//! How a run ended: status, command, warnings and error with what the catalogue says of them, its figures,
+//! and how the report was made.
 
 use super::Left;
 use super::html::{escape, facts, section};
@@ -45,7 +46,8 @@ pub(super) fn head(left: &Left) -> String {
 fn date(time: SystemTime) -> String {
     let seconds = time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let (days, of_day) = (seconds / 86_400, seconds % 86_400);
-    // Days since 1 March of the year 0, in eras of 400 years: H. Hinnant, "chrono-compatible low-level date algorithms".
+    // Days since 1 March of the year 0, in eras of 400 years: H. Hinnant, "chrono-compatible low-level date
+    // algorithms".
     let shifted = days + 719_468;
     let (era, day) = (shifted / 146_097, shifted % 146_097);
     let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;

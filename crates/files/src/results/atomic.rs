@@ -1,7 +1,8 @@
-//! Whole files or none: everything is written as `NAME.part` and renamed when it is complete. This is the only place where such files are
-//! made, and none is made through a link ([`plain`]).
+//! Whole files or none: everything is written as `NAME.part` and renamed when it is complete. This is the
+//! only place where such files are made, and none is made through a link ([`plain`]).
 //!
-//! [`write_whole`] takes the bytes of a file at once, `write_whole_in_pieces` writes it from one end to the other; [`PartFile`] grows while a run goes on.
+//! [`write_whole`] takes the bytes of a file at once, `write_whole_in_pieces` writes it from one end to the
+//! other; [`PartFile`] grows while a run goes on.
 
 use super::ResultsError;
 use crate::plain;
@@ -22,7 +23,8 @@ pub(crate) fn part_path(path: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Writes a file in one go: all of `bytes` under the name `path`, or nothing; an older file of that name is replaced.
+/// Writes a file in one go: all of `bytes` under the name `path`, or nothing; an older file of that name is
+/// replaced.
 ///
 /// # Errors
 /// [`ResultsError::File`]; no `.part` file is left behind.
@@ -43,11 +45,12 @@ pub(super) fn write_whole_in_pieces(path: &Path, write: impl FnOnce(&mut BufWrit
     .map_err(|error| in_use_or("write", path, error))
 }
 
-/// What all files that are written at once come to: `write` gets the new `.part` file and gives it back complete; it takes the place of
-/// what has the name, also of a link.
+/// What all files that are written at once come to: `write` gets the new `.part` file and gives it back
+/// complete; it takes the place of what has the name, also of a link.
 ///
 /// # Errors
-/// What `write` or the system says, and what is no plain file under the name of the `.part` file; nothing of the new file is left.
+/// What `write` or the system says, and what is no plain file under the name of the `.part` file; nothing of
+/// the new file is left.
 pub(crate) fn write_whole_by<E: From<io::Error>>(path: &Path, write: impl FnOnce(File) -> Result<File, E>) -> Result<(), E> {
     let part = part_path(path);
     let file = plain::create(&part)?;
@@ -68,12 +71,14 @@ fn in_use_or(action: &'static str, path: &Path, error: io::Error) -> ResultsErro
     }
 }
 
-/// Two runs never write to one file, also where one of them goes on with it. Ends with the process, whatever ends that.
+/// Two runs never write to one file, also where one of them goes on with it. Ends with the process, whatever
+/// ends that.
 fn locked(file: &File, path: &Path) -> Result<(), ResultsError> {
     plain::hold(file).map_err(|error| in_use_or("write", path, error))
 }
 
-/// A file that grows record by record and gets its name at the end. After a failed write it is cut back to the last whole record.
+/// A file that grows record by record and gets its name at the end. After a failed write it is cut back to
+/// the last whole record.
 #[derive(Debug)]
 pub(super) struct PartFile {
     path: PathBuf,
@@ -99,7 +104,8 @@ impl PartFile {
         Ok(Self { path: path.to_path_buf(), file, length: 0, sum: Crc::new() })
     }
 
-    /// Goes on with `path`, complete or not, from where it was marked: what came later is cut off. With it comes what is there.
+    /// Goes on with `path`, complete or not, from where it was marked: what came later is cut off. With it
+    /// comes what is there.
     pub(super) fn reopen(path: &Path, mark: Mark) -> Result<(Self, Vec<u8>), ResultsError> {
         let part = part_path(path);
         if fs::symlink_metadata(&part).is_err() && fs::symlink_metadata(path).is_ok() {

@@ -1,6 +1,8 @@
-//! History and summary of a run that was kept in memory: for many short runs, whose frames and pictures nobody looks at.
+//! History and summary of a run that was kept in memory: for many short runs, whose frames and pictures
+//! nobody looks at.
 //!
-//! Rows come from `sweep`; the files are those of a [`Recorder`](super::Recorder) without frames. [`read_figures`] reads them back.
+//! Rows come from `sweep`; the files are those of a [`Recorder`](super::Recorder) without frames.
+//! [`read_figures`] reads them back.
 
 use super::ResultsError;
 use super::atomic::write_whole;
@@ -31,7 +33,8 @@ pub(crate) fn write_figures(folder: &Path, columns: &[String], rows: &[Vec<f64>]
 /// What the history holds, and the summary.
 pub(crate) type Figures = (Vec<String>, Vec<Vec<f64>>, serde_json::Value);
 
-/// Columns and rows of `history.csv`, and the contents of `summary.json`; `None` where they are not all there.
+/// Columns and rows of `history.csv`, and the contents of `summary.json`; `None` where they are not all
+/// there.
 pub(crate) fn read_figures(folder: &Path) -> Option<Figures> {
     let summary = serde_json::from_str(&plain::read_to_string(&folder.join("summary.json")).ok()?).ok()?;
     let history = plain::read_to_string(&folder.join("history.csv")).ok()?;

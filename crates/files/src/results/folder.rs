@@ -40,7 +40,8 @@ impl ResultFolder {
         }
     }
 
-    /// Refuses a link where the program chooses the name of a folder; one that the user has named may be a link.
+    /// Refuses a link where the program chooses the name of a folder; one that the user has named may be a
+    /// link.
     ///
     /// # Errors
     /// [`ResultsError::File`].
@@ -48,8 +49,8 @@ impl ResultFolder {
         plain::is_folder(path).map(drop).map_err(ResultsError::file("write into", path))
     }
 
-    /// Makes the folder ready. With `force`, results of an earlier run are removed: only files with the names that embate
-    /// gives, `.part` included; anything else in the folder stays.
+    /// Makes the folder ready. With `force`, results of an earlier run are removed: only files with the names
+    /// that embate gives, `.part` included; anything else in the folder stays.
     ///
     /// # Errors
     /// As [`ResultFolder::refuse_existing`], and [`ResultsError::InUse`].
@@ -82,8 +83,8 @@ impl ResultFolder {
         Ok(Self { path: path.to_path_buf(), _lock: Arc::new(FolderLock::take(path)?) })
     }
 
-    /// Results that go on from a checkpoint of `step`, with so many `frames`, and with `hashes` or not: what came later is removed, and
-    /// what only a run that has ended has.
+    /// Results that go on from a checkpoint of `step`, with so many `frames`, and with `hashes` or not: what
+    /// came later is removed, and what only a run that has ended has.
     ///
     /// # Errors
     /// What the system says.
@@ -107,7 +108,8 @@ impl ResultFolder {
         plain::folder(&folder).map_err(ResultsError::file("create", &folder))
     }
 
-    /// Takes the results of a run away: files with the names that embate gives, and the folder if nothing else is in it.
+    /// Takes the results of a run away: files with the names that embate gives, and the folder if nothing
+    /// else is in it.
     ///
     /// # Errors
     /// As [`ResultFolder::create`]; a link is refused.

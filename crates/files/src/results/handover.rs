@@ -1,7 +1,8 @@
 //! From the run to the writer: in turn, or on a thread of its own.
 //!
-//! With one thread the writer works when it is called, and the run waits. With more it has a thread: the run puts its jobs into a bounded queue and goes on. Errors
-//! come back with the next call, or at the end; a panic of the writer is an error like others.
+//! With one thread the writer works when it is called, and the run waits. With more it has a thread: the run
+//! puts its jobs into a bounded queue and goes on. Errors come back with the next call, or at the end; a
+//! panic of the writer is an error like others.
 
 use super::ResultsError;
 use super::queue::Queue;
@@ -138,8 +139,8 @@ impl Handover {
         }
     }
 
-    /// Hands over a job with what is shown, of which each piece is made when it is written; `false`: the writer works beside the run or needs all of it, and nothing
-    /// was done.
+    /// Hands over a job with what is shown, of which each piece is made when it is written; `false`: the
+    /// writer works beside the run or needs all of it, and nothing was done.
     pub(super) fn show(&mut self, job: impl FnOnce() -> Job, shown: &dyn Shown) -> bool {
         let Place::InTurn(desk) = &mut self.place else { return false };
         if !desk.writer.takes_pieces() {

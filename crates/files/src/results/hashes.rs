@@ -1,7 +1,9 @@
-//! `hashes.csv`: what the states of a run were every so many steps, as hashes of the whole and of each part, so that two runs can be held against each other later.
+//! `hashes.csv`: what the states of a run were every so many steps, as hashes of the whole and of each part,
+//! so that two runs can be held against each other later.
 //!
-//! Lines come from the simulation through the recorder, and grow as those of the history. Each ends with a check sum of what stands before it: a line that was changed is told from a run that was
-//! another. [`HashTable::read`] gives them to `embate diff`, also those of a run that was killed.
+//! Lines come from the simulation through the recorder, and grow as those of the history. Each ends with a
+//! check sum of what stands before it: a line that was changed is told from a run that was another.
+//! [`HashTable::read`] gives them to `embate diff`, also those of a run that was killed.
 
 use super::atomic::part_path;
 use super::csv::{append_number, append_text};

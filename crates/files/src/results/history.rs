@@ -1,6 +1,7 @@
 //! `history.csv` read back, also the growing `history.csv.part` of a run that goes on.
 //!
-//! Columns and rows come from the result folder; they go to `embate report` and to whoever follows a run. [`unit`] tells what the columns are in.
+//! Columns and rows come from the result folder; they go to `embate report` and to whoever follows a run.
+//! [`unit`] tells what the columns are in.
 
 use super::ResultsError;
 use super::atomic::part_path;
@@ -81,8 +82,9 @@ impl History {
         self.values.get(place).map(Vec::as_slice)
     }
 
-    /// At most so many rows, two at least: the first, the last, and of equal stretches between them the row that stands out most from the mean of its
-    /// stretch in any column, measured by what that column spans, so that a peak stays.
+    /// At most so many rows, two at least: the first, the last, and of equal stretches between them the row
+    /// that stands out most from the mean of its stretch in any column, measured by what that column spans,
+    /// so that a peak stays.
     #[must_use]
     pub fn thinned(&self, rows: usize) -> Self {
         let all = self.rows();
@@ -146,8 +148,8 @@ fn shortened(text: &str) -> String {
     if text.chars().count() > 30 { text.chars().take(29).chain(['…']).collect() } else { text.to_string() }
 }
 
-/// Unit of a column of the history; energies and forces are per metre of depth, or `of_whole_bodies` (space, axisymmetric). Empty: a number without unit, or a
-/// column of another program.
+/// Unit of a column of the history; energies and forces are per metre of depth, or `of_whole_bodies` (space,
+/// axisymmetric). Empty: a number without unit, or a column of another program.
 #[must_use]
 pub fn unit(column: &str, of_whole_bodies: bool) -> &'static str {
     let per_depth = |plane, whole| if of_whole_bodies { whole } else { plane };

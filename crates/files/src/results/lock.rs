@@ -1,7 +1,7 @@
 //! The lock of a result folder: one run at a time writes into it.
 //!
-//! The lock is one of the system's on the file `run.lock`, so it ends with the process, whatever ends that; the file itself means nothing.
-//! On Unix it goes when the lock is given back.
+//! The lock is one of the system's on the file `run.lock`, so it ends with the process, whatever ends that;
+//! the file itself means nothing. On Unix it goes when the lock is given back.
 
 use super::ResultsError;
 use crate::plain;

@@ -1,8 +1,10 @@
 //! The result folder of a run: which files lie in it, how they get there, and who writes them.
 //!
-//! A [`Recorder`] listens to a simulation and hands frames and rows over (`handover`, `queue`) to the writer, which fills a [`ResultFolder`] while the run goes on:
-//! `history.csv` row by row, `hashes.csv` likewise, `fields/frame-*.vtu` and `fields.pvd`, the pictures, and last of all `summary.json`. Every file is written as `NAME.part` and renamed when it is
-//! complete, so a file under its final name is never half-written, whatever happens to the run or the machine.
+//! A [`Recorder`] listens to a simulation and hands frames and rows over (`handover`, `queue`) to the writer,
+//! which fills a [`ResultFolder`] while the run goes on: `history.csv` row by row, `hashes.csv` likewise,
+//! `fields/frame-*.vtu` and `fields.pvd`, the pictures, and last of all `summary.json`. Every file is written
+//! as `NAME.part` and renamed when it is complete, so a file under its final name is never half-written,
+//! whatever happens to the run or the machine.
 
 mod atomic;
 mod csv;

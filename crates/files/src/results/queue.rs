@@ -1,6 +1,7 @@
 //! The queue between the run and its writer: bounded in memory, and nothing in it is ever dropped.
 //!
-//! The run puts jobs in, and waits where there is no room; the writer takes them out in their order and gives back what it is done with, buffers and all.
+//! The run puts jobs in, and waits where there is no room; the writer takes them out in their order and gives
+//! back what it is done with, buffers and all.
 
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -76,7 +77,8 @@ impl<T> Queue<T> {
         self.changed.notify_all();
     }
 
-    /// Lets `work` do all jobs in their order until the queue is closed and empty; it says whether the job's buffers are of use.
+    /// Lets `work` do all jobs in their order until the queue is closed and empty; it says whether the job's
+    /// buffers are of use.
     pub(super) fn serve(&self, mut work: impl FnMut(&mut T) -> bool) {
         loop {
             let mut state = self.state();

@@ -1,4 +1,5 @@
-//! `run.json`: what ran, so that it can be known, and run again, when the model has changed since: the version of the program, where the model came from, and what it was, key by key.
+//! `run.json`: what ran, so that it can be known, and run again, when the model has changed since: the
+//! version of the program, where the model came from, and what it was, key by key.
 //!
 //! Written when a run begins, and again when it goes on. Read by `embate diff`.
 

@@ -1,7 +1,8 @@
 //! The listener of a run: hands what is to be written to the writer, and closes the results at the end.
 //!
-//! Frames, rows and progress come from the simulation through [`Observer`]; frames and rows go to the writer, which works beside the run where the run has more than
-//! one thread, progress goes to the caller's display. [`Recorder::finish`] completes the files, `summary.json` last of all.
+//! Frames, rows and progress come from the simulation through [`Observer`]; frames and rows go to the writer,
+//! which works beside the run where the run has more than one thread, progress goes to the caller's display.
+//! [`Recorder::finish`] completes the files, `summary.json` last of all.
 
 use super::ResultsError;
 use super::atomic::write_whole;
@@ -54,7 +55,8 @@ pub struct Recorder<'a> {
 /// When states are kept.
 #[derive(Clone, Debug, Default)]
 pub struct Checkpoints {
-    /// Wall time between two; `None`: only those that are due by their number of steps, and one when the run is stopped.
+    /// Wall time between two; `None`: only those that are due by their number of steps, and one when the run
+    /// is stopped.
     pub pause: Option<Duration>,
     /// Where the model came from.
     pub origin: Origin,
@@ -80,8 +82,9 @@ pub struct Outcome {
 impl<'a> Recorder<'a> {
     /// A recorder of a run of `model` with the history columns and the cells of its simulation.
     ///
-    /// `threads`: as many as the run was given. With one, everything is written in turn with the steps; with more, a writer works beside them, and as many threads
-    /// pack fields and draw pictures. The files are the same.
+    /// `threads`: as many as the run was given. With one, everything is written in turn with the steps; with
+    /// more, a writer works beside them, and as many threads pack fields and draw pictures. The files are the
+    /// same.
     ///
     /// # Errors
     /// [`ResultsError`] when the history can't be started.
@@ -116,7 +119,8 @@ impl<'a> Recorder<'a> {
         Ok(Self::of(writer, (model, part_names), threads, checkpoints, on_progress))
     }
 
-    /// One that goes on with the results in `path` where the checkpoint `past` was written; `frame` is the state there.
+    /// One that goes on with the results in `path` where the checkpoint `past` was written; `frame` is the
+    /// state there.
     ///
     /// # Errors
     /// [`ResultsError`] when the results are not those of the checkpoint; then nothing has changed.
@@ -173,8 +177,8 @@ impl<'a> Recorder<'a> {
         self.post_mortem = Some(post_mortem::PAGE.into());
     }
 
-    /// Completes all files. `error` is the message of a failed run, `user_cpu_seconds` tells the process's user CPU time.
-    /// What can be written is written even when something else can't.
+    /// Completes all files. `error` is the message of a failed run, `user_cpu_seconds` tells the process's
+    /// user CPU time. What can be written is written even when something else can't.
     #[must_use]
     pub fn finish(mut self, error: Option<String>, summary: &Summary, user_cpu_seconds: impl FnOnce() -> Option<f64>) -> Outcome {
         let steps_time = self.begin.elapsed().saturating_sub(self.handover.waited()).as_secs_f64();

@@ -1,6 +1,7 @@
 //! `summary.json`: what came out of a run, in a fixed order of keys.
 //!
-//! Figures come from [`Summary`]; the recorder adds status, names and times. Goes to the user, to tests and to tools.
+//! Figures come from [`Summary`]; the recorder adds status, names and times. Goes to the user, to tests and
+//! to tools.
 
 use crate::program;
 use embate_solver::error::Notice;
@@ -20,7 +21,8 @@ pub enum RunStatus {
     Stopped,
 }
 
-/// Relative change of momentum over the whole run; a number is `None` where something is held or driven, or loads act.
+/// Relative change of momentum over the whole run; a number is `None` where something is held or driven, or
+/// loads act.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MomentumDrift {
     /// Change of linear momentum over Σ m|v|.
@@ -66,7 +68,8 @@ pub struct FirstEroded {
     pub criterion: String,
 }
 
-/// The contents of `summary.json`; the order of the fields is the order in the file. Numbers that are not finite become `null`.
+/// The contents of `summary.json`; the order of the fields is the order in the file. Numbers that are not
+/// finite become `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// How the run ended.
@@ -104,11 +107,14 @@ pub struct Report {
     pub wall_seconds: f64,
     /// User CPU time of the whole process, s; `None` where the system does not tell.
     pub user_cpu_seconds: Option<f64>,
-    /// Time that the writer of results was at work, beside the steps or in turn with them, and with the pictures at the end, s.
+    /// Time that the writer of results was at work, beside the steps or in turn with them, and with the
+    /// pictures at the end, s.
     pub output_seconds: f64,
-    /// Wall time that the run waited for its output: steps that waited for the writer, and the end for the rest and the pictures, s.
+    /// Wall time that the run waited for its output: steps that waited for the writer, and the end for the
+    /// rest and the pictures, s.
     pub output_wait_seconds: f64,
-    /// Elements × steps over the wall time of the steps alone, output taken out; `None` for a run without steps.
+    /// Elements × steps over the wall time of the steps alone, output taken out; `None` for a run without
+    /// steps.
     pub element_steps_per_second: Option<f64>,
     /// Smallest time step taken, s.
     pub stable_time_step_min: f64,

@@ -1,6 +1,8 @@
-//! How far the results of a run are: what a checkpoint has of them, so that a run that goes on leaves the same files as one that was never stopped.
+//! How far the results of a run are: what a checkpoint has of them, so that a run that goes on leaves the
+//! same files as one that was never stopped.
 //!
-//! Made by the writer when a state is kept; read when a run goes on. The film's frames are beside it, as sections of the checkpoint.
+//! Made by the writer when a state is kept; read when a run goes on. The film's frames are beside it, as
+//! sections of the checkpoint.
 
 use super::atomic::Mark;
 use crate::outline::Extent;

@@ -1,4 +1,5 @@
-//! What a run leaves behind while it goes on: history, hashes, field files, obstacles, film. Jobs come from `handover`; [`Writer::close`] completes the files.
+//! What a run leaves behind while it goes on: history, hashes, field files, obstacles, film. Jobs come from
+//! `handover`; [`Writer::close`] completes the files.
 
 use super::atomic::{write_whole, write_whole_in_pieces};
 use super::csv::CsvStream;
@@ -24,7 +25,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Time from rewriting to rewriting the collections: a second file with each frame would cost as much as a small frame.
+/// Time from rewriting to rewriting the collections: a second file with each frame would cost as much as a
+/// small frame.
 const COLLECTION_PAUSE: Duration = Duration::from_millis(500);
 
 /// What the writer has to do: the rows since the last job, one after the other, and then a frame.
@@ -164,7 +166,8 @@ impl Writer {
         self.columns.len()
     }
 
-    /// Where the model came from. From now on there is kept what ran, and its hashes if the model wants them; `parts` are its names.
+    /// Where the model came from. From now on there is kept what ran, and its hashes if the model wants them;
+    /// `parts` are its names.
     pub(super) fn set_origin(&mut self, origin: Origin, parts: &[String]) -> Result<(), ResultsError> {
         let folder = self.folder.path();
         Ran::of(self.identity().clone(), &origin, &self.model).write(folder)?;
@@ -201,7 +204,8 @@ impl Writer {
         self.film.is_none()
     }
 
-    /// Does a job; `shown` stands for a frame that the job has not. A frame is written even when rows can't be.
+    /// Does a job; `shown` stands for a frame that the job has not. A frame is written even when rows can't
+    /// be.
     pub(super) fn write(&mut self, job: &Job, shown: Option<&dyn Shown>) -> Result<(), ResultsError> {
         let told = self.tell(job, shown);
         if job.is_failing {

@@ -1,8 +1,10 @@
 //! Triangulated surfaces of STL files, text or binary: the triangles of an obstacle of space.
 //!
-//! The bytes of a file become corners in its order, scaled to metres; corners at one place become one point, and whether the triangles make a surface is the solver's to say
-//! ([`TriangleSurface`]). A file is binary if its size is that of the triangles that its header tells (also where it begins with `solid`, as some do); else it is text if it begins so. Names, normals,
-//! attributes and colours don't count; several solids in one file are one surface.
+//! The bytes of a file become corners in its order, scaled to metres; corners at one place become one point,
+//! and whether the triangles make a surface is the solver's to say ([`TriangleSurface`]). A file is binary if
+//! its size is that of the triangles that its header tells (also where it begins with `solid`, as some do);
+//! else it is text if it begins so. Names, normals, attributes and colours don't count; several solids in one
+//! file are one surface.
 
 pub(crate) mod messages;
 
@@ -33,7 +35,8 @@ pub fn read(path: &Path, source: &str, scale: f64) -> Result<TriangleSurface, Fa
 /// Makes a surface from the bytes of an STL file; positions are those of the file times `scale`, m.
 ///
 /// # Errors
-/// The first fault with its line (text) or byte (binary): a cut file, a word where another one should be, a number of triangles that does not fit the size, no triangles, coordinates that are no finite numbers.
+/// The first fault with its line (text) or byte (binary): a cut file, a word where another one should be, a
+/// number of triangles that does not fit the size, no triangles, coordinates that are no finite numbers.
 pub fn parse(bytes: &[u8], source: &str, scale: f64) -> Result<TriangleSurface, Fault> {
     let count = bytes.get(HEADER - 4..HEADER).and_then(|count| count.try_into().ok()).map(|count| u32::from_le_bytes(count) as usize);
     let fits = count.is_some_and(|count| count.checked_mul(TRIANGLE).and_then(|size| size.checked_add(HEADER)) == Some(bytes.len()));

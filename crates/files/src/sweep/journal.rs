@@ -1,7 +1,9 @@
-//! What a sweep has done, kept so that it outlives the program: `sweep.json` says which runs there are, `sweep.journal` gets a line for each that has ended.
+//! What a sweep has done, kept so that it outlives the program: `sweep.json` says which runs there are,
+//! `sweep.journal` gets a line for each that has ended.
 //!
-//! Lines come from `run.rs`; a program that starts again finds them here and leaves those runs out. `sweep.json` is written whole before the first run. A line of
-//! the journal counts only with its end, so what was cut off by the end of a program or a machine is a run that has to be done again.
+//! Lines come from `run.rs`; a program that starts again finds them here and leaves those runs out.
+//! `sweep.json` is written whole before the first run. A line of the journal counts only with its end, so
+//! what was cut off by the end of a program or a machine is a run that has to be done again.
 
 use super::{Keep, SweepError};
 use crate::plain;
@@ -72,10 +74,12 @@ pub(super) struct Journal {
 }
 
 impl Journal {
-    /// Opens the folder: a new one, or one with the same sweep, whose ended runs are given back. With `force` what another sweep has noted is forgotten.
+    /// Opens the folder: a new one, or one with the same sweep, whose ended runs are given back. With `force`
+    /// what another sweep has noted is forgotten.
     ///
     /// # Errors
-    /// [`SweepError::Other`] where the folder holds another sweep, [`SweepError::Busy`], or what the system says.
+    /// [`SweepError::Other`] where the folder holds another sweep, [`SweepError::Busy`], or what the system
+    /// says.
     pub(super) fn open(folder: &Path, manifest: &Manifest, force: bool) -> Result<(Self, Option<Manifest>, Vec<Entry>), SweepError> {
         fs::create_dir_all(folder).map_err(ResultsError::file("create", folder))?;
         let path = folder.join(JOURNAL_NAME);

@@ -1,7 +1,8 @@
 //! Sweeps: one model with many values, one run for each combination, one table of what came out.
 //!
-//! The walk: which runs (`plan.rs`, `values.rs`) -> a sound model for each of them (`prepare.rs`) -> what is noted (`outputs.rs`) -> runs, one on each thread
-//! (`run.rs`) -> a journal that outlives the program (`journal.rs`) -> table and plot (`table.rs`). The program's command `sweep` asks and tells.
+//! The walk: which runs (`plan.rs`, `values.rs`) -> a sound model for each of them (`prepare.rs`) -> what is
+//! noted (`outputs.rs`) -> runs, one on each thread (`run.rs`) -> a journal that outlives the program
+//! (`journal.rs`) -> table and plot (`table.rs`). The program's command `sweep` asks and tells.
 
 pub(crate) mod messages;
 mod journal;

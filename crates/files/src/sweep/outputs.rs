@@ -1,7 +1,8 @@
-//! What a sweep notes of each run: a figure of the summary, or what a `take` makes of a column of the history.
+//! What a sweep notes of each run: a figure of the summary, or what a `take` makes of a column of the
+//! history.
 //!
-//! Texts come from the command line; numbers are found by the same code as those of the verification cases (`verification/quantity.rs`). Cells of the table go to
-//! `journal.rs`.
+//! Texts come from the command line; numbers are found by the same code as those of the verification cases
+//! (`verification/quantity.rs`). Cells of the table go to `journal.rs`.
 
 use super::Wrong;
 use crate::model_file::{number_and_unit, quantity_in_si};
@@ -23,7 +24,8 @@ pub(super) struct Output {
 /// Figures of the summary that are noted when nothing else is asked for.
 const FIGURES: [&str; 5] = ["energy_drift", "penetration_max", "steps", "time_end", "state_hash"];
 
-/// What is noted when nothing is asked for: largest forces of contacts and obstacles, last places of probes, energies, figures.
+/// What is noted when nothing is asked for: largest forces of contacts and obstacles, last places of probes,
+/// energies, figures.
 pub(super) fn usual(columns: &[String]) -> Vec<String> {
     let forces = columns.iter().filter(|name| name.contains(".force_")).map(|name| format!("max_abs({name})"));
     let probes = columns.iter().filter(|name| {
@@ -35,7 +37,8 @@ pub(super) fn usual(columns: &[String]) -> Vec<String> {
 }
 
 impl Output {
-    /// Reads `energy_drift`, `contact.force_y[impact]`, `max_abs(contact.force_y[impact])` or `at=1ms(tip.y)`; whether the run has it is asked by [`Output::examine`].
+    /// Reads `energy_drift`, `contact.force_y[impact]`, `max_abs(contact.force_y[impact])` or
+    /// `at=1ms(tip.y)`; whether the run has it is asked by [`Output::examine`].
     pub(super) fn read(text: &str, samples: &Samples) -> Result<Self, Wrong> {
         let name = text.trim();
         let source = match name.strip_suffix(')').and_then(|text| text.split_once('(')) {

@@ -1,7 +1,8 @@
 //! Which runs a sweep has: what varies, over which values, and how the values are combined.
 //!
-//! Texts come from the command line (`PATH=VALUES`) or from a table; a [`Plan`] goes to `prepare.rs`, which makes a model of each run. Values stay texts as in a
-//! model file, with their places, so that the reader checks their units and ranges and shows where they came from.
+//! Texts come from the command line (`PATH=VALUES`) or from a table; a [`Plan`] goes to `prepare.rs`, which
+//! makes a model of each run. Values stay texts as in a model file, with their places, so that the reader
+//! checks their units and ranges and shows where they came from.
 
 use super::values::{self, Item};
 use super::{SweepError, Wrong};

@@ -1,6 +1,8 @@
-//! Every run of a sweep looked at before the first one begins: its model, its mesh, and whether it will have what is to be noted.
+//! Every run of a sweep looked at before the first one begins: its model, its mesh, and whether it will have
+//! what is to be noted.
 //!
-//! Plans come from `plan.rs`; all faults of all runs are told at once, each with the runs that have it. A [`Sweep`] without faults goes to `run.rs`.
+//! Plans come from `plan.rs`; all faults of all runs are told at once, each with the runs that have it. A
+//! [`Sweep`] without faults goes to `run.rs`.
 
 use super::outputs::{self, Output};
 use super::plan::{Plan, Request};
@@ -40,7 +42,8 @@ struct Examined {
 }
 
 impl Sweep {
-    /// Reads and examines all runs on so many threads. `reach`: from where files are read that the model names; `set` overrides keys of it; no `outputs`: the usual ones; `simd`: an instruction set by name.
+    /// Reads and examines all runs on so many threads. `reach`: from where files are read that the model
+    /// names; `set` overrides keys of it; no `outputs`: the usual ones; `simd`: an instruction set by name.
     ///
     /// # Errors
     /// All faults at once. `None` where `is_stopped` ended the examination.
@@ -103,8 +106,8 @@ impl Sweep {
         &self.first
     }
 
-    /// Makes the list of outputs from the columns of the first run. Gives the number of each one's text among the sources, none for the usual ones, and what is
-    /// wrong with them.
+    /// Makes the list of outputs from the columns of the first run. Gives the number of each one's text among
+    /// the sources, none for the usual ones, and what is wrong with them.
     fn read_outputs(&mut self, wanted: &[String]) -> (Vec<usize>, Faults) {
         let simulation = self.model(0, Keep::Figures).ok().and_then(|model| Simulation::new(&model, &self.options).ok());
         // Without it what is wrong is told elsewhere, and of outputs only their form is known.

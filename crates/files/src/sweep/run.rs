@@ -1,7 +1,8 @@
-//! The runs of a sweep: each on one thread, as many at a time as are wanted, in the order of their numbers from one queue.
+//! The runs of a sweep: each on one thread, as many at a time as are wanted, in the order of their numbers
+//! from one queue.
 //!
-//! A [`Sweep`] comes from `prepare.rs`; every run that ends is noted in the journal and, where results are kept, has its own folder. A run that fails is noted with
-//! its reason and the others go on.
+//! A [`Sweep`] comes from `prepare.rs`; every run that ends is noted in the journal and, where results are
+//! kept, has its own folder. A run that fails is noted with its reason and the others go on.
 
 use super::journal::{Entry, Journal, Manifest, RunEnd};
 use super::prepare::{Sweep, in_parallel};

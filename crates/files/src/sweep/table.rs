@@ -1,6 +1,8 @@
-//! The table of a sweep and its plot: a row for each run in the order of their numbers, whatever the order in which they ended.
+//! The table of a sweep and its plot: a row for each run in the order of their numbers, whatever the order in
+//! which they ended.
 //!
-//! Rows come from `run.rs`. Inputs that are quantities are shown in SI units, with the unit in the header; other inputs as they were written.
+//! Rows come from `run.rs`. Inputs that are quantities are shown in SI units, with the unit in the header;
+//! other inputs as they were written.
 
 use super::journal::{Entry, RunEnd};
 use super::plan::Input;

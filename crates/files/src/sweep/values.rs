@@ -1,7 +1,8 @@
-//! The values of a key that varies: `FROM:TO:COUNT`, `log:FROM:TO:COUNT`, a list `a, b, c`, or a column of a table.
+//! The values of a key that varies: `FROM:TO:COUNT`, `log:FROM:TO:COUNT`, a list `a, b, c`, or a column of a
+//! table.
 //!
-//! Texts come from `plan.rs`; items go back to it, each a text as in a model file with the place that it came from. Ends of a range keep the unit that they
-//! are written in, so what lies between them does too.
+//! Texts come from `plan.rs`; items go back to it, each a text as in a model file with the place that it came
+//! from. Ends of a range keep the unit that they are written in, so what lies between them does too.
 
 use super::Wrong;
 use crate::model_file::{number_and_unit, quantity_in_si};
@@ -19,7 +20,8 @@ pub(super) struct Item {
     pub(super) place: Range<usize>,
 }
 
-/// Reads what follows `PATH=`, which begins at byte `offset`; also gives whether the values are spaced by factors.
+/// Reads what follows `PATH=`, which begins at byte `offset`; also gives whether the values are spaced by
+/// factors.
 pub(super) fn read(written: &str, offset: usize) -> Result<(Vec<Item>, bool), (Range<usize>, Wrong)> {
     let items: Vec<Item> = split(written, ',').into_iter().map(|range| item(written, range, offset)).collect();
     let whole = offset..offset + written.len();

@@ -1,6 +1,7 @@
 //! A case as data: its models, and which quantity of which model must have which value.
 //!
-//! Made by `read.rs` from `expected.toml`; `run.rs` runs its models, `quantity.rs` finds the quantities, `judge.rs` compares.
+//! Made by `read.rs` from `expected.toml`; `run.rs` runs its models, `quantity.rs` finds the quantities,
+//! `judge.rs` compares.
 
 use crate::model_file::Described;
 use embate_solver::model::Model;

@@ -1,4 +1,5 @@
-//! Every key of `expected.toml`, described once: reading, messages and the tables of `docs/verification.md` come from here.
+//! Every key of `expected.toml`, described once: reading, messages and the tables of `docs/verification.md`
+//! come from here.
 
 use super::case::{TAKES, Take};
 use crate::model_file::{Vocabulary, keys_table};

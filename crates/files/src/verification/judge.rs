@@ -1,6 +1,7 @@
 //! The verdicts: what was found against what was expected.
 //!
-//! Runs a case through `run.rs`, takes its numbers through `quantity.rs`, and compares. Every comparison is written so that NaN fails.
+//! Runs a case through `run.rs`, takes its numbers through `quantity.rs`, and compares. Every comparison is
+//! written so that NaN fails.
 
 use super::case::{Accepted, Case, Check, Combination};
 use super::plot::Plot;
@@ -40,7 +41,8 @@ pub struct CheckOutcome {
     pub expected: Option<f64>,
     /// Largest deviation that is accepted: a fraction of the expected value if `relative`.
     pub tolerance: Option<f64>,
-    /// The deviation, in the measure of `tolerance`; of a check for convergence, as a fraction of the coarser model's.
+    /// The deviation, in the measure of `tolerance`; of a check for convergence, as a fraction of the coarser
+    /// model's.
     pub deviation: Option<f64>,
     /// Whether tolerance and deviation are fractions.
     pub relative: bool,
@@ -103,7 +105,8 @@ impl CheckOutcome {
         }
     }
 
-    /// How much of what is accepted was used up: 1 is the border. `None` where there is no such measure: a range, a limit at zero, no number.
+    /// How much of what is accepted was used up: 1 is the border. `None` where there is no such measure: a
+    /// range, a limit at zero, no number.
     #[must_use]
     pub fn share(&self) -> Option<f64> {
         let share = match (self.deviation, self.tolerance, self.at_least, self.at_most) {
@@ -123,8 +126,8 @@ impl Check {
     }
 }
 
-/// Runs all models of a case and judges its checks. With `keep`, a folder and whether older results in it are replaced, the results lie in
-/// `folder/CASE/MODEL` afterwards.
+/// Runs all models of a case and judges its checks. With `keep`, a folder and whether older results in it are
+/// replaced, the results lie in `folder/CASE/MODEL` afterwards.
 ///
 /// # Errors
 /// Only what keeps the case from being run: a run that fails makes its checks fail.

@@ -1,8 +1,9 @@
 //! Verification: cases with a known answer, and whether the program gives it.
 //!
-//! A case is a folder with model files, a README and `expected.toml`. The walk: `expected.toml` and its models -> [`Case`] (`read.rs`, keys in
-//! `describe.rs`, data in `case.rs`) -> runs with what is kept of them (`run.rs`) -> numbers (`quantity.rs`) -> verdicts (`judge.rs`). The program's
-//! command `verify` prints them; `report.rs` makes a page of them, `plot.rs` what it draws.
+//! A case is a folder with model files, a README and `expected.toml`. The walk: `expected.toml` and its
+//! models -> [`Case`] (`read.rs`, keys in `describe.rs`, data in `case.rs`) -> runs with what is kept of them
+//! (`run.rs`) -> numbers (`quantity.rs`) -> verdicts (`judge.rs`). The program's command `verify` prints
+//! them; `report.rs` makes a page of them, `plot.rs` what it draws.
 
 mod case;
 pub(crate) mod messages;

@@ -29,7 +29,8 @@ pub struct Plot {
 /// An expected value within a plot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
-    /// From where to where it is expected: two corners, time and value; one point twice where it belongs to one time.
+    /// From where to where it is expected: two corners, time and value; one point twice where it belongs to
+    /// one time.
     pub ends: [[f64; 2]; 2],
     /// What is accepted above and below.
     pub tolerance: f64,
@@ -78,7 +79,8 @@ fn column(source: &Source) -> Option<&str> {
     }
 }
 
-/// Where in the plot of its column a check's value is expected; `None` where the value is none of the column's, or where only limits are known.
+/// Where in the plot of its column a check's value is expected; `None` where the value is none of the
+/// column's, or where only limits are known.
 fn mark(check: &Check, curve: &[[f64; 2]]) -> Option<Mark> {
     let (expected, tolerance) = match check.accepted {
         Accepted::Relative { expected, tolerance } => (expected, tolerance * expected.abs()),

@@ -1,7 +1,8 @@
-//! One number out of a run: a figure of the summary, something of a column of the history, something of a field.
+//! One number out of a run: a figure of the summary, something of a column of the history, something of a
+//! field.
 //!
-//! A run's samples come from `run.rs`; numbers go to `judge.rs`. A number that is not there, or is not finite, is an error and never a value: no check
-//! passes by it.
+//! A run's samples come from `run.rs`; numbers go to `judge.rs`. A number that is not there, or is not
+//! finite, is an error and never a value: no check passes by it.
 
 use super::case::{How, Place, Source, Take};
 use embate_solver::model::describe::suggestion;
@@ -65,7 +66,8 @@ impl Samples {
         suggestion(name, &known)
     }
 
-    /// Keeps the frame where it is nearer to a wanted time than what is there; of the time infinity, the last.
+    /// Keeps the frame where it is nearer to a wanted time than what is there; of the time infinity, the
+    /// last.
     pub(super) fn note_frame(&mut self, frame: &Frame) {
         for (time, kept) in &mut self.frames {
             let nearer = kept.as_ref().is_none_or(|kept| time.is_infinite() || (frame.time - *time).abs() < (kept.time - *time).abs());

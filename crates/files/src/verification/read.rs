@@ -1,7 +1,7 @@
 //! Reads a case: `expected.toml` into checks, and the models that they name.
 //!
-//! The tables are read and checked by the reader of model files after `describe.rs`; here is what holds between keys. All faults of the file come together;
-//! those of a model file come as that model's own.
+//! The tables are read and checked by the reader of model files after `describe.rs`; here is what holds
+//! between keys. All faults of the file come together; those of a model file come as that model's own.
 
 use super::case::{Accepted, Case, Check, Combination, How, Place, Quantity, Source, TAKES, Take, Tier, With};
 use super::describe::EXPECTED;

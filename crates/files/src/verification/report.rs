@@ -1,6 +1,8 @@
-//! The report of a verification: every check with its reference, what was found and the verdict, and plots, as one HTML file or as Markdown with pictures beside it.
+//! The report of a verification: every check with its reference, what was found and the verdict, and plots,
+//! as one HTML file or as Markdown with pictures beside it.
 //!
-//! Outcomes come from `judge.rs`, what is drawn from `plot.rs`. The Markdown has no times and no dates: it changes when results change.
+//! Outcomes come from `judge.rs`, what is drawn from `plot.rs`. The Markdown has no times and no dates: it
+//! changes when results change.
 
 use super::judge::{CaseOutcome, CheckOutcome};
 use super::plot::{Mark, Plot};
@@ -53,7 +55,8 @@ const ACCEPTED: Rgb = [150, 150, 150];
 const SHARE_MAX: f64 = 3.0;
 const PANEL: f64 = 150.0;
 
-/// Writes the report in the form that the file's name asks for; `cases` is the folder of the cases, to which Markdown links.
+/// Writes the report in the form that the file's name asks for; `cases` is the folder of the cases, to which
+/// Markdown links.
 ///
 /// # Errors
 /// What the system says.
@@ -128,7 +131,8 @@ pub fn page(outcomes: &[CaseOutcome], about: &About) -> String {
     html::page("Verification", &body)
 }
 
-/// The report as Markdown; `pictures` is the folder of the pictures, `cases` that of the cases, both as seen from the file.
+/// The report as Markdown; `pictures` is the folder of the pictures, `cases` that of the cases, both as seen
+/// from the file.
 #[must_use]
 pub fn markdown(outcomes: &[CaseOutcome], about: &About, pictures: &str, cases: &str) -> String {
     let mut out = format!("# Verification: results\n\n{} Made by {} (`embate verify --report`).\n\n", summary(outcomes), about.program);
@@ -205,7 +209,8 @@ fn caption(outcome: &CaseOutcome) -> String {
     }
 }
 
-/// Errors of all checks, and the columns that they look at with what is expected; `None` where there is nothing to draw.
+/// Errors of all checks, and the columns that they look at with what is expected; `None` where there is
+/// nothing to draw.
 #[must_use]
 pub fn drawing(outcome: &CaseOutcome) -> Option<String> {
     let groups = groups(outcome);

@@ -1,7 +1,7 @@
 //! Runs the models of a case and keeps what its checks look at: the history, some frames, the summary.
 //!
-//! Models come from `read.rs`. Nothing is written unless a folder is given: then the results lie there as after `embate run`. What was kept goes to
-//! `quantity.rs`.
+//! Models come from `read.rs`. Nothing is written unless a folder is given: then the results lie there as
+//! after `embate run`. What was kept goes to `quantity.rs`.
 
 use super::case::{Case, Quantity, Source};
 use super::quantity::Samples;
@@ -50,7 +50,8 @@ impl Case {
         Simulation::new(model, options).map_err(|error| VerifyError::Model { case: self.name.clone(), name: name.to_string(), error })
     }
 
-    /// Looks whether every quantity is there before anything is run: columns, fields, parts, keys of the summary, times.
+    /// Looks whether every quantity is there before anything is run: columns, fields, parts, keys of the
+    /// summary, times.
     ///
     /// # Errors
     /// All quantities of `expected.toml` that are not there; a model that can't be made ready.

@@ -1,6 +1,8 @@
-//! The bodies of a run as what is seen of them: skins in space, all cells in the plane, each set of eroded cells with a skin of its own.
+//! The bodies of a run as what is seen of them: skins in space, all cells in the plane, each set of eroded
+//! cells with a skin of its own.
 //!
-//! Cells come from the first field file or from the simulation; a [`Topology`] is made when the first frame needs it, and goes to the page once.
+//! Cells come from the first field file or from the simulation; a [`Topology`] is made when the first frame
+//! needs it, and goes to the page once.
 
 use super::container::Container;
 use super::levels::{self, Level};
@@ -13,7 +15,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Topologies that are kept at once; one that is asked for again is made again.
 const KEPT: usize = 64;
-/// Sets of eroded cells that have a number at once: a run that is watched for long while it erodes has any number of them.
+/// Sets of eroded cells that have a number at once: a run that is watched for long while it erodes has any
+/// number of them.
 const NUMBERED: usize = 1024;
 
 /// What is seen of the bodies while some cells are gone.
@@ -68,7 +71,8 @@ impl Found {
 }
 
 impl Bodies {
-    /// The cells of a run, as they are shown first; where there is a field `displacement`, it tells initial places.
+    /// The cells of a run, as they are shown first; where there is a field `displacement`, it tells initial
+    /// places.
     #[must_use]
     pub fn new(cells: Cells, shown: &dyn Shown) -> Self {
         let (nodes, dimension) = (shown.nodes(), shown.dimension());
@@ -184,7 +188,8 @@ pub(super) fn size(places: impl Iterator<Item = [f64; 3]>) -> Option<[[f64; 3]; 
     })
 }
 
-/// Ascending places as ranges, with those between them where these are few: asking for a range costs more than some numbers too many.
+/// Ascending places as ranges, with those between them where these are few: asking for a range costs more
+/// than some numbers too many.
 pub(super) fn ranges(places: impl IntoIterator<Item = u32>) -> Vec<Range<usize>> {
     const BETWEEN: usize = 32;
     let mut ranges: Vec<Range<usize>> = Vec::new();

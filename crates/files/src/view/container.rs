@@ -1,6 +1,8 @@
-//! The binary form of what a page is sent: a JSON head and arrays of numbers, which a browser takes as typed arrays without copying.
+//! The binary form of what a page is sent: a JSON head and arrays of numbers, which a browser takes as typed
+//! arrays without copying.
 //!
-//! `EMB1`, the length of the head (u32), the head (JSON, filled with spaces to a multiple of 8), the arrays, each at a multiple of 8 behind the head; all little-endian. Made by `bodies` and `frame`.
+//! `EMB1`, the length of the head (u32), the head (JSON, filled with spaces to a multiple of 8), the arrays,
+//! each at a multiple of 8 behind the head; all little-endian. Made by `bodies` and `frame`.
 
 use serde_json::{Map, Value, json};
 

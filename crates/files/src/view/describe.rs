@@ -1,4 +1,5 @@
-//! What a page is told of a run: its model, what can be shown of it, how it ended. Plain data for JSON, made by `folder`.
+//! What a page is told of a run: its model, what can be shown of it, how it ended. Plain data for JSON, made
+//! by `folder`.
 
 use crate::picture::field::Scalar;
 use crate::results::Appearance;

@@ -1,6 +1,8 @@
-//! A result folder that is looked at: its description, frames, histories, values over time; of a run that goes on, too.
+//! A result folder that is looked at: its description, frames, histories, values over time; of a run that
+//! goes on, too.
 //!
-//! Files are read when they are asked for (`vtu::read`, `results`); what a whole run must be read for (the range of a scalar) is kept.
+//! Files are read when they are asked for (`vtu::read`, `results`); what a whole run must be read for (the
+//! range of a scalar) is kept.
 
 use super::bodies::{Bodies, Topology};
 use super::container::Container;
@@ -45,7 +47,8 @@ pub struct Series {
 }
 
 impl Series {
-    /// That of a history whose columns are those of `history.csv`; energies and forces are those of whole bodies or per metre of depth.
+    /// That of a history whose columns are those of `history.csv`; energies and forces are those of whole
+    /// bodies or per metre of depth.
     #[must_use]
     pub fn of(columns: &[String], values: Vec<Vec<f64>>, of_whole_bodies: bool) -> Self {
         let columns = columns.iter().map(|name| Column { name: name.clone(), unit: unit(name, of_whole_bodies).into() }).collect();
@@ -94,7 +97,8 @@ impl ResultView {
         Ok(Self { path: path.into(), bodies, kinds, appearance, nodes: reader.nodes, ranges: Mutex::default() })
     }
 
-    /// A folder into which a run begins to write: what it will hold is known, its frames are read as they come.
+    /// A folder into which a run begins to write: what it will hold is known, its frames are read as they
+    /// come.
     #[must_use]
     pub fn begun(path: &Path, bodies: Arc<Bodies>, kinds: Vec<&'static FieldKind>, appearance: Appearance, nodes: usize) -> Self {
         Self { path: path.into(), bodies, kinds, appearance, nodes, ranges: Mutex::default() }

@@ -1,5 +1,6 @@
-//! A frame as a page gets it: places of the nodes that are seen, one scalar, contact forces, obstacles.
-//! Taken piece by piece from what is shown, a file that was read or a simulation between two steps; of a model of space no more than its skin is asked for.
+//! A frame as a page gets it: places of the nodes that are seen, one scalar, contact forces, obstacles. Taken
+//! piece by piece from what is shown, a file that was read or a simulation between two steps; of a model of
+//! space no more than its skin is asked for.
 
 use super::bodies::{self, Bodies, Topology, ranges};
 use super::container::Container;
@@ -17,7 +18,8 @@ pub struct Wish {
     pub arrows: bool,
 }
 
-/// What is shown on a topology that has its cells; `outlines`: the obstacles as they are drawn. A scalar that is not shown has no values.
+/// What is shown on a topology that has its cells; `outlines`: the obstacles as they are drawn. A scalar that
+/// is not shown has no values.
 #[must_use]
 pub fn frame(bodies: &Bodies, topology: &Topology, shown: &dyn Shown, outlines: &[Outline], wish: &Wish) -> Container {
     let kinds = shown.kinds();
@@ -109,7 +111,8 @@ fn add_obstacles(container: &mut Container, outlines: &[Outline], origin: [f64; 
     container.indices("obstacle_facet_of", facet_of);
 }
 
-/// Numbers of some places (ascending, more than once where they are named so), `width` of each; not a number where nothing is given.
+/// Numbers of some places (ascending, more than once where they are named so), `width` of each; not a number
+/// where nothing is given.
 fn taken(places: impl Iterator<Item = u32> + Clone, width: usize, take: impl Fn(std::ops::Range<usize>, &mut Vec<f64>)) -> Vec<f64> {
     let mut numbers = Vec::new();
     let mut room = Vec::new();

@@ -1,14 +1,17 @@
-//! Coarser forms of a large skin, for pictures that move: nodes in one box of a grid become one of them, facets that lie within a box go.
+//! Coarser forms of a large skin, for pictures that move: nodes in one box of a grid become one of them,
+//! facets that lie within a box go.
 //!
-//! Facets come from `bodies`; a coarser facet uses nodes of the whole skin, so that frames serve all levels, and shows the value of one of the facets that it stands for.
-//! Source: J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993 (vertex clustering).
+//! Facets come from `bodies`; a coarser facet uses nodes of the whole skin, so that frames serve all levels,
+//! and shows the value of one of the facets that it stands for. Source: J. Rossignac, P. Borrel,
+//! "Multi-resolution 3D approximations for rendering complex scenes", 1993 (vertex clustering).
 
 /// Facets of the coarser level, about.
 const FACETS: f64 = 12_000.0;
 /// A skin with fewer facets has no coarser level.
 pub(super) const LARGE: usize = 25_000;
 
-/// Facets by nodes of the skin (a triangle repeats its last), and the facet of the whole skin whose value each shows.
+/// Facets by nodes of the skin (a triangle repeats its last), and the facet of the whole skin whose value
+/// each shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Level {
     pub(super) facets: Vec<[u32; 4]>,

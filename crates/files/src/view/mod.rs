@@ -1,7 +1,10 @@
-//! What a page shows of a run: bodies as their skin, frames of one scalar, histories, and what there is to choose from.
+//! What a page shows of a run: bodies as their skin, frames of one scalar, histories, and what there is to
+//! choose from.
 //!
-//! [`ResultView`] opens a result folder (`vtu::read`, `history.csv`, `summary.json`, `run.json`); [`Bodies`] makes skins of cells ([`crate::picture`] has the skinner) and frames of anything that is
-//! [`embate_solver::output::Shown`], a file that was read or a simulation that runs. All goes to `embate-viewer` as one binary [`Container`], described in `docs/viewer.md`, or as JSON
+//! [`ResultView`] opens a result folder (`vtu::read`, `history.csv`, `summary.json`, `run.json`); [`Bodies`]
+//! makes skins of cells ([`crate::picture`] has the skinner) and frames of anything that is
+//! [`embate_solver::output::Shown`], a file that was read or a simulation that runs. All goes to
+//! `embate-viewer` as one binary [`Container`], described in `docs/viewer.md`, or as JSON
 //! ([`RunDescription`]).
 
 mod bodies;

@@ -1,7 +1,9 @@
-//! Arrays of a VTK XML file, packed: numbers become little-endian bytes block by block, and blocks zlib streams.
+//! Arrays of a VTK XML file, packed: numbers become little-endian bytes block by block, and blocks zlib
+//! streams.
 //!
-//! Arrays come from `vtu`; blocks have a fixed size and are packed by several threads at once, each from its numbers alone, so that equal arrays give equal bytes.
-//! Numbers of nodes and cells are made block by block ([`Shown`]): neither they nor the streams of a large array are ever there as a whole.
+//! Arrays come from `vtu`; blocks have a fixed size and are packed by several threads at once, each from its
+//! numbers alone, so that equal arrays give equal bytes. Numbers of nodes and cells are made block by block
+//! ([`Shown`]): neither they nor the streams of a large array are ever there as a whole.
 
 use crate::threads::{Rooms, Threads};
 use embate_solver::output::Shown;
@@ -160,8 +162,9 @@ fn head(data: &Data<'_>, sizes: &[usize]) -> Vec<u8> {
     numbers.flat_map(|number| (number as u64).to_le_bytes()).collect()
 }
 
-/// Arrays as VTK's compressed arrays: number of blocks, block size, size of the last block when it is shorter (else 0),
-/// the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: what slower ones save is little, because digits are noise.
+/// Arrays as VTK's compressed arrays: number of blocks, block size, size of the last block when it is shorter
+/// (else 0), the compressed size of each block (all 64 bits), then the zlib streams. Fast compression: what
+/// slower ones save is little, because digits are noise.
 pub(super) fn zlib_blocks<'a>(
     arrays: &'a [&Plain<'_>],
     packers: &Rooms<Packer>,
@@ -180,7 +183,8 @@ pub(super) fn zlib_blocks<'a>(
     })
 }
 
-/// Packs one array so many bytes at a time and writes it at once to `out`, which is at `start`: the same bytes as by [`zlib_blocks`], and how many they are.
+/// Packs one array so many bytes at a time and writes it at once to `out`, which is at `start`: the same
+/// bytes as by [`zlib_blocks`], and how many they are.
 pub(super) fn write_in_pieces(
     data: &Data<'_>,
     at_once: usize,

@@ -1,7 +1,8 @@
 //! Reads the `.vtu` files that `vtu` writes: head, mesh, chosen fields, single values.
 //!
-//! A file is opened for its head; arrays are inflated when they are asked for, block by block, so that a value of one node costs one block. Nothing in a file is believed: sizes are held against
-//! the length of the file and against each other before memory is taken. Goes to [`crate::view`] as [`Cells`] and [`Frame`].
+//! A file is opened for its head; arrays are inflated when they are asked for, block by block, so that a
+//! value of one node costs one block. Nothing in a file is believed: sizes are held against the length of the
+//! file and against each other before memory is taken. Goes to [`crate::view`] as [`Cells`] and [`Frame`].
 
 use super::{HIDDEN_CELL, VTK_LINE, is_plane_vector};
 use crate::plain;

@@ -17,7 +17,8 @@ contact = [{ name = "all", bodies = "all" }]
 output.pictures = false
 "#;
 
-/// A lane that only fills a batch up was taken for an element that is there, failed with its neighbour, and was looked up among the elements.
+/// A lane that only fills a batch up was taken for an element that is there, failed with its neighbour, and
+/// was looked up among the elements.
 #[test]
 fn lanes_without_an_element_are_never_alive() {
     let model = load_text("model.toml", MEETING, Path::new("."), &[]).unwrap_or_else(|told| panic!("{}", told.rendered));

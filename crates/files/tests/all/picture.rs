@@ -1,5 +1,6 @@
-//! Pictures of a made-up impact: half a ring presses into half a plate, mirrored at x = 0. Pixels are sampled where bodies must be and
-//! where they must not; files are read back by other decoders' eyes (frame count, sizes).
+//! Pictures of a made-up impact: half a ring presses into half a plate, mirrored at x = 0. Pixels are sampled
+//! where bodies must be and where they must not; files are read back by other decoders' eyes (frame count,
+//! sizes).
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_files::picture::{Film, FilmSettings, PictureError, mesh_png, plots};
@@ -130,7 +131,8 @@ fn bodies_are_where_they_belong_and_the_background_is_white() {
     for (x, y) in [(2, 2), (957, picture.height - 3), (2, picture.height - 3)] {
         assert_eq!(picture.at(x, y), [255; 3]);
     }
-    // Rows from top to bottom: background, then the ring's top as one piece, its two walls, at last the plate's full width.
+    // Rows from top to bottom: background, then the ring's top as one piece, its two walls, at last the
+    // plate's full width.
     let rows: Vec<Vec<usize>> = (60..picture.height - 60).map(|y| picture.body_columns(y)).collect();
     let body: Vec<&Vec<usize>> = rows.iter().filter(|columns| columns.len() > 40).collect();
     assert!(body.len() > 100, "{} rows show bodies", body.len());
@@ -218,7 +220,8 @@ fn arc(centre: [f64; 2], radius: f64, start: f64, turn: f64, count: u32) -> Vec<
     (0..=count).map(|k| [centre[0] + radius * at(k).cos(), centre[1] + radius * at(k).sin()]).collect()
 }
 
-/// Obstacles at `t` from 0 to 1: a floor without end, a slope beside it, a rolling solid, a box that holds everything, an open channel, the rigid wall at x = 0.
+/// Obstacles at `t` from 0 to 1: a floor without end, a slope beside it, a rolling solid, a box that holds
+/// everything, an open channel, the rigid wall at x = 0.
 fn outlines(t: f64) -> Vec<Outline> {
     let named = |name: &str, points: Vec<[f64; 2]>| Outline::line(name, points);
     let tight = vec![[0.20, 0.16], [0.23, 0.06], [0.24, 0.16], [0.27, 0.06], [0.31, 0.06], [0.31, 0.16]];

@@ -1,5 +1,5 @@
-//! Pictures of models of space: a bent bar of hexahedra, a ball of tetrahedra, two tubes that cross, obstacles. Pixels are sampled where a body must be
-//! seen and where another hides it.
+//! Pictures of models of space: a bent bar of hexahedra, a ball of tetrahedra, two tubes that cross,
+//! obstacles. Pixels are sampled where a body must be seen and where another hides it.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_files::picture::{Film, FilmSettings, mesh_png};
@@ -25,7 +25,8 @@ struct Bodies {
 }
 
 impl Bodies {
-    /// A block of `[nx, ny, nz]` cells, its nodes at `map` of coordinates from 0 to 1. Where the first and the last plane of `y` are to be the same, `closed`.
+    /// A block of `[nx, ny, nz]` cells, its nodes at `map` of coordinates from 0 to 1. Where the first and
+    /// the last plane of `y` are to be the same, `closed`.
     fn block(mut self, name: &str, [nx, ny, nz]: [usize; 3], closed: bool, kind: CellKind, map: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         let part = self.cells.part_names.len() as u32;
         self.cells.part_names.push(name.into());
@@ -240,7 +241,8 @@ fn a_body_behind_another_is_not_seen() {
 #[test]
 fn three_sides_of_a_cube_are_seen_the_upper_one_the_brightest() {
     let picture = mesh_picture(&cube(Bodies::default(), "cube", [0.0; 3], 1.0), &settings("Cube"), "cube");
-    // Columns of the picture where the middles of the sides are: from the left below, the front, the upper and the right side.
+    // Columns of the picture where the middles of the sides are: from the left below, the front, the upper
+    // and the right side.
     let body: Vec<(usize, usize)> =
         (80..picture.height - 90).flat_map(|y| (30..840).map(move |x| (x, y))).filter(|&(x, y)| is_blue(picture.at(x, y))).collect();
     let mut shades: Vec<([u8; 3], usize, [usize; 2])> = Vec::new();

@@ -1,4 +1,5 @@
-//! Files that a model or a deck names lie in its folder, unless leave is given to go outside; where a path ends decides.
+//! Files that a model or a deck names lie in its folder, unless leave is given to go outside; where a path
+//! ends decides.
 
 use embate_files::abaqus::import::{Units, import};
 use embate_files::model_file::{Diagnostics, load, load_text, load_with_places};

@@ -1,4 +1,5 @@
-//! Reports of folders as runs leave them, half finished, damaged, and with names that would be code of a page.
+//! Reports of folders as runs leave them, half finished, damaged, and with names that would be code of a
+//! page.
 
 use embate_files::report::{REPORT, page, write};
 use embate_files::results::ResultsError;

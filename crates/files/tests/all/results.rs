@@ -403,7 +403,8 @@ fn a_real_run_leaves_the_same_bytes_for_any_number_of_threads() {
     }
 }
 
-/// A frame with a floor without end, a circle that moves, and a field of the surface that has no value inside.
+/// A frame with a floor without end, a circle that moves, and a field of the surface that has no value
+/// inside.
 fn frame_with_obstacles(step: u64) -> Frame {
     let mut frame = frame(step);
     let turned = |k: u32| -2.0 * std::f64::consts::PI * f64::from(k % 12) / 12.0;
@@ -439,7 +440,8 @@ fn obstacles_have_a_collection_of_their_own_with_the_times_of_the_fields() {
     assert!(!without.join("obstacles.pvd").exists());
 }
 
-/// Runs `tests/read_back.py` with the interpreter named by `EMBATE_PYTHON` (with meshio or vtk installed), as CI does.
+/// Runs `tests/read_back.py` with the interpreter named by `EMBATE_PYTHON` (with meshio or vtk installed), as
+/// CI does.
 #[test]
 fn python_reads_the_results_back() {
     let folder = fresh("read-back");

@@ -1,4 +1,5 @@
-//! Obstacles of STL files in model files: how they are named, scaled, turned and moved, and what is said of files that are none.
+//! Obstacles of STL files in model files: how they are named, scaled, turned and moved, and what is said of
+//! files that are none.
 
 use embate_files::model_file::{load_text, load_text_with_places};
 use embate_solver::model::{ObstacleShape, TriangleSurface};

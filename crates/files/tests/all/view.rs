@@ -1,4 +1,5 @@
-//! What a page shows of result folders that a simulation has filled, held against the simulation itself; damaged folders.
+//! What a page shows of result folders that a simulation has filled, held against the simulation itself;
+//! damaged folders.
 
 use embate_files::checkpoint::Origin;
 use embate_files::model_file;

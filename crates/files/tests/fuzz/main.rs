@@ -1,7 +1,10 @@
 //! Damaged inputs one after the other: whatever a file holds, its reader answers, and soon.
 //!
-//! `cargo test --release -p embate-files --test embate-fuzz -- --seconds 600 [--only model|gmsh|deck|checkpoint|state|fields] [--first N] [--count N]` (two seconds each if nothing is said). Inputs are those of the other
-//! tests (`--write DIR` writes them there) with bytes flipped, cut out, doubled, put in from elsewhere, and numbers made large, negative or none; input number N is always the same. States and checkpoints are damaged behind their check sums.
+//! `cargo test -p embate-files --test embate-fuzz -- --seconds 600 [--first N] [--count N] [--only TARGET]`,
+//! where TARGET is model, gmsh, deck, checkpoint, state or fields
+//! (two seconds each if nothing is said). Inputs are those of the other tests (`--write DIR` writes them
+//! there) with bytes flipped, cut out, doubled, put in from elsewhere, and numbers made large, negative or
+//! none; input number N is always the same. States and checkpoints are damaged behind their check sums.
 #![allow(clippy::unwrap_used)] // what is found is told with its number
 
 mod damage;

@@ -1,4 +1,5 @@
-//! What reads files, with inputs that it takes: for the damaged inputs of the tests beside, and for those that `fuzz/` finds by coverage.
+//! What reads files, with inputs that it takes: for the damaged inputs of the tests beside, and for those
+//! that `fuzz/` finds by coverage.
 #![allow(clippy::unwrap_used)] // inputs are those of the source
 #![allow(missing_docs, unreachable_pub)] // another crate has it as a file of its own
 
@@ -96,7 +97,8 @@ fn met() -> (Model, Simulation) {
 
 const ALONE: Options = Options { threads: 1, simd: None };
 
-/// Files of checkpoints. Who damages one may make its check sums anew: they are set right where the reader looks for them.
+/// Files of checkpoints. Who damages one may make its check sums anew: they are set right where the reader
+/// looks for them.
 pub fn checkpoint() -> Target {
     let (model, mut simulation) = met();
     let folder = tempfile::tempdir().unwrap();

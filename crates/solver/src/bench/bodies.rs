@@ -1,10 +1,12 @@
-//! Bodies to measure with: a patch in a given motion for the kernels alone, a spinning block for whole steps, a stack of strips for contact.
+//! Bodies to measure with: a patch in a given motion for the kernels alone, a spinning block for whole steps,
+//! a stack of strips for contact.
 
 use crate::material;
 use crate::mesh::cell::CellKind;
 use crate::model::{Cuboid, Material, Model, Output, Part, Rectangle, Run, Shape};
 
-/// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of its stiffness.
+/// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of
+/// its stiffness.
 const NUMBERS: &[(&str, f64)] = &[
     ("density", 7800.0),
     ("young", 2e11),
@@ -107,7 +109,8 @@ impl Patch {
     }
 }
 
-/// Speed at the middle of the sides of a spinning block, m/s: the forces that hold it together make metals of [`material`] yield.
+/// Speed at the middle of the sides of a spinning block, m/s: the forces that hold it together make metals of
+/// [`material`] yield.
 const SPEED: f64 = 300.0;
 
 /// A block of `n` × `n` elements of 1 mm that spins and touches nothing.
@@ -139,8 +142,9 @@ const THROUGH: usize = 20;
 const SIZE: f64 = 1e-3;
 const GAP: f64 = 1e-5;
 
-/// A stack of long strips of about so many elements, each so near to the next that every node of their long sides is in reach of the next strip; every second one
-/// moves up with this speed, the others down. There is no contact yet.
+/// A stack of long strips of about so many elements, each so near to the next that every node of their long
+/// sides is in reach of the next strip; every second one moves up with this speed, the others down. There is
+/// no contact yet.
 #[must_use]
 pub fn strips(elements: usize, speed: f64) -> Model {
     let strips = (elements as f64 / (THROUGH * THROUGH) as f64).sqrt().ceil().max(2.0) as usize;
@@ -167,8 +171,9 @@ pub fn strips(elements: usize, speed: f64) -> Model {
 /// Layers of elements in a slab.
 const LAYERS: usize = 10;
 
-/// Two slabs of `n` × `n` × 10 bricks of one point, one on the other, which move against each other at this speed each (m/s). The upper one is shifted along both sides of its bricks by a
-/// fraction of one: 0 lets nodes meet nodes. There is no contact yet.
+/// Two slabs of `n` × `n` × 10 bricks of one point, one on the other, which move against each other at this
+/// speed each (m/s). The upper one is shifted along both sides of its bricks by a fraction of one: 0 lets
+/// nodes meet nodes. There is no contact yet.
 #[must_use]
 pub fn slabs(n: usize, speed: f64, shift: f64) -> Model {
     let mut model = Model { run: Run { end: 1.0, ..Run::default() }, ..Model::default() };

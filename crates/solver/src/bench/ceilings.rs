@@ -1,4 +1,5 @@
-//! What a machine can do at best: bytes from and to memory, multiplications and additions. Rates of kernels and steps are held against these.
+//! What a machine can do at best: bytes from and to memory, multiplications and additions. Rates of kernels
+//! and steps are held against these.
 
 use super::rates::best_rate;
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
@@ -25,8 +26,9 @@ impl Kernel for Triad<'_> {
     }
 }
 
-/// Memory bandwidth in bytes per second by the triad of the STREAM benchmark (J. D. McCalpin, 1995): two arrays of so many bytes are read and one is written, which
-/// counts 24 bytes for each sum, on so many threads.
+/// Memory bandwidth in bytes per second by the triad of the STREAM benchmark (J. D. McCalpin, 1995): two
+/// arrays of so many bytes are read and one is written, which counts 24 bytes for each sum, on so many
+/// threads.
 #[must_use]
 pub fn triad(level: Level, threads: usize, bytes: usize, seconds: f64) -> f64 {
     let batches = (bytes / size_of::<Batch>()).max(threads);
@@ -80,7 +82,8 @@ impl Kernel for MultiplyAdd {
     }
 }
 
-/// Operations per second of one thread: multiplications and additions as the kernels have them, in equal number and never fused.
+/// Operations per second of one thread: multiplications and additions as the kernels have them, in equal
+/// number and never fused.
 #[must_use]
 pub fn multiply_add(level: Level, seconds: f64) -> f64 {
     let width = level.run(Width);

@@ -11,16 +11,19 @@ use embate_lanes::{Level, Team};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Steps before a kernel is measured: together some times the strain at which the metal of [`material`] yields.
+/// Steps before a kernel is measured: together some times the strain at which the metal of [`material`]
+/// yields.
 const WARM: usize = 20;
 /// Rounds before those that count.
 const LEAD: usize = 2;
 /// Rounds of a measurement, at least.
 const ROUNDS: usize = 3;
-/// Element-steps of a round of a small body, about: a millisecond, so that some rounds are undisturbed by what else the machine does.
+/// Element-steps of a round of a small body, about: a millisecond, so that some rounds are undisturbed by
+/// what else the machine does.
 const ROUND: usize = 20_000;
 
-/// The best rate of rounds of `work`, which says how much it has done; after three rounds it ends when the time is up.
+/// The best rate of rounds of `work`, which says how much it has done; after three rounds it ends when the
+/// time is up.
 pub fn best_rate(seconds: f64, mut work: impl FnMut() -> f64) -> f64 {
     let (begin, mut best, mut rounds) = (Instant::now(), 0.0_f64, 0);
     while rounds < ROUNDS || begin.elapsed().as_secs_f64() < seconds {
@@ -42,7 +45,8 @@ pub fn shortest(rounds: usize, mut work: impl FnMut()) -> f64 {
     (0..rounds).map(time).fold(f64::INFINITY, f64::min)
 }
 
-/// Element-steps per second of the block alone, on one thread: from the motion of the nodes to the forces on them.
+/// Element-steps per second of the block alone, on one thread: from the motion of the nodes to the forces on
+/// them.
 ///
 /// # Errors
 /// An element or law that is not in its registry.
@@ -73,7 +77,8 @@ where
     }))
 }
 
-/// How often a round does what takes so long once: so that all rounds fit into the time, and no round is longer than it needs to be.
+/// How often a round does what takes so long once: so that all rounds fit into the time, and no round is
+/// longer than it needs to be.
 fn repeats(once: f64, elements: usize, seconds: f64) -> usize {
     ((seconds / ROUNDS as f64 / once.max(1e-9)) as usize).clamp(1, (ROUND / elements).max(1))
 }
@@ -87,7 +92,8 @@ pub enum Size {
     Large,
 }
 
-/// Element-steps per second of whole steps of a spinning block of `n` × `n` elements without contact and output.
+/// Element-steps per second of whole steps of a spinning block of `n` × `n` elements without contact and
+/// output.
 ///
 /// # Errors
 /// An element or law that is not in its registry; a step that fails.
@@ -125,8 +131,9 @@ pub fn steps_of(simulation: &mut Simulation, seconds: f64) -> Result<f64, Error>
     failed.map_or(Ok(rate), Err)
 }
 
-/// Shortest time of a step, s, of two models that take turns, so that what else the machine does meets both: so many rounds of four steps, or until the time is up. The first two rounds
-/// do not count: contacts close in them.
+/// Shortest time of a step, s, of two models that take turns, so that what else the machine does meets both:
+/// so many rounds of four steps, or until the time is up. The first two rounds do not count: contacts close
+/// in them.
 ///
 /// # Errors
 /// A model that is not sound, a step that fails.

@@ -3,7 +3,8 @@
 use crate::archive::{Archive, Keep, Kept};
 use embate_lanes::{BATCH, Batch};
 
-/// Makes a structure of batches whose lanes can be copied; every field is named once, so that none can be forgotten.
+/// Makes a structure of batches whose lanes can be copied; every field is named once, so that none can be
+/// forgotten.
 macro_rules! batches {
     ($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident,)* } kept { $($(#[$kept_doc:meta])* $kept:ident,)* }) => {
         $(#[$doc])*
@@ -33,7 +34,8 @@ macro_rules! batches {
 batches! {
     /// What belongs to a batch of eight elements and does not depend on the law's number of values.
     ElementBatch {
-        /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds for any later form of the element.
+        /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds
+        /// for any later form of the element.
         mass_least,
         /// Stored elastic energy of each element, J/m.
         stored,
@@ -44,13 +46,15 @@ batches! {
         /// Energy that hourglass control has stored and taken, J/m.
         hourglass,
     } kept {
-        /// 1 for an element, 0 for a lane that only fills the batch up and for an eroded element: both are copies of a live one (`erosion.rs`).
+        /// 1 for an element, 0 for a lane that only fills the batch up and for an eroded element: both are
+        /// copies of a live one (`erosion.rs`).
         live,
     }
 }
 
 batches! {
-    /// What bulk viscosity and damping in proportion to the stiffness remember of a batch; there only with one of them.
+    /// What bulk viscosity and damping in proportion to the stiffness remember of a batch; there only with
+    /// one of them.
     Resistance {
         /// Mass of each element without what mass scaling added, kg/m: the density of the bulk viscosity.
         mass,

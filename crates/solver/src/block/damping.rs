@@ -1,14 +1,19 @@
-//! Damping in proportion to the stiffness (Rayleigh): a stress σ_d = β C:ε̇ besides that of the law, with the elastic stiffness C of its current K and µ.
+//! Damping in proportion to the stiffness (Rayleigh): a stress σ_d = β C:ε̇ besides that of the law, with the
+//! elastic stiffness C of its current K and µ.
 //!
-//! It comes after the law has answered and before forces are made. ε̇ = Δε/Δt is that of the step which led here, so it lags by half a step:
+//! It comes after the law has answered and before forces are made. ε̇ = Δε/Δt is that of the step which led
+//! here, so it lags by half a step:
 //!
 //! ```text
-//! σ_d = β/Δt ((K − 2µ/3) tr(Δε) I + 2µ Δε),   in plane stress with λ* = 2µλ/(λ + 2µ) in place of λ = K − 2µ/3, nothing across
+//! σ_d = β/Δt ((K − 2µ/3) tr(Δε) I + 2µ Δε),   in plane stress with λ* = 2µλ/(λ + 2µ)
+//!                                                in place of λ = K − 2µ/3, nothing across
 //! work of the step ½ (σ_d,old + σ_d):Δε V,    stable step dt_d = √(β² + dt²) − β
 //! ```
 //!
-//! A mode of frequency ω is damped by the part ξ = βω/2 of the critical. The step is that of the lagging force: z² − (2 − dt²ω² − dt β ω²) z + 1 − dt β ω² = 0 reaches
-//! z = −1 at dt²ω² + 2 dt β ω² = 4. The sum of the works is never negative but for the first and last half step, which the trapezoidal rule of the ledger asks for.
+//! A mode of frequency ω is damped by the part ξ = βω/2 of the critical. The step is that of the lagging
+//! force: z² − (2 − dt²ω² − dt β ω²) z + 1 − dt β ω² = 0 reaches z = −1 at dt²ω² + 2 dt β ω² = 4. The sum of
+//! the works is never negative but for the first and last half step, which the trapezoidal rule of the ledger
+//! asks for.
 
 use super::batch::{ElementBatch, Resistance};
 use super::strain::Tensor;

@@ -1,12 +1,16 @@
-//! Last part of the element kernel: corner forces from the stresses, energies, the stable step. One text for every element, stress state, dimension
-//! and instruction set.
+//! Last part of the element kernel: corner forces from the stresses, energies, the stable step. One text for
+//! every element, stress state, dimension and instruction set.
 //!
 //! With mean dilatation (B-bar) the volumetric part of the force is averaged as that of the strain is:
-//! f_a = Σ_p w_p (dev σ_p) adj(J_p) ∇_ξ N_a + p̄ Σ_p adj(J_p) ∇_ξ N_a, the exact transpose of the averaged strain. In axisymmetric bodies every term carries
-//! 2πx_p, and the hoop stress adds Σ_p 2π w_p σ_zz det J_p N_a to the radial force.
+//! f_a = Σ_p w_p (dev σ_p) adj(J_p) ∇_ξ N_a + p̄ Σ_p adj(J_p) ∇_ξ N_a, the exact transpose of the averaged
+//! strain. In axisymmetric bodies every term carries 2πx_p, and the hoop stress adds Σ_p 2π w_p σ_zz det J_p
+//! N_a to the radial force.
 //!
-//! Bulk viscosity: a pressure q = ρ l (Q² l ε̇² + L c |ε̇|) where the volume shrinks (ε̇ < 0), with l² the element's area, c² = (K + 4µ/3)/ρ; the stable step
-//! shrinks by √(1 + ζ²) − ζ = 1 / (√(1 + ζ²) + ζ), ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
+//! Bulk viscosity: a pressure q = ρ l (Q² l ε̇² + L c |ε̇|) where the volume shrinks (ε̇ < 0), with l² the
+//! element's area, c² = (K + 4µ/3)/ρ; the stable step shrinks by √(1 + ζ²) − ζ = 1 / (√(1 + ζ²) + ζ),
+//! ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode
+//! (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21
+//! (1950) 232-237; Landshoff, LA-1930 (1955).
 
 use super::Report;
 use super::batch::{ElementBatch, Resistance};
@@ -21,7 +25,8 @@ use crate::tensor::{Dim, Space, SymmetricTensor, product, scaled};
 use embate_lanes::{Batch, Indices, Lane, math};
 use std::f64::consts::TAU;
 
-/// Elements of a strip after their law has answered. Their forces, N/m in the plane, are added to those on the nodes of the chunk.
+/// Elements of a strip after their law has answered. Their forces, N/m in the plane, are added to those on
+/// the nodes of the chunk.
 pub(super) struct Forces<'a, const D: usize> {
     pub(super) family: Family,
     /// Whether the law bears shear at rest.
@@ -64,7 +69,8 @@ pub(super) struct ForcesKernel<'a, E, const D: usize, const N: usize, const P: u
     pub(super) state: StressState,
 }
 
-/// Running minima and sums of a task, one per lane position so that the result does not depend on the lane width.
+/// Running minima and sums of a task, one per lane position so that the result does not depend on the lane
+/// width.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sums {
     stored: Batch,
@@ -158,7 +164,8 @@ where
             stored = stored * L::splat(0.5);
         }
         let live = L::load(&self.input.elements[batch].live, at);
-        // In the plane all counts as if it were dilatation; in space that thickness is for dampers, and for the start.
+        // In the plane all counts as if it were dilatation; in space that thickness is for dampers, and for
+        // the start.
         let dilates = D == 2 || !self.input.is_elastic || self.input.viscosity.is_some() || E::SWINGS > 0 || self.input.time_step <= 0.0;
         let dilating_squared =
             if dilates { E::thickness_squared(&geometry.x, &geometry.map, geometry.area, zero) } else { [L::splat(1.0); 2] };
@@ -281,8 +288,9 @@ where
         geometry
     }
 
-    /// The map of the elements. Where the gradient is a mean and the law hyperelastic, that which makes forces the slope of the energy: F of the mean is no ratio of present and initial
-    /// maps, but adj(F) takes adjugates of the start to those of now.
+    /// The map of the elements. Where the gradient is a mean and the law hyperelastic, that which makes
+    /// forces the slope of the energy: F of the mean is no ratio of present and initial maps, but adj(F)
+    /// takes adjugates of the start to those of now.
     #[inline(always)]
     fn map<L: Lane>(&self, batch: usize, at: usize, x: &[[L; D]; N]) -> Map<L, D, P> {
         let mut map = map::<E, L, D, N, P>(E::gradients(x), &E::warp(x));
@@ -318,7 +326,8 @@ where
         (stress, weight)
     }
 
-    /// Forces of the stresses, and of an additional `pressure`, on the nodes, which they pull back; of an element that is warped those of hourglass control too.
+    /// Forces of the stresses, and of an additional `pressure`, on the nodes, which they pull back; of an
+    /// element that is warped those of hourglass control too.
     #[inline(always)]
     fn nodal<L: Lane>(&self, batch: usize, at: usize, geometry: &Geometry<L, D, N, P>, pressure: L, held: &Held<L, D, N>) -> [[L; D]; N] {
         let (zero, third) = (L::splat(0.0), L::splat(1.0 / 3.0));
@@ -377,10 +386,11 @@ where
         nodal
     }
 
-    /// Pressure of the bulk viscosity, and the square of the stable step without it over that with it; books its work.
+    /// Pressure of the bulk viscosity, and the square of the stable step without it over that with it; books
+    /// its work.
     ///
-    /// Of a sheet in plane stress the pressure acts in the plane alone, and what it takes is −p t dA: so it follows the rate of the area, not of the volume, and comes as p t with
-    /// the mean thickness t.
+    /// Of a sheet in plane stress the pressure acts in the plane alone, and what it takes is −p t dA: so it
+    /// follows the rate of the area, not of the volume, and comes as p t with the mean thickness t.
     #[inline(always)]
     fn viscous<L: Lane>(
         &mut self,
@@ -407,7 +417,8 @@ where
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
         let pressure = if is_plane_stress { pressure * depth } else { pressure };
         let damping = (linear + growing + growing) * length * (thickness_squared[1] / thickness_squared[0]).sqrt();
-        // ζ = (…) l h / h₀² with the thickness h₀ of what dilates alone: the damping is that of the dilatation.
+        // ζ = (…) l h / h₀² with the thickness h₀ of what dilates alone: the damping is that of the
+        // dilatation.
         let damping = if D == 2 {
             damping
         } else {

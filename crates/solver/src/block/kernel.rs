@@ -1,8 +1,9 @@
 //! The only part of a block that is compiled for each element: [`ElementKernel`].
 //!
-//! The store ([`super::store`]) holds the state of the elements in plain batches and knows an element by numbers
-//! alone ([`Facts`]). A kernel has no state: it turns the motion of the nodes into strains and stresses into forces,
-//! strip by strip. Another way to do that (a shell, a device) is another implementation.
+//! The store ([`super::store`]) holds the state of the elements in plain batches and knows an element by
+//! numbers alone ([`Facts`]). A kernel has no state: it turns the motion of the nodes into strains and
+//! stresses into forces, strip by strip. Another way to do that (a shell, a device) is another
+//! implementation.
 
 use super::forces::{Forces, ForcesKernel};
 use super::strain::{Strain, StrainKernel, Tensor, circumference, initial_width, radius};
@@ -60,7 +61,8 @@ pub(super) trait ElementKernel<const D: usize>: Send + Sync {
     fn strain(&self, level: Level, strain: Strain<'_, D>);
     /// From the stresses to the forces, for a strip of elements.
     fn forces(&self, level: Level, forces: Forces<'_, D>);
-    /// Volumes, m² (m³), of the elements of a strip at the end of the step; for elements with one point that average at nodes.
+    /// Volumes, m² (m³), of the elements of a strip at the end of the step; for elements with one point that
+    /// average at nodes.
     fn volumes(&self, strip: &Strip<D>, volumes: &mut [Batch]);
 }
 

@@ -52,7 +52,8 @@ impl<'a, const D: usize> BlockInput<'a, D> {
     }
 }
 
-/// Makes the block; `None` when the element is none of the dimension, or the stress state or the law is unknown.
+/// Makes the block; `None` when the element is none of the dimension, or the stress state or the law is
+/// unknown.
 #[must_use]
 pub fn make<const D: usize>(input: &BlockInput<'_, D>) -> Option<Box<dyn Block<D>>>
 where

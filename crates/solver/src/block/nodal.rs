@@ -1,9 +1,12 @@
-//! Averaged nodal pressure: the driver of elements with one point whose dilatation is averaged over the nodes of the block and back (`tri3_anp`).
+//! Averaged nodal pressure: the driver of elements with one point whose dilatation is averaged over the nodes
+//! of the block and back (`tri3_anp`).
 //!
-//! The parts of the kernel are those of any element; between them the block goes through its nodes twice. Rate laws: θ_n = Σ_e V_e θ_e / Σ_e V_e over the elements of
-//! a node, θ̄_e the mean of its nodes. Hyperelastic laws: J_n = Σ_e V_e / Σ_e V_e⁰ in the same way. The pressure in the forces is averaged by the same two means, weighted
-//! with V (V⁰): Σ_e V_e p_e θ̄_e = Σ_e V_e p̄_e θ_e, so what the nodes spend is what the elements store. Sums run in the order of the elements.
-//! Source: Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449.
+//! The parts of the kernel are those of any element; between them the block goes through its nodes twice.
+//! Rate laws: θ_n = Σ_e V_e θ_e / Σ_e V_e over the elements of a node, θ̄_e the mean of its nodes.
+//! Hyperelastic laws: J_n = Σ_e V_e / Σ_e V_e⁰ in the same way. The pressure in the forces is averaged by the
+//! same two means, weighted with V (V⁰): Σ_e V_e p_e θ̄_e = Σ_e V_e p̄_e θ_e, so what the nodes spend is what
+//! the elements store. Sums run in the order of the elements. Source: Bonet and Burton, Commun. Numer. Meth.
+//! Engng 14 (1998) 437-449.
 
 use super::damping::Damp;
 use super::forces::{Forces, Sums};
@@ -69,8 +72,8 @@ impl<const D: usize> Nodal<D> {
         }
     }
 
-    /// From weights and moments to the mean over the nodes of each element of the weighted means of the nodes; a node without weight, all of whose elements are
-    /// eroded, has `none`.
+    /// From weights and moments to the mean over the nodes of each element of the weighted means of the
+    /// nodes; a node without weight, all of whose elements are eroded, has `none`.
     fn average(&mut self, none: f64, team: &mut Team) {
         let Self { cells, corners, elements, weight, moment, mean, at_nodes, .. } = self;
         let (weight, moment) = (&*weight, &*moment);

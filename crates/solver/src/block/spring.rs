@@ -1,10 +1,13 @@
 //! Springs and dampers between pairs of nodes, as a block of two-node elements without mass.
 //!
-//! F = k (l − l₀) or a curve F(l − l₀), constant beyond its ends, and c l̇, along the line between the nodes (N per metre of depth, between solids N). A spring breaks for good when |F| exceeds
-//! its strength. Work by the trapezoidal rule, as the nodal works of the ledger: that of the spring is stored until it breaks, that of the damper is dissipated.
+//! F = k (l − l₀) or a curve F(l − l₀), constant beyond its ends, and c l̇, along the line between the nodes
+//! (N per metre of depth, between solids N). A spring breaks for good when |F| exceeds its strength. Work by
+//! the trapezoidal rule, as the nodal works of the ledger: that of the spring is stored until it breaks, that
+//! of the damper is dissipated.
 //!
-//! Stable step of springs alone: by Gershgorin ω² ≤ 2 Σ k / m over the springs of a node, a damper that lags half a step takes part as 2c/Δt:
-//! dt² Σ k / (2m) + dt Σ c / m ≤ 1. [`together`] joins it to that of the elements.
+//! Stable step of springs alone: by Gershgorin ω² ≤ 2 Σ k / m over the springs of a node, a damper that lags
+//! half a step takes part as 2c/Δt: dt² Σ k / (2m) + dt Σ c / m ≤ 1. [`together`] joins it to that of the
+//! elements.
 
 use super::{Block, ElementState, Initial, Motion, Report, Wrong};
 use crate::archive::{Archive, Keep, Kept, keep_each};
@@ -127,8 +130,8 @@ impl SpringBlock {
     }
 }
 
-/// Square of the step that is stable for elements and springs on the same nodes, from those of each alone: (dt/dt_e)² + dt/dt_s ≤ 1, which is enough for stiffness and
-/// for damping.
+/// Square of the step that is stable for elements and springs on the same nodes, from those of each alone:
+/// (dt/dt_e)² + dt/dt_s ≤ 1, which is enough for stiffness and for damping.
 pub(crate) fn together(elements: f64, springs: f64) -> f64 {
     let half = 0.5 * (elements / springs).sqrt();
     let factor = (half * half + 1.0).sqrt() - half;

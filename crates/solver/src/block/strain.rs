@@ -1,9 +1,10 @@
-//! First part of the element kernel: gather the motion, find what the law wants to know of it. One text for every element, stress state, dimension
-//! and instruction set.
+//! First part of the element kernel: gather the motion, find what the law wants to know of it. One text for
+//! every element, stress state, dimension and instruction set.
 //!
-//! Rate laws: the displacement increment's gradient is taken in the mid-step configuration (zero strain for a rigid rotation) and turned
-//! to the end of the step by half the step's rotation (second order); the old stress is turned by all of it. Hyperelastic laws: F from the stored inverse of
-//! the initial Jacobian. With mean dilatation (B-bar) the volumetric part of the strain is averaged over the element.
+//! Rate laws: the displacement increment's gradient is taken in the mid-step configuration (zero strain for a
+//! rigid rotation) and turned to the end of the step by half the step's rotation (second order); the old
+//! stress is turned by all of it. Hyperelastic laws: F from the stored inverse of the initial Jacobian. With
+//! mean dilatation (B-bar) the volumetric part of the strain is averaged over the element.
 
 use super::batch::Resistance;
 use super::stress_state::StressState;
@@ -25,8 +26,8 @@ pub(super) struct Measures {
     pub(super) volume: bool,
 }
 
-/// Batches of initial geometry per point of a hyperelastic block: inverse Jacobian row by row, volume, and the radius of an axisymmetric body; of an element that is warped
-/// the second matrix.
+/// Batches of initial geometry per point of a hyperelastic block: inverse Jacobian row by row, volume, and
+/// the radius of an axisymmetric body; of an element that is warped the second matrix.
 pub(super) const fn initial_width<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize>(state: StressState) -> usize
 where
     Dim<D>: Space<D>,
@@ -34,7 +35,8 @@ where
     D * D + 1 + (D == 2 && state.is_axisymmetric) as usize + if E::WARPED { D * D } else { 0 }
 }
 
-/// Deformation gradient of a point from the Jacobian (and the second matrix of an element that is warped) and the inverse of the start.
+/// Deformation gradient of a point from the Jacobian (and the second matrix of an element that is warped) and
+/// the inverse of the start.
 #[inline(always)]
 pub(super) fn deformation<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
     jacobian: &Matrix<L, D>,
@@ -244,7 +246,8 @@ where
                 volume += own;
             }
             let (point, [half_way, rotation]) = (batch * P + p, turns);
-            // Strain increment and old stress meet at the end of the step; without its half rotation the update is of first order only.
+            // Strain increment and old stress meet at the end of the step; without its half rotation the
+            // update is of first order only.
             strain.rotated(&half_way).store(&mut self.input.strip.strain[point * components..(point + 1) * components], at);
             let stress = &mut self.input.stress[point * components..(point + 1) * components];
             Tensor::<D, L>::load(stress, at).rotated(&rotation).store(stress, at);
@@ -264,8 +267,9 @@ where
         }
     }
 
-    /// Notes the changes of the amplitudes of hourglass patterns in directions of the end of the step, and turns what is kept of them there. A vector in mid-step
-    /// directions at the end: the mean of itself and of the turned one, which is shorter by the square of the step's angle.
+    /// Notes the changes of the amplitudes of hourglass patterns in directions of the end of the step, and
+    /// turns what is kept of them there. A vector in mid-step directions at the end: the mean of itself and
+    /// of the turned one, which is shorter by the square of the step's angle.
     #[inline(always)]
     fn swing<L: Lane>(&mut self, batch: usize, at: usize, changes: &[[L; D]; PATTERNS], turns: &Turns<Tensor<D, L>, L>) {
         let half = L::splat(0.5);
@@ -286,7 +290,8 @@ where
         }
     }
 
-    /// Volume of the element over its initial volume, and the heat of the bulk viscosity, for laws with an equation of state.
+    /// Volume of the element over its initial volume, and the heat of the bulk viscosity, for laws with an
+    /// equation of state.
     #[inline(always)]
     fn volume_ratio<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N]) {
         let mut volume = L::splat(0.0);
@@ -307,7 +312,8 @@ where
         }
     }
 
-    /// b and J from the deformation gradient, the volume ratio averaged over the element with mean dilatation.
+    /// b and J from the deformation gradient, the volume ratio averaged over the element with mean
+    /// dilatation.
     #[inline(always)]
     fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {
         let jacobians = &E::gradients(x);
@@ -354,7 +360,8 @@ where
             let ratio_point = if self.is_axisymmetric() { ratio_point * stretch } else { ratio_point };
             let (mut ratio, mut scale, mut weight) = (ratio_point, one, L::splat(E::WEIGHTS[p]));
             if self.averages() {
-                // F̄ = (J̄/J)^{1/3} F; the deviatoric Kirchhoff stress τ̄ V₀ then weighs J̄ V₀ = (J̄/J) w det J.
+                // F̄ = (J̄/J)^{1/3} F; the deviatoric Kirchhoff stress τ̄ V₀ then weighs J̄ V₀ = (J̄/J) w det
+                // J.
                 let change = ratio_mean / ratio_point;
                 let root = embate_lanes::math::cbrt(change);
                 weight = weight * change;

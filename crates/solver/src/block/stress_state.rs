@@ -1,8 +1,8 @@
-//! Stress states: what the 2D plane stands for. Kernels of elements know them as two booleans; laws do not know them,
-//! but for the adapter of plane stress.
+//! Stress states: what the 2D plane stands for. Kernels of elements know them as two booleans; laws do not
+//! know them, but for the adapter of plane stress.
 //!
-//! Plane strain and plane stress count per metre of (initial) depth. An axisymmetric body has the radius x and the axis
-//! y, and all of the circumference 2πx is counted: forces in N, masses in kg, energies in J.
+//! Plane strain and plane stress count per metre of (initial) depth. An axisymmetric body has the radius x
+//! and the axis y, and all of the circumference 2πx is counted: forces in N, masses in kg, energies in J.
 
 /// A stress state as the registry describes it.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +22,8 @@ pub struct StressStateKind {
 pub struct StressState {
     /// Whether x is the radius: volumes carry the factor 2πx, and the hoop strain is u_x / x.
     pub is_axisymmetric: bool,
-    /// Whether the stress normal to the plane vanishes: volumes carry the thickness ratio λ, and dilatations are not
-    /// averaged (nothing locks).
+    /// Whether the stress normal to the plane vanishes: volumes carry the thickness ratio λ, and dilatations
+    /// are not averaged (nothing locks).
     pub is_plane_stress: bool,
 }
 

@@ -1,6 +1,8 @@
-//! What goes from one part of the kernel to the next: a few batches of elements at a time, so that it stays in the first-level cache.
+//! What goes from one part of the kernel to the next: a few batches of elements at a time, so that it stays
+//! in the first-level cache.
 //!
-//! The motion is gathered and strained ([`super::strain`]), the law answers ([`crate::material::points`]), the forces follow ([`super::forces`]).
+//! The motion is gathered and strained ([`super::strain`]), the law answers ([`crate::material::points`]),
+//! the forces follow ([`super::forces`]).
 
 use super::kernel::Facts;
 use crate::material::points::{PointLaw, RESPONSE, Room};
@@ -16,7 +18,8 @@ pub(super) struct Strip<const D: usize> {
     pub(super) moving: Moving<D>,
     /// Forces on them.
     pub(super) pulls: VectorSums<D>,
-    /// Positions of the nodes of each element in natural parts ([`crate::element::Element::natural`]): parts × dimensions.
+    /// Positions of the nodes of each element in natural parts ([`crate::element::Element::natural`]): parts
+    /// × dimensions.
     pub(super) parts: Vec<Batch>,
     /// Changes of the amplitudes of hourglass patterns, in directions of the end of the step.
     pub(super) swing: Vec<Batch>,
@@ -60,7 +63,8 @@ impl<const D: usize> Strip<D> {
     }
 }
 
-/// A part of the element kernel: work on batches of elements, as many lanes at a time as the instruction set has.
+/// A part of the element kernel: work on batches of elements, as many lanes at a time as the instruction set
+/// has.
 pub(super) trait Parts {
     /// Batches of elements.
     fn batches(&self) -> usize;

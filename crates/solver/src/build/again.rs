@@ -1,7 +1,9 @@
-//! Contacts made again, after elements were eroded: by the same functions as at the start, of the surfaces of the elements that are left.
+//! Contacts made again, after elements were eroded: by the same functions as at the start, of the surfaces of
+//! the elements that are left.
 //!
-//! The mesh knows which elements those are, so outsides, sides and bodies follow; stiffnesses and lengths are those of the initial configuration, as ever. What was known of the past is
-//! handed over by [`Contact::renew`].
+//! The mesh knows which elements those are, so outsides, sides and bodies follow; stiffnesses and lengths are
+//! those of the initial configuration, as ever. What was known of the past is handed over by
+//! [`Contact::renew`].
 
 use super::Builds;
 use super::{Builder, Fans};

@@ -18,7 +18,8 @@ pub trait Builds<const D: usize>: Dimension<D> {
     fn with_axis(model: &Model, mesh: &Mesh<D>) -> Result<Option<Model>, Vec<Fault>>
     where
         Dim<D>: Builds<D>;
-    /// Notes penetrations at the start as faults, or gives lines for the overview; those that shall be pushed out are, in the mesh.
+    /// Notes penetrations at the start as faults, or gives lines for the overview; those that shall be pushed
+    /// out are, in the mesh.
     fn part_at_start(builder: &mut Builder<'_, D>) -> Vec<String>
     where
         Dim<D>: Builds<D>;

@@ -61,7 +61,8 @@ where
     }
 }
 
-/// Each node of the larger set with the nearest one of the other, from the first set to the second; `Err`: a node of both.
+/// Each node of the larger set with the nearest one of the other, from the first set to the second; `Err`: a
+/// node of both.
 fn pairs<const D: usize>(first: &[u32], second: &[u32], positions: &[[f64; D]]) -> Result<Vec<[u32; 2]>, u32> {
     let (many, few) = if first.len() >= second.len() { (first, second) } else { (second, first) };
     let distance = |a: u32, b: u32| {

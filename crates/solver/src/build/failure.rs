@@ -12,7 +12,8 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: Builds<D>,
 {
-    /// The criteria of each group of elements; none where the part is rigid. Notes faults where a law does not remember what a criterion needs.
+    /// The criteria of each group of elements; none where the part is rigid. Notes faults where a law does
+    /// not remember what a criterion needs.
     pub(super) fn criteria(&mut self, blocks: &[Box<dyn Block<D>>]) -> Vec<Vec<Criterion>> {
         let mut faults = Vec::new();
         let mut of_group = Vec::new();

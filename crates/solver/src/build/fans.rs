@@ -1,5 +1,5 @@
-//! Which element lies behind an edge: found through the elements at its nodes, when a surface asks.
-//! Elements come from the mesh; stiffnesses of contacts and what is behind boundaries are made from the answers.
+//! Which element lies behind an edge: found through the elements at its nodes, when a surface asks. Elements
+//! come from the mesh; stiffnesses of contacts and what is behind boundaries are made from the answers.
 
 use super::Builder;
 use super::Builds;

@@ -1,7 +1,8 @@
 //! Parts on which nothing can ever act: a contact that was forgotten, most often.
 //!
-//! From the model and its mesh: what is joined by elements is one body, and a body is idle if none of its nodes is named by anything that could bring a force or a motion
-//! to it, and nothing in it moves or is strained at the start.
+//! From the model and its mesh: what is joined by elements is one body, and a body is idle if none of its
+//! nodes is named by anything that could bring a force or a motion to it, and nothing in it moves or is
+//! strained at the start.
 
 use super::Builds;
 use crate::contact::messages::IDLE;
@@ -71,7 +72,8 @@ fn for_all_or(model: &Model, name: &str) -> bool {
     contacts || obstacles || loads
 }
 
-/// Whether a part moves from the start, or is strained, or may be: rigid bodies have a motion of their own, equations of state an energy.
+/// Whether a part moves from the start, or is strained, or may be: rigid bodies have a motion of their own,
+/// equations of state an energy.
 fn acts_by_itself(model: &Model, part: &Part) -> bool {
     let has_pressure = model.materials.get(&part.material).is_none_or(|it| !it.eos.is_empty());
     let moves = part.velocity != [0.0; 3] || part.spin != 0.0;

@@ -1,4 +1,5 @@
-//! Masses: elements made heavier for a longer stable step before masses go to the nodes, and what is kept of the masses of parts.
+//! Masses: elements made heavier for a longer stable step before masses go to the nodes, and what is kept of
+//! the masses of parts.
 
 use super::Builder;
 use super::Builds;
@@ -14,7 +15,8 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: Builds<D>,
 {
-    /// Scales the mass of parts (`mass_scale`) and of elements below the wanted step. Returns the mass added to deformable parts and their true mass, kg/m; more than the limit is a fault.
+    /// Scales the mass of parts (`mass_scale`) and of elements below the wanted step. Returns the mass added
+    /// to deformable parts and their true mass, kg/m; more than the limit is a fault.
     pub(super) fn scale_mass(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) -> [f64; 2] {
         let masses = |block: &dyn Block<D>| (0..block.elements()).map(|element| block.mass(element)).sum::<f64>();
         let (mut before, mut after) = (0.0, 0.0);

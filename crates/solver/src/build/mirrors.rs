@@ -1,4 +1,5 @@
-//! Symmetry lines, in space planes, as what bodies meet that are in contact with themselves: which nodes, and how stiff.
+//! Symmetry lines, in space planes, as what bodies meet that are in contact with themselves: which nodes, and
+//! how stiff.
 
 use super::Builds;
 use super::{Builder, law_of, stiffness_of};
@@ -17,7 +18,8 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: Builds<D>,
 {
-    /// Symmetry lines or planes behind which there is nothing of the parts that they hold: number, a point, and the unit normal that points to the parts.
+    /// Symmetry lines or planes behind which there is nothing of the parts that they hold: number, a point,
+    /// and the unit normal that points to the parts.
     pub(crate) fn mirrors(&self) -> impl Iterator<Item = (usize, [f64; D], [f64; D])> {
         let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         self.model.symmetries.iter().enumerate().filter_map(move |(number, symmetry)| {
@@ -36,7 +38,8 @@ where
         })
     }
 
-    /// Where the bodies of a contact see their images, with those of the `nodes` of their surface that are not there, and what each stands for.
+    /// Where the bodies of a contact see their images, with those of the `nodes` of their surface that are
+    /// not there, and what each stands for.
     pub(super) fn mirrors_of(&self, contact: &model::Contact, nodes: &[u32], own: &[Tributary]) -> Vec<Mirror<D>> {
         if !matches!(contact.partners, Partners::Bodies(_)) {
             return Vec::new();

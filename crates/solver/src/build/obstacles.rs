@@ -59,7 +59,8 @@ impl Met<'_> {
     }
 }
 
-/// Points of the outline of a circle: off by less than 4e-5 of the radius, so that a picture of the place where a roll touches shows it round.
+/// Points of the outline of a circle: off by less than 4e-5 of the radius, so that a picture of the place
+/// where a roll touches shows it round.
 const ROUND: usize = 360;
 
 impl Builder<'_, 2> {
@@ -182,7 +183,8 @@ impl Builder<'_, 2> {
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
 
-    /// Points and lines are nodes and segments that move with the body, and meet the outside of the parts as surfaces meet: nodes of each against segments of the other.
+    /// Points and lines are nodes and segments that move with the body, and meet the outside of the parts as
+    /// surfaces meet: nodes of each against segments of the other.
     fn polyline(&mut self, obstacle: &Obstacle, met: Met<'_>, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation>) {
         let (own, closed) = distinct(points);
         let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64);
@@ -192,8 +194,8 @@ impl Builder<'_, 2> {
         let (body, nodes) = self.register(obstacle, reference, places, points.iter().map(arm).collect());
         let surface = chain(nodes, closed);
         let lines: Vec<f64> = surface.segments.iter().map(|&segment| length(segment, &self.positions)).collect();
-        // Lines as fine as the segments meet them as another surface would, half in each pass. Of long ones only the corners count besides, each with as much as a node
-        // of the parts has.
+        // Lines as fine as the segments meet them as another surface would, half in each pass. Of long ones
+        // only the corners count besides, each with as much as a node of the parts has.
         let passes = if lines.iter().sum::<f64>() <= lines.len() as f64 * met.mean.length { 2 } else { 1 };
         let slave = |own: Tributary, share: f64| {
             let here = law::Node { own, other: own.stiffness, share };
@@ -223,7 +225,8 @@ impl Builder<'_, 2> {
         Tracker::new(vec![parts.target, obstacle], passes, search, positions).with_bodies(&self.body_of_node, &[parts.lids, Vec::new()])
     }
 
-    /// The rigid body of an obstacle and its nodes, at these arms and places, m; `points` of its outline. Those that are there already, where contacts are made again.
+    /// The rigid body of an obstacle and its nodes, at these arms and places, m; `points` of its outline.
+    /// Those that are there already, where contacts are made again.
     fn register(
         &mut self,
         obstacle: &Obstacle,

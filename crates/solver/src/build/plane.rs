@@ -1,4 +1,5 @@
-//! What is built in the plane in a way of its own: the axis of a body of revolution, surfaces as chains of segments, and the contacts between them.
+//! What is built in the plane in a way of its own: the axis of a body of revolution, surfaces as chains of
+//! segments, and the contacts between them.
 
 use super::fans::Under;
 use super::{Builder, law_of, search_by_name, source_of, terms_of, terms_of_ties};
@@ -103,7 +104,8 @@ impl Builder<'_, 2> {
         Outlines::new(&outside, |segment| self.constraints.is_mirror(segment), &self.body_of_node, &self.mesh.positions)
     }
 
-    /// What makes the springs of a contact between bodies with these `outlines`, and the number of the terms that they follow.
+    /// What makes the springs of a contact between bodies with these `outlines`, and the number of the terms
+    /// that they follow.
     pub(crate) fn formulation(
         &mut self,
         contact: &model::Contact,
@@ -160,7 +162,8 @@ impl Builder<'_, 2> {
         }
     }
 
-    /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this leaves open.
+    /// A surface without the segments on symmetry lines, and the normals of the lines at the ends that this
+    /// leaves open.
     pub(crate) fn outlined(
         &self,
         surface: impl Fn(&dyn Fn([u32; 2]) -> bool) -> Result<Surface, Fault>,
@@ -194,7 +197,8 @@ impl Builder<'_, 2> {
 }
 
 impl Builder<'_, 2> {
-    /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the mirror images of the parts are.
+    /// Whether a point lies on a symmetry line of one of these parts (none: all) or beyond it, where the
+    /// mirror images of the parts are.
     pub(crate) fn is_beyond_mirrors(&self, x: [f64; 2], parts: &[String]) -> bool {
         let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let concerns = |held: &[String]| held.is_empty() || parts.is_empty() || held.iter().any(|part| parts.contains(part));

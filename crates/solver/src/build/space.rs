@@ -28,7 +28,8 @@ impl Builder<'_, 3> {
         }
     }
 
-    /// The rigid body of an obstacle with its reference point, m. The one rotation that a model names is that about z.
+    /// The rigid body of an obstacle with its reference point, m. The one rotation that a model names is that
+    /// about z.
     pub(super) fn obstacle_body_in_space(&self, obstacle: &Obstacle, reference: [f64; 3]) -> Body<3> {
         let drives = self.drives_in_space(&obstacle.motion);
         let (mass, inertia) = (obstacle.mass.unwrap_or(0.0), obstacle.inertia.unwrap_or(0.0));
@@ -44,7 +45,8 @@ impl Builder<'_, 3> {
         }
     }
 
-    /// What prescribes the velocities of a body. The one rotation that a model names is that about z; with it those about the other axes are none.
+    /// What prescribes the velocities of a body. The one rotation that a model names is that about z; with it
+    /// those about the other axes are none.
     fn drives_in_space(&self, motion: &Motion) -> [Drive; 6] {
         let drive = |drive: &Option<crate::model::Drive>| drive.as_ref().and_then(|drive| self.curves.speed(drive));
         let around = |axis: usize| if axis == 2 { drive(&motion.spin) } else { motion.spin.as_ref().map(|_| Default::default()) };

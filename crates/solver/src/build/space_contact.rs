@@ -1,4 +1,5 @@
-//! Contacts between surfaces in space: nodes against facets, made from the surfaces that a contact names and from the stiffness of the elements behind them.
+//! Contacts between surfaces in space: nodes against facets, made from the surfaces that a contact names and
+//! from the stiffness of the elements behind them.
 
 use super::outline::{self, Outline};
 use super::space_start::Meeting;
@@ -108,7 +109,8 @@ impl Builder<'_, 3> {
         outside.map_err(|fault| Fault { path: "parts".into(), ..fault })
     }
 
-    /// Nodes of the outside (ascending) that an obstacle may press: what a symmetry plane keeps at its distance from a plane needs no spring.
+    /// Nodes of the outside (ascending) that an obstacle may press: what a symmetry plane keeps at its
+    /// distance from a plane needs no spring.
     pub(super) fn nodes_pressed(&self, obstacle: &Obstacle, outside: &SpaceSurface) -> Vec<u32> {
         let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(normal) } else { None };
         let is_held = |node: u32| along.is_some_and(|n| self.constraints.mirror_normals(node).any(|m| dot(m, n).abs() > 1.0 - 1e-12));
@@ -140,7 +142,8 @@ impl Builder<'_, 3> {
         Ok((body, Box::new(NodeSolid::new(solid, body, surface, manner, Box::new(walls)))))
     }
 
-    /// The shape of an obstacle as its body sees it from a reference point (m), grown by the distance that it keeps; points and facets of its outline.
+    /// The shape of an obstacle as its body sees it from a reference point (m), grown by the distance that it
+    /// keeps; points and facets of its outline.
     pub(super) fn solid(&self, obstacle: &Obstacle) -> Result<(Vector, Solid, Outline), Fault> {
         let thickness = obstacle.interface.thickness;
         let far = 20.0 * initial::size(&self.mesh.positions);
@@ -189,7 +192,8 @@ impl Builder<'_, 3> {
         let (mut lines, mut pushed) = (Vec::new(), Vec::new());
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let Interface { initial_penetration, active, .. } = contact.interface;
-            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are made.
+            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are
+            // made.
             if refused(contact).is_some() || contact.tied.is_some() || active[0] > 0.0 {
                 continue;
             }
@@ -211,7 +215,8 @@ impl Builder<'_, 3> {
         lines
     }
 
-    /// What makes the springs of a contact, and the number of the terms that they follow. Faults have paths relative to the contact.
+    /// What makes the springs of a contact, and the number of the terms that they follow. Faults have paths
+    /// relative to the contact.
     fn node_facet(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
         if let Some((key, message, help)) = refused(contact) {
             return Err(vec![Fault::new(&NOT_IN_SPACE, key, format!("in space {message}"), help)]);
@@ -422,7 +427,8 @@ pub(super) struct Sided {
 }
 
 impl Sided {
-    /// Its nodes as slaves against another surface, in one of so many `passes` that carry the pressure together.
+    /// Its nodes as slaves against another surface, in one of so many `passes` that carry the pressure
+    /// together.
     pub(super) fn against(&self, target: &Self, interface: &Interface, passes: usize) -> PassInput {
         let penalty = law::penalty::penalty_of(interface);
         let slave = |(&own, &share): (&Tributary, &f64)| {

@@ -1,4 +1,5 @@
-//! Pinballs between surfaces in space: the surfaces that a contact names, the elements behind their facets and their stiffness.
+//! Pinballs between surfaces in space: the surfaces that a contact names, the elements behind their facets
+//! and their stiffness.
 
 use super::space_contact::Sided;
 use super::{Builder, law_of, terms_of};
@@ -9,7 +10,8 @@ use crate::error::Fault;
 use crate::model;
 
 impl Builder<'_, 3> {
-    /// What makes the springs of a contact between balls, and the number of the terms that they follow. Faults have paths relative to the contact.
+    /// What makes the springs of a contact between balls, and the number of the terms that they follow.
+    /// Faults have paths relative to the contact.
     pub(super) fn pinball_in_space(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let (search, surfaces) = (Self::search_in_space(contact)?, self.surfaces_in_space(contact)?);

@@ -31,14 +31,16 @@ struct Meeting {
 }
 
 impl Builder<'_, 2> {
-    /// Penetrations at the start: faults, or lines for the overview. Those that shall be pushed out are, in the mesh.
+    /// Penetrations at the start: faults, or lines for the overview. Those that shall be pushed out are, in
+    /// the mesh.
     pub(crate) fn part_at_start(&mut self) -> Vec<String> {
         let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let mut lines = Vec::new();
         let mut pushed = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let Interface { initial_penetration, thickness, active, .. } = contact.interface;
-            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are made.
+            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are
+            // made.
             if contact.tied.is_some() || active[0] > 0.0 {
                 continue;
             }
@@ -166,7 +168,8 @@ pub(super) const PUSHED: &str = "it was pushed out";
 /// Gap (m) and normal of a point at an obstacle; `None` where the obstacle is not.
 type Behind = Box<dyn Fn(Vector) -> Option<(f64, Vector)>>;
 
-/// What says whether nodes are behind an obstacle, as it will see them; of a polyline nodes and segments say it.
+/// What says whether nodes are behind an obstacle, as it will see them; of a polyline nodes and segments say
+/// it.
 fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Option<Behind> {
     let thickness = obstacle.interface.thickness;
     let shape: Box<dyn Shape> = match &obstacle.shape {

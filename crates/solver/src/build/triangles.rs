@@ -1,8 +1,11 @@
-//! Obstacles of triangles: points and triangles are nodes and facets that move with a rigid body, and meet the outside of the parts as surfaces meet, nodes against facets and edges against edges.
+//! Obstacles of triangles: points and triangles are nodes and facets that move with a rigid body, and meet
+//! the outside of the parts as surfaces meet, nodes against facets and edges against edges.
 //!
-//! The surface comes from the model; the search, the nearest feature, friction and memory are those of contact between bodies (`contact/node_facet.rs`). Nodes of the parts press with all that they
-//! stand for, as on every obstacle, where the triangles are larger than the facets of the parts; then only points that stick out press back, each with as much as a node of the parts has. Surfaces as
-//! fine as the parts meet them half in each pass.
+//! The surface comes from the model; the search, the nearest feature, friction and memory are those of
+//! contact between bodies (`contact/node_facet.rs`). Nodes of the parts press with all that they stand for,
+//! as on every obstacle, where the triangles are larger than the facets of the parts; then only points that
+//! stick out press back, each with as much as a node of the parts has. Surfaces as fine as the parts meet
+//! them half in each pass.
 
 use super::space_contact::{Sided, moduli, with_thickness};
 use super::space_start::stuck;
@@ -79,7 +82,8 @@ impl Builder<'_, 3> {
         self.of_bodies(&self.bodies_of(met), make, None)
     }
 
-    /// The rigid body, and the number of the node of its first point. Those that are there already, where contacts are made again.
+    /// The rigid body, and the number of the node of its first point. Those that are there already, where
+    /// contacts are made again.
     fn body_of_triangles(&mut self, obstacle: &Obstacle, surface: &TriangleSurface) -> (usize, u32) {
         if let Some(&body) = self.made.get(&obstacle.name) {
             return (body, self.bodies.state(body).members.first().map_or(0, |member| member.node));
@@ -97,7 +101,8 @@ impl Builder<'_, 3> {
         (body, first)
     }
 
-    /// What each point of an obstacle stands for beside the nodes of the parts, and the number of passes that carry the pressure together.
+    /// What each point of an obstacle stands for beside the nodes of the parts, and the number of passes that
+    /// carry the pressure together.
     fn points_of_triangles(&self, own: &SpaceSurface, parts: &[Tributary]) -> (Vec<Tributary>, usize) {
         let placed = Placed { surface: own, positions: &self.positions };
         let mut areas = vec![0.0; own.nodes.len()];
@@ -132,7 +137,8 @@ impl Builder<'_, 3> {
         (areas.into_iter().zip(counts).map(of).collect(), passes)
     }
 
-    /// Penetrations of obstacles of triangles at the start: faults, or lines for the overview of those that count as zero.
+    /// Penetrations of obstacles of triangles at the start: faults, or lines for the overview of those that
+    /// count as zero.
     pub(super) fn inside_triangles(&mut self, tolerance: f64) -> Vec<String> {
         let mut lines = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
@@ -153,7 +159,8 @@ impl Builder<'_, 3> {
         lines
     }
 
-    /// Does something with the first look of an obstacle of triangles at the outside of the parts; points of the obstacle follow the nodes of the model.
+    /// Does something with the first look of an obstacle of triangles at the outside of the parts; points of
+    /// the obstacle follow the nodes of the model.
     pub(super) fn look_at_triangles<T>(
         &self,
         surface: &TriangleSurface,

@@ -1,10 +1,11 @@
-//! Axis-aligned bounding boxes: by them the judges find what of the bodies is near what. They share nothing with the
-//! boxes of the search.
+//! Axis-aligned bounding boxes: by them the judges find what of the bodies is near what. They share nothing
+//! with the boxes of the search.
 
 /// A closed box, low and high corner, m.
 pub(super) type Aabb<const D: usize> = [[f64; D]; 2];
 
-/// How far beside a box a ray may pass and still meet it, as a share of the way: a flat box counts, whatever rounds.
+/// How far beside a box a ray may pass and still meet it, as a share of the way: a flat box counts, whatever
+/// rounds.
 const BESIDE: f64 = 1e-9;
 
 /// The box of nothing: no other one meets it.

@@ -1,4 +1,5 @@
-//! Energy of the springs of a contact, to know what those had that are not found again because their node or segment has left the surface.
+//! Energy of the springs of a contact, to know what those had that are not found again because their node or
+//! segment has left the surface.
 
 use crate::archive::keep_all;
 
@@ -20,7 +21,8 @@ impl Closed {
         }
     }
 
-    /// What is missing in `now`, J/m: where nothing is, sums that were added up in another order differ by round-off.
+    /// What is missing in `now`, J/m: where nothing is, sums that were added up in another order differ by
+    /// round-off.
     pub(super) fn less(&self, now: &Self) -> f64 {
         if self.count > now.count { (self.energy - now.energy).max(0.0) } else { 0.0 }
     }

@@ -1,11 +1,12 @@
-//! How deep bodies in the plane are in each other against their local thickness: by the springs of each step, and by a judge that looks at
-//! the bodies as they are.
+//! How deep bodies in the plane are in each other against their local thickness: by the springs of each step,
+//! and by a judge that looks at the bodies as they are.
 //!
-//! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside another one by their winding number,
-//! and three places on each part of a segment that is inside, are as deep as the other surface is far away. It looks when things may have
-//! gone a quarter of the least thickness, both bodies together, and at least every thirty-second step; where many segments are near each
-//! other less often, so that it goes through 16 of them a step in the mean.
-//! Where a body may meet itself, it is judged against itself, too ([`super::outline`]).
+//! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside
+//! another one by their winding number, and three places on each part of a segment that is inside, are as
+//! deep as the other surface is far away. It looks when things may have gone a quarter of the least
+//! thickness, both bodies together, and at least every thirty-second step; where many segments are near each
+//! other less often, so that it goes through 16 of them a step in the mean. Where a body may meet itself, it
+//! is judged against itself, too ([`super::outline`]).
 
 use super::boxes::{Aabb, do_meet};
 use super::findings::{DEEPEST_IN_PLANE, Findings, Overlap, SEEN, way_until_next};
@@ -63,7 +64,8 @@ impl Depths {
         Self { surfaces, ..Self::default() }
     }
 
-    /// With a judge of these bodies, each on the first (1) or the second side (2) of the contact, or on both (3): what meets is of different sides.
+    /// With a judge of these bodies, each on the first (1) or the second side (2) of the contact, or on both
+    /// (3): what meets is of different sides.
     #[must_use]
     pub(crate) fn judging(self, outlines: Vec<(Outline, u8)>) -> Self {
         let (outlines, sides) = outlines.into_iter().unzip();

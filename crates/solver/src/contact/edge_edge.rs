@@ -1,17 +1,24 @@
-//! Edges against edges: which ridges of surfaces in space cross each other, from step to step, and the springs between them.
+//! Edges against edges: which ridges of surfaces in space cross each other, from step to step, and the
+//! springs between them.
 //!
-//! Nodes that meet facets say nothing of two edges that cross between their nodes: such bodies would go through each other. Surfaces and the search's radius come from the tracker of the
-//! nodes ([`super::node_facet`]), which makes one contact of both. Nothing is held twice:
+//! Nodes that meet facets say nothing of two edges that cross between their nodes: such bodies would go
+//! through each other. Surfaces and the search's radius come from the tracker of the nodes
+//! ([`super::node_facet`]), which makes one contact of both. Nothing is held twice:
 //!
-//! - only ridges count (`projection/edge_edge.rs`), and only where the normal is well between those of the facets of one of them and not beyond those of the other: faces that lie on each
-//!   other leave it to their nodes, a ridge on a narrow face does not;
-//! - a pair is not taken where an end of one of its edges is in contact with a facet at the other one already; while ridges that cross are held (and none lies on a face), such nodes are left
-//!   out that were not in contact before: the depth of the edges is that of the bodies, also where a node is inside;
-//! - where a crossing goes over a node to the next edge of the same line, the spring goes on there with what it knows; where the line bends inward, so that it is on neither edge, it goes on
-//!   along the first one; where the next edge leaves in any other direction, but the normal stays about the same, the spring goes on there as soon as it is well off the first one.
+//! - only ridges count (`projection/edge_edge.rs`), and only where the normal is well between those of the
+//!   facets of one of them and not beyond those of the other: faces that lie on each other leave it to their
+//!   nodes, a ridge on a narrow face does not;
+//! - a pair is not taken where an end of one of its edges is in contact with a facet at the other one
+//!   already; while ridges that cross are held (and none lies on a face), such nodes are left out that were
+//!   not in contact before: the depth of the edges is that of the bodies, also where a node is inside;
+//! - where a crossing goes over a node to the next edge of the same line, the spring goes on there with what
+//!   it knows; where the line bends inward, so that it is on neither edge, it goes on along the first one;
+//!   where the next edge leaves in any other direction, but the normal stays about the same, the spring goes
+//!   on there as soon as it is well off the first one.
 //!
-//! A pair is inside only if it was seen to come in (on its way in the step, at any speed, as long as the edges still cross at its end), or at the start. Candidates come from the same global
-//! search, of the ends of edges against edges; order is fixed: edges ascending.
+//! A pair is inside only if it was seen to come in (on its way in the step, at any speed, as long as the
+//! edges still cross at its end), or at the start. Candidates come from the same global search, of the ends
+//! of edges against edges; order is fixed: edges ascending.
 
 use super::Sweep;
 use super::node_facet::groups::bodies_of;
@@ -27,7 +34,8 @@ use crate::rows::Rows;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{length, minus};
 
-/// How well the normal must be between those of the facets: of one edge at least, of the other one where a spring begins (on a flat face it is along a facet's), and as long as it is closed.
+/// How well the normal must be between those of the facets: of one edge at least, of the other one where a
+/// spring begins (on a flat face it is along a facet's), and as long as it is closed.
 const BETWEEN: f64 = 0.25;
 const BEGINS: f64 = -0.05;
 const STAYS: f64 = -0.25;
@@ -44,7 +52,8 @@ const SHALLOW: f64 = 0.25;
 /// The global search is asked for a little more than is needed: it may round.
 const SLACK: f64 = 1.001;
 
-/// Another pair, and whether its first edge is that which goes on in the second one here: of one surface pairs are ascending.
+/// Another pair, and whether its first edge is that which goes on in the second one here: of one surface
+/// pairs are ascending.
 #[derive(Clone, Copy)]
 struct Other {
     pair: usize,
@@ -92,7 +101,8 @@ pub struct EdgeTouch {
     pub own: bool,
     /// Whether there was no spring in the step before.
     pub is_new: bool,
-    /// Whether it is that of two ridges that cross, which it parts, and not that of one that lies on a face: nodes need no springs of their own.
+    /// Whether it is that of two ridges that cross, which it parts, and not that of one that lies on a face:
+    /// nodes need no springs of their own.
     pub stands: bool,
     pair: u32,
 }
@@ -110,7 +120,8 @@ pub struct Around<'a> {
     pub radius: f64,
     /// Part of it for what moves until the next search, m.
     pub skin: f64,
-    /// Gap (m) up to which springs are there before they are needed, beside what the motion asks for; and how many motions ahead.
+    /// Gap (m) up to which springs are there before they are needed, beside what the motion asks for; and how
+    /// many motions ahead.
     pub near: [f64; 2],
     /// Distance (m) up to which the law pushes, thickness included.
     pub extra: f64,
@@ -261,8 +272,9 @@ impl EdgeTracker {
         }
     }
 
-    /// Pairs that are inside, or near enough to come in during the next update, ascending. `is_held` tells whether a node (of the first surface or of the second) is in contact with a facet of
-    /// the other one; `make` gives the stiffness and the area of a new spring, and the depth beyond which it stiffens.
+    /// Pairs that are inside, or near enough to come in during the next update, ascending. `is_held` tells
+    /// whether a node (of the first surface or of the second) is in contact with a facet of the other one;
+    /// `make` gives the stiffness and the area of a new spring, and the depth beyond which it stiffens.
     pub fn track(
         &mut self,
         around: &Around<'_>,
@@ -276,8 +288,8 @@ impl EdgeTracker {
         for number in 0..self.pairs.len() {
             found.extend(self.look_at(number, around, &is_held));
         }
-        // What had a spring comes first; then one spring for each place at which two lines of edges cross; then what had one beyond an end.
-        // The deepest first: numbers say nothing.
+        // What had a spring comes first; then one spring for each place at which two lines of edges cross;
+        // then what had one beyond an end. The deepest first: numbers say nothing.
         let mut order: Vec<usize> = (0..found.len()).collect();
         order.sort_by(|&a, &b| found[a].crossing.gap.total_cmp(&found[b].crossing.gap).then(a.cmp(&b)));
         let mut taken: Vec<bool> = vec![false; self.pairs.len()];
@@ -300,7 +312,8 @@ impl EdgeTracker {
                 let (stiffness, area, stiffening) = make(touch);
                 let pair = &mut self.pairs[touch.pair as usize];
                 (pair.stiffness, pair.area, pair.stiffening, pair.memory) = (stiffness, area, stiffening, Memory::default());
-                // A spring that went over the end of another edge goes on: of several that which pushed most nearly along this normal.
+                // A spring that went over the end of another edge goes on: of several that which pushed most
+                // nearly along this normal.
                 let others = self.beside(touch, around).chain(self.come_from(touch.edges, around));
                 let cosine = |other: Other| self.cosine(other, &touch.crossing);
                 let better = |a: Other, b: Other| if cosine(b) > cosine(a) { b } else { a };
@@ -345,7 +358,8 @@ impl EdgeTracker {
         })
     }
 
-    /// Pairs with an edge that goes on from one of these at its end in any direction, and the same other edge, that cross beyond that end: what crosses has gone over the node.
+    /// Pairs with an edge that goes on from one of these at its end in any direction, and the same other
+    /// edge, that cross beyond that end: what crosses has gone over the node.
     fn come_from<'a>(&'a self, edges: [u32; 2], around: &'a Around<'_>) -> impl Iterator<Item = Other> + use<'a> {
         let nodes = move |of: usize, edge: u32| around.surfaces[self.sides[of]].edges[edge as usize].nodes;
         let ends = (0..2).flat_map(move |of| nodes(of, edges[of]).map(|node| (of, node)));
@@ -497,7 +511,8 @@ impl EdgeTracker {
         archive.check(is_sorted && self.pairs.iter().all(is_there), "a contact follows edges that are not there")
     }
 
-    /// Takes over what another one knew whose `surfaces` were those before they changed: of edges that are still there in `new` ones.
+    /// Takes over what another one knew whose `surfaces` were those before they changed: of edges that are
+    /// still there in `new` ones.
     pub(super) fn inherit(&mut self, old: &Self, surfaces: &[SpaceSurface], new: &[SpaceSurface]) {
         let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
         let by_nodes = |side: usize| {
@@ -537,7 +552,8 @@ struct Listed {
     class: u64,
 }
 
-/// The ridges of a surface, ascending, with those edges that may become some until the next search: an edge that a blow folds would be found when it is inside already.
+/// The ridges of a surface, ascending, with those edges that may become some until the next search: an edge
+/// that a blow folds would be found when it is inside already.
 fn ridges(surface: &SpaceSurface, positions: &[Vector]) -> Vec<Listed> {
     let placed = Placed { surface, positions };
     let listed = |number: u32| {
@@ -561,8 +577,9 @@ pub fn tangent(touch: &EdgeTouch, positions: &[Vector]) -> Vector {
 
 /// The ends of a spring between two edges; `tangent` is the first along which the slip is.
 ///
-/// The slip rate is that of the closest points less what a rotation of both together makes of it, ṡ = t·(v_a − v_b) − g t·ṅ. The normal stays at right angles to both edges, e·ṅ = −n·ė, so
-/// ṅ = −(n·ė_a) e^a − (n·ė_b) e^b with the dual vectors of both edges: friction keeps the angular momentum.
+/// The slip rate is that of the closest points less what a rotation of both together makes of it, ṡ = t·(v_a
+/// − v_b) − g t·ṅ. The normal stays at right angles to both edges, e·ṅ = −n·ė, so ṅ = −(n·ė_a) e^a − (n·ė_b)
+/// e^b with the dual vectors of both edges: friction keeps the angular momentum.
 #[must_use]
 pub fn ends(touch: &EdgeTouch, tangent: Vector, positions: &[Vector]) -> [End<3>; 4] {
     let Crossing { along: [s, t], gap, normal } = touch.crossing;

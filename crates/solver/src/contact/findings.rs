@@ -2,28 +2,34 @@
 
 use crate::archive::keep_all;
 
-/// Deepest that what is held may be in space, as a fraction of the local thickness: well below half of the half, for what lies between samples and looks.
+/// Deepest that what is held may be in space, as a fraction of the local thickness: well below half of the
+/// half, for what lies between samples and looks.
 pub const DEEPEST: f64 = 1.0 / 6.0;
 /// The same in the plane, where springs tell depths in each step.
 pub const DEEPEST_IN_PLANE: f64 = 0.2;
-/// Deepest that it may be in a single step of the plane: what comes in within a step, which may be thrown out in the next.
+/// Deepest that it may be in a single step of the plane: what comes in within a step, which may be thrown out
+/// in the next.
 const DEEPEST_IN_A_STEP: f64 = 0.22;
 /// Depth from which on an overlap gets a net and counts as penetration, as a fraction of the local thickness.
 pub const CAST: f64 = 0.05;
 
-/// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a sixteenth.
+/// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a
+/// sixteenth.
 pub(super) const SEEN: f64 = 0.0125;
-/// Way of both sides together between two looks in space, as a fraction of the least thickness, and most steps.
+/// Way of both sides together between two looks in space, as a fraction of the least thickness, and most
+/// steps.
 pub(super) const BETWEEN_LOOKS: f64 = 0.125;
 pub(super) const MOST_STEPS: u32 = 16;
 
 /// Places on a part of an edge or a segment that are looked at.
 pub(super) const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
-/// Least way of both bodies between two looks, as a fraction of the least thickness: where something is nearly too deep.
+/// Least way of both bodies between two looks, as a fraction of the least thickness: where something is
+/// nearly too deep.
 const LEAST_BETWEEN: f64 = 0.025;
 
-/// How far each body may go until the next look, m: both together no farther than `between` of the `least` thickness, m, and what is as deep as a
-/// `ratio` of its thickness no farther than to where it is too deep, `most`.
+/// How far each body may go until the next look, m: both together no farther than `between` of the `least`
+/// thickness, m, and what is as deep as a `ratio` of its thickness no farther than to where it is too deep,
+/// `most`.
 pub(super) fn way_until_next(ratio: f64, most: f64, between: f64, least: f64) -> f64 {
     0.5 * (most - ratio).clamp(LEAST_BETWEEN, between) * least
 }
@@ -92,8 +98,9 @@ impl Findings {
         }
     }
 
-    /// Counts a step in the plane that is too deep: deeper than a fifth if the one before was, `was_deep`, and 0.22 at once. What comes in
-    /// within a step may be as deep as both sides go in it, `way` (m) each, before it has gone through. Whether this step is too deep.
+    /// Counts a step in the plane that is too deep: deeper than a fifth if the one before was, `was_deep`,
+    /// and 0.22 at once. What comes in within a step may be as deep as both sides go in it, `way` (m) each,
+    /// before it has gone through. Whether this step is too deep.
     pub(super) fn count(&mut self, way: f64, was_deep: bool) -> bool {
         if (Overlap { depth: self.now.depth - 2.0 * way, ..self.now }).ratio() > 1.0 {
             self.through = Some(self.now);

@@ -1,7 +1,7 @@
 //! What a contact makes of its surfaces: the list of formulations, and what each is made from.
 //!
-//! The builder fills a [`Setup`] with plain numbers (contact knows nothing of elements); the formulation that the model names makes itself from it.
-//! One formulation a file, one line in [`FORMULATIONS`].
+//! The builder fills a [`Setup`] with plain numbers (contact knows nothing of elements); the formulation that
+//! the model names makes itself from it. One formulation a file, one line in [`FORMULATIONS`].
 
 use super::depths::Depths;
 use super::initial::is_ignored;
@@ -128,8 +128,8 @@ impl Setup<'_> {
         is_ignored(&self.contact.interface)
     }
 
-    /// Sees how deep nodes are against the local thickness; where nothing is tied, and nothing overlaps at the start, bodies are judged as they
-    /// are.
+    /// Sees how deep nodes are against the local thickness; where nothing is tied, and nothing overlaps at
+    /// the start, bodies are judged as they are.
     #[must_use]
     pub fn depths(&self) -> Depths {
         let depths = Depths::new(self.sides.iter().map(|side| self.outlines.opposite(&side.target.surface)).collect());
@@ -178,7 +178,8 @@ impl Setup<'_> {
         surface.segments.iter().map(|&[a, b]| at(a).min(at(b))).collect()
     }
 
-    /// What each of the segments at the nodes of a side has of the node's tributary length and of its stiffness: [that which ends there, that which begins there].
+    /// What each of the segments at the nodes of a side has of the node's tributary length and of its
+    /// stiffness: [that which ends there, that which begins there].
     #[must_use]
     pub fn faces(&self, side: usize) -> Vec<[Face; 2]> {
         let Side { target, segments, .. } = &self.sides[side];
@@ -210,7 +211,8 @@ impl Setup<'_> {
         faces
     }
 
-    /// Stiffness (N/m per metre of depth) of each node of a side by unit of pressure stiffness κ (Pa/m) of the target; empty where the stiffness is given.
+    /// Stiffness (N/m per metre of depth) of each node of a side by unit of pressure stiffness κ (Pa/m) of
+    /// the target; empty where the stiffness is given.
     #[must_use]
     pub fn per_modulus(&self, side: usize, passes: usize) -> Vec<f64> {
         match self.penalty() {

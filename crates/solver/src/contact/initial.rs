@@ -1,7 +1,8 @@
-//! Penetrations at the start: where they are, and how nodes are moved out of them before anything is strained.
+//! Penetrations at the start: where they are, and how nodes are moved out of them before anything is
+//! strained.
 //!
-//! Surfaces come from the builder as trackers that know nothing of the past; what is found goes to the model's faults, or to the overview. Bodies with themselves are
-//! never thought to penetrate at the start.
+//! Surfaces come from the builder as trackers that know nothing of the past; what is found goes to the
+//! model's faults, or to the overview. Bodies with themselves are never thought to penetrate at the start.
 
 pub mod space;
 
@@ -49,7 +50,8 @@ impl<const D: usize> Penetration<D> {
     }
 }
 
-/// Faults of a contact or obstacle at `path` with these penetrations; the first 20 are told, the rest is counted.
+/// Faults of a contact or obstacle at `path` with these penetrations; the first 20 are told, the rest is
+/// counted.
 #[must_use]
 pub fn faults<const D: usize>(path: &str, name: &str, found: &[Penetration<D>]) -> Vec<Fault> {
     let help = "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\"";
@@ -72,15 +74,16 @@ pub fn lines<const D: usize>(name: &str, found: &[Penetration<D>], what_is_done:
     lines
 }
 
-/// Whether gaps that are negative when an interface begins to act count as zero: where the model says so, or where it begins later, so that nobody can say where bodies
-/// are then.
+/// Whether gaps that are negative when an interface begins to act count as zero: where the model says so, or
+/// where it begins later, so that nobody can say where bodies are then.
 #[must_use]
 pub fn is_ignored(interface: &Interface) -> bool {
     interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
 }
 
-/// The gap that counts as zero (m, negative), now that the gap is `gap`: that at which the interface began to act, until the surfaces part. One that went with the gap would
-/// give to springs what nobody put in. `offset` is that of the step before; it has none before it has begun.
+/// The gap that counts as zero (m, negative), now that the gap is `gap`: that at which the interface began to
+/// act, until the surfaces part. One that went with the gap would give to springs what nobody put in.
+/// `offset` is that of the step before; it has none before it has begun.
 #[must_use]
 pub fn kept(has_begun: bool, offset: f64, gap: f64) -> f64 {
     if !has_begun {
@@ -126,8 +129,10 @@ pub struct Movable<'a> {
 }
 
 impl Movable<'_> {
-    /// Moves nodes until none is inside another body, or nearer than `thickness` (m), by more than the tolerance, or until that has been tried often enough. A node and the
-    /// segment that it is behind share the way so that the sum of squares is least, each along the directions in which it is not held. Whether something was moved.
+    /// Moves nodes until none is inside another body, or nearer than `thickness` (m), by more than the
+    /// tolerance, or until that has been tried often enough. A node and the segment that it is behind share
+    /// the way so that the sum of squares is least, each along the directions in which it is not held.
+    /// Whether something was moved.
     pub fn push_out(&mut self, tracker: &mut Tracker, thickness: f64) -> bool {
         for round in 0..ROUNDS {
             let found = inside(tracker, thickness, self.positions, self.tolerance);
@@ -143,7 +148,8 @@ impl Movable<'_> {
         true
     }
 
-    /// Moves `nodes` out of an obstacle of which `project` tells gap (m) and normal. Whether something was moved.
+    /// Moves `nodes` out of an obstacle of which `project` tells gap (m) and normal. Whether something was
+    /// moved.
     pub fn push_off(&mut self, nodes: &[u32], project: impl Fn(Vector) -> Option<(f64, Vector)>) -> bool {
         let mut is_moved = false;
         for &node in nodes {

@@ -1,4 +1,5 @@
-//! A contact whose bodies are looked at as they are, whatever makes its springs: pinballs, ties. What looks holds nothing, it tells.
+//! A contact whose bodies are looked at as they are, whatever makes its springs: pinballs, ties. What looks
+//! holds nothing, it tells.
 
 use super::findings::Findings;
 use super::springs::{Answers, Springs};
@@ -31,7 +32,8 @@ where
     /// What is read is of other bodies.
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
 
-    /// Goes on with what another one knew, whose surfaces were those before they changed; the bodies are looked at anew.
+    /// Goes on with what another one knew, whose surfaces were those before they changed; the bodies are
+    /// looked at anew.
     fn inherit(&mut self, old: &Self);
 }
 

@@ -1,7 +1,10 @@
-//! Bodies against their own mirror image in a symmetry line, in space a plane: a fold that reaches it meets its image there.
+//! Bodies against their own mirror image in a symmetry line, in space a plane: a fold that reaches it meets
+//! its image there.
 //!
-//! Lines or planes, and nodes, come from the builder; springs go to the same solution as those of the contact itself. By symmetry a node meets the image where it meets the line or plane, at half of the
-//! gap. Of the two passes of the pair, node against image and image against node, half belongs to the model: with the stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
+//! Lines or planes, and nodes, come from the builder; springs go to the same solution as those of the contact
+//! itself. By symmetry a node meets the image where it meets the line or plane, at half of the gap. Of the
+//! two passes of the pair, node against image and image against node, half belongs to the model: with the
+//! stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
 
 use super::springs::{Answers, End, Spring, Springs};
 use super::{Formulation, Scene};

@@ -1,8 +1,10 @@
 //! Contact: search -> project -> springs -> forces, everything on the same configuration.
 //!
-//! Sees surfaces, positions and stiffnesses; knows nothing of elements and materials. A [`Contact`] is a [`Formulation`] (what it makes springs of) and what the springs
-//! sum up to; laws and friction are in the [`springs::Terms`] whose number it has. [`Contact::detect`] finds the springs of the step, [`springs::Springs::solve`] the forces
-//! of all contacts and obstacles together, [`Contact::collect`] what they sum up to.
+//! Sees surfaces, positions and stiffnesses; knows nothing of elements and materials. A [`Contact`] is a
+//! [`Formulation`] (what it makes springs of) and what the springs sum up to; laws and friction are in the
+//! [`springs::Terms`] whose number it has. [`Contact::detect`] finds the springs of the step,
+//! [`springs::Springs::solve`] the forces of all contacts and obstacles together, [`Contact::collect`] what
+//! they sum up to.
 
 pub mod search;
 pub(crate) mod messages;
@@ -51,13 +53,15 @@ use tracker::{Certificate, SearchReport};
 /// A vector of the plane.
 pub type Vector = [f64; 2];
 
-/// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against obstacles.
+/// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against
+/// obstacles.
 pub trait Formulation<const D: usize = 2>: Any + Send + Sync
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Adds the springs of the step: of everything that is inside or may come in during the next update, so that a spring is there before it is
-    /// needed (one that closes unseen would give back what it never took).
+    /// Adds the springs of the step: of everything that is inside or may come in during the next update, so
+    /// that a spring is there before it is needed (one that closes unseen would give back what it never
+    /// took).
     fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>);
 
     /// Keeps what the next step needs of the solved springs, in the order of [`Formulation::detect`].
@@ -69,11 +73,12 @@ where
     /// What is read is of other surfaces.
     fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
 
-    /// Takes over what its predecessor knew, which was of the same kind and made of the same contact before surfaces changed. What belongs to nodes and segments that are no
-    /// more is forgotten.
+    /// Takes over what its predecessor knew, which was of the same kind and made of the same contact before
+    /// surfaces changed. What belongs to nodes and segments that are no more is forgotten.
     fn inherit(&mut self, old: Box<dyn Any>);
 
-    /// The formulation that it stands around, if it does: what is asked for and not answered below is that one's.
+    /// The formulation that it stands around, if it does: what is asked for and not answered below is that
+    /// one's.
     fn within(&self) -> Option<&dyn Formulation<D>> {
         None
     }
@@ -83,8 +88,9 @@ where
         self.within().map_or(0.0, |within| within.freed())
     }
 
-    /// Energy of springs that were closed in the step before and were not found by the last [`Formulation::detect`], because what they pushed on has left the surface, J/m. What
-    /// goes with surfaces that are no more is not among it.
+    /// Energy of springs that were closed in the step before and were not found by the last
+    /// [`Formulation::detect`], because what they pushed on has left the surface, J/m. What goes with
+    /// surfaces that are no more is not among it.
     fn let_go(&self) -> f64 {
         self.within().map_or(0.0, |within| within.let_go())
     }
@@ -141,7 +147,8 @@ pub struct Sweep<'a, const D: usize = 2> {
     pub old: &'a [[f64; D]],
     /// At the end, m: the configuration on which all forces are evaluated.
     pub new: &'a [[f64; D]],
-    /// Way that no node has exceeded since the start, m: ∑ dt max |v|. What is far sleeps until its partners may have come near.
+    /// Way that no node has exceeded since the start, m: ∑ dt max |v|. What is far sleeps until its partners
+    /// may have come near.
     pub travel: f64,
 }
 
@@ -182,7 +189,8 @@ where
     pub name: String,
     /// Where it stands in the model.
     pub kind: ContactKind,
-    /// What the springs of the step sum up to: force on the first surface (of an obstacle: on the bodies), energy, work.
+    /// What the springs of the step sum up to: force on the first surface (of an obstacle: on the bodies),
+    /// energy, work.
     pub totals: Totals<D>,
     /// Deepest penetration in the last evaluation, m.
     pub penetration: f64,
@@ -207,7 +215,8 @@ impl<const D: usize> Contact<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// A contact that has not acted yet. Its springs follow the terms number `terms`; it acts between the times `active`, s.
+    /// A contact that has not acted yet. Its springs follow the terms number `terms`; it acts between the
+    /// times `active`, s.
     #[must_use]
     pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation<D>>, terms: usize, active: [f64; 2]) -> Self {
         Self {
@@ -256,7 +265,8 @@ where
         springs.close_group(self.terms);
     }
 
-    /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the update of `time_step` (s) to `traces`.
+    /// Sums up the solved springs: adds their forces to `forces` and `bodies`, and what they did in the
+    /// update of `time_step` (s) to `traces`.
     pub fn collect(
         &mut self,
         springs: &Springs<D>,
@@ -335,8 +345,8 @@ where
         self.formulation.thinnest()
     }
 
-    /// How deep it is, m: the deepest of the last evaluation's penetration and of the overlaps that are deep enough for a net in the last
-    /// look, between bodies and in themselves.
+    /// How deep it is, m: the deepest of the last evaluation's penetration and of the overlaps that are deep
+    /// enough for a net in the last look, between bodies and in themselves.
     #[must_use]
     pub fn depth(&self) -> f64 {
         let found = self.overlaps().map_or([Overlap::default(); 2], |found| [found.now, found.own]);
@@ -356,7 +366,8 @@ where
         self.formulation.search_report()
     }
 
-    /// Moment (N) of the forces that the last step's springs put on what is not the rigid body `body`, about its reference point.
+    /// Moment (N) of the forces that the last step's springs put on what is not the rigid body `body`, about
+    /// its reference point.
     #[must_use]
     pub fn moment(
         &self,

@@ -1,9 +1,11 @@
-//! Nodes against facets of surfaces in space: a spring for each slave node, in a single pass, a double pass, or of a surface with itself; in the latter two also edges against edges
-//! ([`super::edge_edge`]), which share friction, thickness and memory with the nodes.
+//! Nodes against facets of surfaces in space: a spring for each slave node, in a single pass, a double pass,
+//! or of a surface with itself; in the latter two also edges against edges ([`super::edge_edge`]), which
+//! share friction, thickness and memory with the nodes.
 //!
-//! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet. The rows of a spring are the
-//! gradient of its gap (`projection/node_facet.rs`), so resultant, momentum and angular momentum are exact, and what slides over an edge or a corner keeps its energy as far as half steps
-//! see the turn of the normal.
+//! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the
+//! stiffness that of the softer side where they meet. The rows of a spring are the gradient of its gap
+//! (`projection/node_facet.rs`), so resultant, momentum and angular momentum are exact, and what slides over
+//! an edge or a corner keeps its energy as far as half steps see the turn of the normal.
 
 mod ends;
 mod far;
@@ -45,7 +47,8 @@ use tracker::{Memory, Touch, Tracker};
 pub struct PassInput {
     /// Slave nodes in the order of their surface.
     pub slaves: Vec<Slave>,
-    /// Stiffness (N/m) of each slave by unit of pressure stiffness κ (Pa/m) of the target; empty where the stiffness is given.
+    /// Stiffness (N/m) of each slave by unit of pressure stiffness κ (Pa/m) of the target; empty where the
+    /// stiffness is given.
     pub per_modulus: Vec<f64>,
     /// κ behind each facet of the target, Pa/m: the softest of its part.
     pub moduli: Vec<f64>,
@@ -60,7 +63,8 @@ pub struct PassInput {
 /// A slave node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slave {
-    /// Stiffness as its own side gives it, N/m: of the automatic penalty κ times the area, half of it in a double pass.
+    /// Stiffness as its own side gives it, N/m: of the automatic penalty κ times the area, half of it in a
+    /// double pass.
     pub stiffness: f64,
     /// Area of surface that it stands for, m²: its own, half of that where both surfaces are slaves.
     pub area: f64,
@@ -126,7 +130,8 @@ pub struct NodeFacet {
     let_go: f64,
     /// The touches of nodes that made springs in this step; those of edges follow.
     used: Vec<u32>,
-    /// Nodes whose springs were closed after the last step, and those that edges stand for in this one: slave surface, node, and facet.
+    /// Nodes whose springs were closed after the last step, and those that edges stand for in this one: slave
+    /// surface, node, and facet.
     closed_nodes: Vec<(usize, u32, u32)>,
     superseded: Vec<(usize, u32, u32)>,
     /// Ends of a spring beyond those of its own facet, while it is made.
@@ -159,7 +164,8 @@ impl NodeFacet {
         }
     }
 
-    /// The same with the edges of both surfaces against each other, or of the one against themselves; found by `search`.
+    /// The same with the edges of both surfaces against each other, or of the one against themselves; found
+    /// by `search`.
     #[must_use]
     pub fn with_edges(self, search: Box<dyn Search<3>>) -> Self {
         Self { edges: Some(EdgeTracker::new(self.tracker.surfaces(), self.tracker.bodies(), search)), ..self }
@@ -189,7 +195,8 @@ impl NodeFacet {
         &self.tracker
     }
 
-    /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
+    /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had:
+    /// neighbours along a surface are near, and stay so.
     fn gap(&self, touch: &Touch) -> f64 {
         let gap = touch.projection.gap - self.thickness;
         if !touch.own || self.initial.is_empty() {
@@ -359,7 +366,8 @@ impl NodeFacet {
 }
 
 impl NodeFacet {
-    /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
+    /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by
+    /// index; empty: all).
     fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         if self.edges.is_some() {
             self.tracker.note_closed(self.reach, &mut self.closed_nodes);
@@ -521,14 +529,15 @@ impl Formulation<3> for NodeFacet {
     }
 }
 
-/// What a tracker of nodes, which has looked at the same step, tells to one of edges; the law pushes up to the distance `extra`, thickness included, and springs are closed below the gap
-/// `open`, m.
+/// What a tracker of nodes, which has looked at the same step, tells to one of edges; the law pushes up to
+/// the distance `extra`, thickness included, and springs are closed below the gap `open`, m.
 fn around<'a>(tracker: &'a Tracker, sweep: Sweep<'a, 3>, is_new: bool, [extra, open]: [f64; 2]) -> Around<'a> {
     let [radius, skin] = tracker.reach();
     Around { surfaces: tracker.surfaces(), sweep, is_new, radius, skin, near: tracker.near(), extra, open }
 }
 
-/// Edges that cross other bodies' at the start, or are nearer than `thickness` (m) there; `tracker` has looked at the nodes.
+/// Edges that cross other bodies' at the start, or are nearer than `thickness` (m) there; `tracker` has
+/// looked at the nodes.
 #[must_use]
 pub fn edges_at_start(tracker: &Tracker, search: Box<dyn Search<3>>, positions: &[Vector], thickness: f64) -> Vec<EdgeTouch> {
     let around = around(tracker, Sweep::between(positions, positions), true, [thickness, 0.0]);
@@ -551,7 +560,8 @@ fn tangent(normal: Vector, direction: Vector) -> Vector {
     if dot(across, across) > 0.5 && dot(across, normal).abs() < 1e-6 { across } else { any_tangent(normal) }
 }
 
-/// The elastic slip of the step before, turned as the facets together turn in the step on which it lies, whichever of their corners is the first.
+/// The elastic slip of the step before, turned as the facets together turn in the step on which it lies,
+/// whichever of their corners is the first.
 fn slip(placed: &Placed<'_>, slip: Vector, facets: impl Iterator<Item = u32>, sweep: Sweep<'_, 3>) -> Vector {
     if slip == [0.0; 3] {
         return slip;

@@ -1,6 +1,8 @@
-//! Nodes against segments: a spring for each slave node, in a single pass, a double pass, or of a surface with itself.
+//! Nodes against segments: a spring for each slave node, in a single pass, a double pass, or of a surface
+//! with itself.
 //!
-//! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the stiffness that of the softer side where they meet.
+//! Where the nodes lie comes from the [`Tracker`]; friction and thickness are those of the slave node, the
+//! stiffness that of the softer side where they meet.
 
 mod fold;
 
@@ -70,13 +72,15 @@ pub struct NodeSegment {
 pub struct PassInput {
     /// Slave nodes in the order of their surface; stiffness as their own side gives it.
     pub slaves: Vec<Slave>,
-    /// Stiffness (N/m per metre of depth) of each slave by unit of pressure stiffness κ (Pa/m) of the target; empty where the stiffness is given.
+    /// Stiffness (N/m per metre of depth) of each slave by unit of pressure stiffness κ (Pa/m) of the target;
+    /// empty where the stiffness is given.
     pub per_modulus: Vec<f64>,
     /// Smallest κ of the part behind each segment of the target, Pa/m.
     pub moduli: Vec<f64>,
     /// The same α m / (dt² A) by the mass of its nodes and the first step, Pa/m; empty: not known.
     pub of_mass: Vec<f64>,
-    /// What the segments at each slave stand for, [that which ends there, that which begins there]; empty: slaves count whole.
+    /// What the segments at each slave stand for, [that which ends there, that which begins there]; empty:
+    /// slaves count whole.
     pub faces: Vec<[Face; 2]>,
     /// By what factor springs stiffen if the slaves or the target are those of an obstacle.
     pub at_obstacle: Option<f64>,
@@ -138,7 +142,8 @@ impl PassInput {
 pub struct Slave {
     /// Stiffness, N/m per metre of depth.
     pub stiffness: f64,
-    /// Area of surface that it stands for, m (of a body of revolution m²): its own, half of that where both surfaces are slaves.
+    /// Area of surface that it stands for, m (of a body of revolution m²): its own, half of that where both
+    /// surfaces are slaves.
     pub area: f64,
     /// Elastic slip at n − ½, m.
     pub slip: f64,
@@ -147,7 +152,8 @@ pub struct Slave {
 }
 
 impl NodeSegment {
-    /// For the passes of a contact. Where it ignores initial penetrations, gaps that are negative when it begins to act count as zero until the surfaces part.
+    /// For the passes of a contact. Where it ignores initial penetrations, gaps that are negative when it
+    /// begins to act count as zero until the surfaces part.
     #[must_use]
     pub fn of(setup: Setup<'_>) -> Self {
         let passes = setup.passes;
@@ -168,7 +174,8 @@ impl NodeSegment {
         Self { passes: inputs, initial, depths, ..Self::new(setup.tracker(), Vec::new(), interface, reach) }
     }
 
-    /// Of an obstacle, for the passes of `tracker` with slaves whose stiffness is known; `reach` of the law, m.
+    /// Of an obstacle, for the passes of `tracker` with slaves whose stiffness is known; `reach` of the law,
+    /// m.
     #[must_use]
     pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
         let factor = at_obstacles(penalty_of(interface));
@@ -190,14 +197,16 @@ impl NodeSegment {
         }
     }
 
-    /// The same with what is known of depths, and of each pass the thickness of the bodies at its slaves, m (empty: not known).
+    /// The same with what is known of depths, and of each pass the thickness of the bodies at its slaves, m
+    /// (empty: not known).
     #[must_use]
     pub fn with_depths(self, depths: Depths, thickness: Vec<Vec<f64>>) -> Self {
         let passes = self.passes.into_iter().zip(thickness).map(|(pass, thickness)| PassInput { thickness, ..pass }).collect();
         Self { passes, depths, ..self }
     }
 
-    /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
+    /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had:
+    /// neighbours along a surface are near, and stay so.
     fn gap(&self, touch: &Touch) -> f64 {
         let gap = touch.projection.gap - self.thickness;
         if !touch.own || self.initial.is_empty() {
@@ -218,9 +227,10 @@ impl NodeSegment {
 }
 
 impl NodeSegment {
-    /// Which of the segments at a slave stand for it in a touch. At a sharp edge that is the one that faces the target, so that the corner of a block presses with half of the segment
-    /// under it and not with the side wall; else, and where none faces the target, both. It stays so for as long as they are near: a spring that is closed may not change its
-    /// stiffness.
+    /// Which of the segments at a slave stand for it in a touch. At a sharp edge that is the one that faces
+    /// the target, so that the corner of a block presses with half of the segment under it and not with the
+    /// side wall; else, and where none faces the target, both. It stays so for as long as they are near: a
+    /// spring that is closed may not change its stiffness.
     fn faces(&self, touch: &Touch, memory: &Memory, positions: &[Vector]) -> u8 {
         if memory.faces != 0 {
             return memory.faces;
@@ -238,7 +248,8 @@ impl NodeSegment {
         }
     }
 
-    /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by index; empty: all).
+    /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by
+    /// index; empty: all).
     pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
         self.used.clear();
@@ -352,8 +363,9 @@ pub(super) fn is_stored(interface: &model::Interface) -> bool {
 
 /// The ends of a spring between a node and where it projects.
 ///
-/// The slip rate is that of the node against the target at the node's own distance, ṡ = t·(v − Σ Φ v_C) − g θ̇ with the rate θ̇ at which the segment turns: it does not see
-/// rotations of both together, and its transpose, the friction, keeps the angular momentum.
+/// The slip rate is that of the node against the target at the node's own distance, ṡ = t·(v − Σ Φ v_C) − g
+/// θ̇ with the rate θ̇ at which the segment turns: it does not see rotations of both together, and its
+/// transpose, the friction, keeps the angular momentum.
 #[must_use]
 pub fn ends(node: u32, projection: &Projection, target: &Target, positions: &[Vector]) -> [End; 3] {
     let segment = target.surface.segments[projection.segment as usize];
@@ -366,7 +378,8 @@ pub fn ends(node: u32, projection: &Projection, target: &Target, positions: &[Ve
     [End::node(node, 1.0), a, b]
 }
 
-/// The nodes of a segment as ends of a spring to what is seen from its foot at the distance `arm` (m), and slides there.
+/// The nodes of a segment as ends of a spring to what is seen from its foot at the distance `arm` (m), and
+/// slides there.
 #[must_use]
 pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positions: &[Vector]) -> [End; 2] {
     let Projection { weights: [wa, wb], normal, .. } = *projection;
@@ -376,7 +389,8 @@ pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positio
     // arm / L times the segment's normal
     let turn = if square > 0.0 { [-along[1] * arm / square, along[0] * arm / square] } else { [0.0; 2] };
     let t = tangent(normal);
-    // A weight is negative beyond the end of a face: such a node is pulled along, but belongs to the target all the same.
+    // A weight is negative beyond the end of a face: such a node is pulled along, but belongs to the target
+    // all the same.
     let end = |at: u32, weight: f64, sign: f64| {
         let (share, beyond) = (-weight.max(0.0), (-weight).max(0.0));
         let of = |row: Vector, d: usize| beyond * row[d];
@@ -385,10 +399,12 @@ pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positio
     [end(a, wa, -1.0), end(b, wb, 1.0)]
 }
 
-/// Adds to the rows of the gap those of what the face has fallen off at a distance d beyond its end, φ(d), with the slope φ'.
+/// Adds to the rows of the gap those of what the face has fallen off at a distance d beyond its end, φ(d),
+/// with the slope φ'.
 ///
-/// d = ± t·(x − C) with the segment's direction t and its nearer end C, so dd = ± [t·(dx − dC) + h n·(dx_C2 − dx_C1) / L] with the height h of the node over the segment's line. The
-/// whole gradient, so no energy is lost, and d does not see motions of node and segment together, so both momenta are exact.
+/// d = ± t·(x − C) with the segment's direction t and its nearer end C, so dd = ± [t·(dx − dC) + h n·(dx_C2 −
+/// dx_C1) / L] with the height h of the node over the segment's line. The whole gradient, so no energy is
+/// lost, and d does not see motions of node and segment together, so both momenta are exact.
 fn lean(ends: &mut [End; 3], touch: &Touch, positions: &[Vector]) {
     let Projection { weights: [before, place], normal, .. } = touch.projection;
     let t = tangent(normal);

@@ -1,12 +1,11 @@
 //! Outlines of bodies in the plane: what is opposite of each segment, and what is inside.
 //!
-//! Local thickness is how far the surface is on the other side, along the inward normal. The ray from the middle of a segment finds the
-//! opposite segment once, at the start; what lies there is
-//! followed as both move, so that a crushed body is as thin as it is. On a symmetry line the body goes on as its image. Nothing is thicker
-//! than 4 A / P with the area A and the perimeter P of the
-//! body, which is twice the radius of the inscribed circle for polygons that have one, and more for other convex ones. That is taken, too,
-//! where the ray leaves the body at less than 30 degrees to
-//! the surface there, as beside a corner.
+//! Local thickness is how far the surface is on the other side, along the inward normal. The ray from the
+//! middle of a segment finds the opposite segment once, at the start; what lies there is followed as both
+//! move, so that a crushed body is as thin as it is. On a symmetry line the body goes on as its image.
+//! Nothing is thicker than 4 A / P with the area A and the perimeter P of the body, which is twice the radius
+//! of the inscribed circle for polygons that have one, and more for other convex ones. That is taken, too,
+//! where the ray leaves the body at less than 30 degrees to the surface there, as beside a corner.
 
 mod folds;
 mod sides;
@@ -68,7 +67,8 @@ pub struct Outlines {
 }
 
 impl Outlines {
-    /// Of an outside, with the segments on symmetry lines (`is_mirror`), of bodies at their initial `positions`, m.
+    /// Of an outside, with the segments on symmetry lines (`is_mirror`), of bodies at their initial
+    /// `positions`, m.
     #[must_use]
     pub fn new(outside: &[[u32; 2]], is_mirror: impl Fn([u32; 2]) -> bool, body_of: &[u32], positions: &[Vector]) -> Self {
         let body = |segment: &[u32; 2]| body_of.get(segment[0] as usize).copied().unwrap_or(0);
@@ -80,8 +80,8 @@ impl Outlines {
         Self { bodies, opposite }
     }
 
-    /// With the outlines of these bodies as a first side, and that of the rigid body `other`, whose solid is on the right of its segments, as a
-    /// second one.
+    /// With the outlines of these bodies as a first side, and that of the rigid body `other`, whose solid is
+    /// on the right of its segments, as a second one.
     pub(crate) fn against(&self, counts: impl Fn(u32) -> bool, other: (u32, Vec<[u32; 2]>), positions: &[Vector]) -> Vec<(Outline, u8)> {
         let bodies = self.bodies.iter().filter(|outline| counts(outline.body)).map(|outline| (outline.clone(), 1));
         bodies.chain([(Outline::new(other.0, other.1, &|_| false, positions), 2)]).collect()
@@ -103,7 +103,8 @@ pub(super) struct Side {
     pub(super) is_mirror: bool,
 }
 
-/// The outline of a body: its segments in the order of a binary tree of boxes, by halves along the longer axis of their middles.
+/// The outline of a body: its segments in the order of a binary tree of boxes, by halves along the longer
+/// axis of their middles.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
     pub(super) body: u32,
@@ -168,7 +169,8 @@ impl Outline {
         self.visit_below(*second as usize, last, counts, see);
     }
 
-    /// Where the ray from the middle of a segment inwards first leaves the body, if the surface there looks the other way.
+    /// Where the ray from the middle of a segment inwards first leaves the body, if the surface there looks
+    /// the other way.
     fn opposite(&self, side: &Side, positions: &[Vector]) -> Option<Opposite> {
         let [a, b] = side.segment.map(|node| positions[node as usize]);
         let along = minus(b, a);
@@ -200,7 +202,8 @@ impl Outline {
         (self.winding(x, is_wide, |_| true, positions) != 0) != self.is_hollow
     }
 
-    /// Winding number of a place, of the segments that count: by a ray along x, or along y if the outline `is_turned`, which changes the sign.
+    /// Winding number of a place, of the segments that count: by a ray along x, or along y if the outline
+    /// `is_turned`, which changes the sign.
     fn winding(&self, x: Vector, is_turned: bool, counts: impl Fn(&Side) -> bool, positions: &[Vector]) -> i32 {
         let turned = |[x, y]: Vector| if is_turned { [y, x] } else { [x, y] };
         let x = turned(x);
@@ -253,9 +256,8 @@ impl Outline {
         );
     }
 
-    /// Shows nodes of this outline that are inside another one, and three places on each part of its segments that is, and whether a place
-    /// is the first node of its segment.
-    /// Returns how many segments it looked at.
+    /// Shows nodes of this outline that are inside another one, and three places on each part of its segments
+    /// that is, and whether a place is the first node of its segment. Returns how many segments it looked at.
     pub(super) fn inside(&self, other: &Self, positions: &[Vector], mut see: impl FnMut(Vector, &Side, bool)) -> usize {
         let near: Vec<&Side> = self.near(other, positions).collect();
         let looked = near.len();
@@ -283,8 +285,8 @@ impl Outline {
         looked
     }
 
-    /// Where segments cut this outline, of those of its own that count for each: shares of their ways, ascending, and where those of each
-    /// segment begin.
+    /// Where segments cut this outline, of those of its own that count for each: shares of their ways,
+    /// ascending, and where those of each segment begin.
     fn cuts(&self, of: &[&Side], counts: impl Fn(&Side, &Side) -> bool, positions: &[Vector]) -> (Vec<f64>, Vec<usize>) {
         let (mut cuts, mut begin) = (Vec::new(), vec![0]);
         for &side in of {
@@ -362,7 +364,8 @@ fn box_of(sides: &[Side], positions: &[Vector]) -> Aabb<2> {
     around(sides.iter().flat_map(|side| side.segment).map(|node| positions[node as usize]))
 }
 
-/// Where a ray meets a segment from p to q that it comes to from inside: how far, m, the share of q there, and the cosine between its direction and the normal.
+/// Where a ray meets a segment from p to q that it comes to from inside: how far, m, the share of q there,
+/// and the cosine between its direction and the normal.
 fn meets(from: Vector, direction: Vector, p: Vector, q: Vector) -> Option<(f64, f64, f64)> {
     let along = minus(q, p);
     // The body is on the right: the normal looks to the left.
@@ -471,7 +474,8 @@ mod tests {
     #[test]
     fn what_is_inside_is_found_also_where_no_node_is() {
         for parts in [1, 3, 8] {
-            // A bar through the middle of a square: no node of either is in the other, and its sides are 0.4 and 0.2 from the nearest sides.
+            // A bar through the middle of a square: no node of either is in the other, and its sides are 0.4
+            // and 0.2 from the nearest sides.
             let (made, places) = two(0.0, [-1.0, 0.4], parts);
             assert!((deepest(&made, &places) - 0.4).abs() < 0.11, "{parts}: {}", deepest(&made, &places));
             // Its end in the square, by 0.1 from the left.

@@ -1,14 +1,21 @@
-//! Pinballs: disks in the elements under the surfaces, a spring between each two that come near. No segments, no sides, no projections.
+//! Pinballs: disks in the elements under the surfaces, a spring between each two that come near. No segments,
+//! no sides, no projections.
 //!
-//! Belytschko and Neal, Int. J. Numer. Meth. Engng 31 (1991) 547-572, put a ball of the element's volume at the mean of the element's nodes; Belytschko and Yeh, Comput. Meth. Appl.
-//! Mech. Engng 105 (1993) 375-393, split balls of elongated elements. Here the disk is the one that touches the surface from inside: a segment of length L over an element of height h
-//! gets n = round(L/h) ≥ 1 disks of radius R = ½ min(h, L/n), at the depth R, each for the length L/n; one at the mean of the nodes where the element is square. Reasons:
-//! disks of the element's area, R = √(A/π), reach out of flat surfaces by 13 % of the height, so bodies that touch would be pushed apart, and disks of long elements would leave holes.
-//! The centre is a fixed point of the element, c = Σ N_k x_k, the radius is constant: so the gap |c₁ − c₂| − R₁ − R₂ has the rows N_k n, its spring keeps the energy, and the
-//! forces keep both momenta exactly. (Scaling R by the element's area would change next to nothing where material flows, and pump energy where it is elastic.)
+//! Belytschko and Neal, Int. J. Numer. Meth. Engng 31 (1991) 547-572, put a ball of the element's volume at
+//! the mean of the element's nodes; Belytschko and Yeh, Comput. Meth. Appl. Mech. Engng 105 (1993) 375-393,
+//! split balls of elongated elements. Here the disk is the one that touches the surface from inside: a
+//! segment of length L over an element of height h gets n = round(L/h) ≥ 1 disks of radius R = ½ min(h, L/n),
+//! at the depth R, each for the length L/n; one at the mean of the nodes where the element is square.
+//! Reasons: disks of the element's area, R = √(A/π), reach out of flat surfaces by 13 % of the height, so
+//! bodies that touch would be pushed apart, and disks of long elements would leave holes. The centre is a
+//! fixed point of the element, c = Σ N_k x_k, the radius is constant: so the gap |c₁ − c₂| − R₁ − R₂ has the
+//! rows N_k n, its spring keeps the energy, and the forces keep both momenta exactly. (Scaling R by the
+//! element's area would change next to nothing where material flows, and pump energy where it is elastic.)
 //!
-//! Surfaces of disks are bumpy by 0.13 of the disks' diameter: bodies on each other's disks stand nearer or farther by that, and sliding is rough. Good for impact and penetration, not for
-//! pressures. Stiffness of a pair: that of the automatic penalty, min(κ₁, κ₂) times the shorter of the two lengths (the penalty form); with the law `multiplier` the Lagrangian form.
+//! Surfaces of disks are bumpy by 0.13 of the disks' diameter: bodies on each other's disks stand nearer or
+//! farther by that, and sliding is rough. Good for impact and penetration, not for pressures. Stiffness of a
+//! pair: that of the automatic penalty, min(κ₁, κ₂) times the shorter of the two lengths (the penalty form);
+//! with the law `multiplier` the Lagrangian form.
 
 mod follower;
 pub mod space;
@@ -39,7 +46,8 @@ pub struct Pinball {
 }
 
 impl Disk {
-    /// Ends of a spring that pushes the disk along `sign` n; friction's couple of `moment` per force is taken by the element's nodes around their mean.
+    /// Ends of a spring that pushes the disk along `sign` n; friction's couple of `moment` per force is taken
+    /// by the element's nodes around their mean.
     fn ends(&self, positions: &[Vector], sign: f64, moment: f64) -> [End; 4] {
         let nodes = &self.nodes[..self.count];
         let mut mean = [0.0; 2];
@@ -103,7 +111,8 @@ fn disks_of_segment(segment: [u32; 2], cell: &[u32], stiffness: f64, positions: 
     if !(whole > 0.0 && height > 0.0) {
         return Vec::new();
     }
-    // A little less, so that round-off does not give equal elements with L/h = 1.5 one disk here and two there.
+    // A little less, so that round-off does not give equal elements with L/h = 1.5 one disk here and two
+    // there.
     let count = (whole / height - 1e-6).round().max(1.0);
     let down = 0.5 * (whole / count / height).min(1.0);
     let disk = |k: usize| {
@@ -135,7 +144,8 @@ impl Formulation for Pinball {
             let lying = follower.lying(index);
             let near = follower.near[index];
             let [one, other] = near.pair.map(|disk| &follower.balls[disk as usize]);
-            // Friction acts along t at both centres; each element takes the part of the couple that its radius has in the distance.
+            // Friction acts along t at both centres; each element takes the part of the couple that its
+            // radius has in the distance.
             let part = lying.distance / (one.radius + other.radius);
             let positions = scene.sweep.new;
             let mut ends = [End::default(); 8];

@@ -1,15 +1,23 @@
-//! Proof that no contact between solids was missed: beside the trackers of nodes and edges, with a search of its own, every pair of a node and a facet, and of two ridges, is swept in every
-//! step, and who goes into a body has to be in contact with it.
+//! Proof that no contact between solids was missed: beside the trackers of nodes and edges, with a search of
+//! its own, every pair of a node and a facet, and of two ridges, is swept in every step, and who goes into a
+//! body has to be in contact with it.
 //!
-//! Surfaces, positions and touches come from the formulation ([`super::node_facet`]), counts go to the [`Certificate`]. What is proven:
+//! Surfaces, positions and touches come from the formulation ([`super::node_facet`]), counts go to the
+//! [`Certificate`]. What is proven:
 //!
-//! - a node that goes through a facet of a body from its front (`node_facet/passage.rs`; of its own body only such as face it), and does not come out again by that side or beside it, is held on
-//!   the side where it came in: else it is `unverified` in that step. So is one that was inside and goes through the far side of a thin body: that is no way out;
-//! - a node that was inside a body and has no touch with it any more is outside by the nearest feature, else it is `unverified`;
-//! - ridges that go through each other, so that both wedges open there, have a spring, or one of them has in the same line, or a node of theirs touches the other body: else they are.
+//! - a node that goes through a facet of a body from its front (`node_facet/passage.rs`; of its own body only
+//!   such as face it), and does not come out again by that side or beside it, is held on the side where it
+//!   came in: else it is `unverified` in that step. So is one that was inside and goes through the far side
+//!   of a thin body: that is no way out;
+//! - a node that was inside a body and has no touch with it any more is outside by the nearest feature, else
+//!   it is `unverified`;
+//! - ridges that go through each other, so that both wedges open there, have a spring, or one of them has in
+//!   the same line, or a node of theirs touches the other body: else they are.
 //!
-//! Pairs within the margin are searched; they are all until nodes have gone half of it (by the travel, ∑ dt max |v|, that none exceeds), when they are searched anew. A pair that was d apart at
-//! the travel T can't have met before 2 (T' − T) > d: until then it sleeps, and counts as swept. What touches and goes on doing so was not missed, and is not swept.
+//! Pairs within the margin are searched; they are all until nodes have gone half of it (by the travel, ∑ dt
+//! max |v|, that none exceeds), when they are searched anew. A pair that was d apart at the travel T can't
+//! have met before 2 (T' − T) > d: until then it sleeps, and counts as swept. What touches and goes on doing
+//! so was not missed, and is not swept.
 
 use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
@@ -33,7 +41,8 @@ const MARGIN: f64 = 1.0;
 const SLACK: f64 = 1.001;
 /// A sleeper wakes a little before it has to.
 const EARLY: f64 = 1.0 - 1e-9;
-/// Who is no farther before a facet than this fraction of its size is on it: what lies on a rim is told to be over it or beside it by rounding.
+/// Who is no farther before a facet than this fraction of its size is on it: what lies on a rim is told to be
+/// over it or beside it by rounding.
 const FLUSH: f64 = 1e-6;
 /// How well both ridges open where they go through each other.
 const BETWEEN: f64 = 0.25;
@@ -88,7 +97,8 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// For the passes (slave, target) of surfaces; `bodies` of each node of the model, `positions` the initial ones. `makes` a search, which is not that of the contact.
+    /// For the passes (slave, target) of surfaces; `bodies` of each node of the model, `positions` the
+    /// initial ones. `makes` a search, which is not that of the contact.
     #[must_use]
     pub fn new(
         surfaces: &[SpaceSurface],
@@ -283,7 +293,8 @@ impl Proof {
         }
     }
 
-    /// Whether edges that went through each other are held: by a spring of theirs or of edges at their nodes, or by a node of theirs.
+    /// Whether edges that went through each other are held: by a spring of theirs or of edges at their nodes,
+    /// or by a node of theirs.
     fn is_held(&self, edges: [u32; 2], nodes: [[u32; 2]; 2], touches: &[EdgeTouch], tracker: &Tracker, sides: [usize; 2]) -> bool {
         let meets = |a: [u32; 2], b: [u32; 2]| a.iter().any(|node| b.contains(node));
         let by_edges =
@@ -319,7 +330,8 @@ impl Proof {
         Ok(())
     }
 
-    /// Goes on with what another one knew whose surfaces were those before they changed to `surfaces`: counts, and who is inside. Pairs are searched anew in the next step.
+    /// Goes on with what another one knew whose surfaces were those before they changed to `surfaces`:
+    /// counts, and who is inside. Pairs are searched anew in the next step.
     pub(super) fn inherit(&mut self, old: &Self, surfaces: &[SpaceSurface]) {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
             let slaves = &surfaces[pass.slave].nodes;
@@ -340,7 +352,8 @@ fn wake_at(clear: f64, travel: f64) -> f64 {
     if wake < f64::INFINITY { wake } else { AWAKE }
 }
 
-/// Whether a node at x that went in, or through the far side, is neither held there nor came around the body, before the face again by which it came in.
+/// Whether a node at x that went in, or through the far side, is neither held there nor came around the body,
+/// before the face again by which it came in.
 fn is_missed(fate: Fate, touch: Option<&Touch>, x: Vector, candidates: &[u32], placed: &Placed<'_>) -> bool {
     let Fate { side, enters, is_through } = fate;
     let is_held = |touch: &Touch| {

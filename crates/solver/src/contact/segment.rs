@@ -1,15 +1,21 @@
-//! Segments against segments: the pressure of two surfaces is integrated over what they have in common, on the line between both.
+//! Segments against segments: the pressure of two surfaces is integrated over what they have in common, on
+//! the line between both.
 //!
-//! Two segments a (of the first surface) and b that face each other have the common direction t = (t_a − t_b)/|t_a − t_b| and the normal n ⟂ t. Their common part
-//! is where both projections on t overlap; at each of its Gauss points stand the points x_a and x_b of the segments with the same coordinate along t, and between
-//! them a spring with the gap g = n·(x_a − x_b) and the stiffness κ w ℓ (weight w, length ℓ of the common part). The forces are F ∂g/∂x of the four nodes: the gap does not
-//! change when both segments move together, so both momenta are exact. A uniform gap gives the consistent loads of a uniform pressure on both meshes, so flat surfaces pass the patch test whatever
-//! their nodes; node-to-segment contact does not. In a body of revolution each point stands for its present circumference, w ℓ 2π x with x half way between x_a and x_b, and the forces are
-//! the gradient of that energy. After Papadopoulos and Taylor, Comput. Meth. Appl. Mech. Engng 94 (1992) 373-389 (integration over the parts that
-//! segments have in common) and Puso and Laursen, Comput. Meth. Appl. Mech. Engng 193 (2004) 601-629 (common plane of both).
+//! Two segments a (of the first surface) and b that face each other have the common direction t = (t_a −
+//! t_b)/|t_a − t_b| and the normal n ⟂ t. Their common part is where both projections on t overlap; at each
+//! of its Gauss points stand the points x_a and x_b of the segments with the same coordinate along t, and
+//! between them a spring with the gap g = n·(x_a − x_b) and the stiffness κ w ℓ (weight w, length ℓ of the
+//! common part). The forces are F ∂g/∂x of the four nodes: the gap does not change when both segments move
+//! together, so both momenta are exact. A uniform gap gives the consistent loads of a uniform pressure on
+//! both meshes, so flat surfaces pass the patch test whatever their nodes; node-to-segment contact does not.
+//! In a body of revolution each point stands for its present circumference, w ℓ 2π x with x half way between
+//! x_a and x_b, and the forces are the gradient of that energy. After Papadopoulos and Taylor, Comput. Meth.
+//! Appl. Mech. Engng 94 (1992) 373-389 (integration over the parts that segments have in common) and Puso and
+//! Laursen, Comput. Meth. Appl. Mech. Engng 193 (2004) 601-629 (common plane of both).
 //!
-//! Which pairs there are comes from the [`Tracker`], nodes of each surface against the other: the two segments at a node that touches, with the segment it touches and its neighbours.
-//! So nothing is paired with the back side of a thin body.
+//! Which pairs there are comes from the [`Tracker`], nodes of each surface against the other: the two
+//! segments at a node that touches, with the segment it touches and its neighbours. So nothing is paired with
+//! the back side of a thin body.
 
 mod common;
 
@@ -48,12 +54,14 @@ const ONE: Rule = &[[0.5, 1.0]];
 const SLIVER: f64 = 1e-9;
 /// Ends that lie together within this fraction of a common part belong to both segments.
 const FLUSH: f64 = 1e-6;
-/// A pair may be deeper than its nodes by this factor. Normals of segments that face each other differ from the common one by less than 45 degrees, 1/cos 45° = 1.41;
-/// what is deeper by more belongs to another side of a corner.
+/// A pair may be deeper than its nodes by this factor. Normals of segments that face each other differ from
+/// the common one by less than 45 degrees, 1/cos 45° = 1.41; what is deeper by more belongs to another side
+/// of a corner.
 const DEEPER: f64 = 2.0;
 
-/// A new pair that had more than this fraction of its shorter segment in common at the beginning of the step already has not slid or turned in: it was not seen before. What its
-/// springs would store nobody put in, so that their gaps count as zero until the surfaces part.
+/// A new pair that had more than this fraction of its shorter segment in common at the beginning of the step
+/// already has not slid or turned in: it was not seen before. What its springs would store nobody put in, so
+/// that their gaps count as zero until the surfaces part.
 const AT_ONCE: f64 = 0.05;
 
 /// The formulation.
@@ -74,10 +82,12 @@ pub struct Segment {
     pairs: Vec<[u32; 2]>,
     /// Those that have a common part.
     commons: Vec<Meeting>,
-    /// Nodes that pairs join, as a forest by index of the first surface's nodes, then of the second's; and the least energy per area at ends in each tree, J/m².
+    /// Nodes that pairs join, as a forest by index of the first surface's nodes, then of the second's; and
+    /// the least energy per area at ends in each tree, J/m².
     tree: Vec<u32>,
     least: Vec<f64>,
-    /// Of each node whether common parts of the first (1) or second segment (2) of a pair end there and do not go on, and of each tree of which surfaces its free ends are.
+    /// Of each node whether common parts of the first (1) or second segment (2) of a pair end there and do
+    /// not go on, and of each tree of which surfaces its free ends are.
     free_ends: Vec<u8>,
     owners: Vec<u8>,
     /// Pairs with springs in this step, and in the last one.
@@ -124,8 +134,9 @@ struct Chain {
     deep: Vec<u32>,
 }
 
-/// Two segments with springs, and the elastic slips of these: they stay with the integration points of their pair. Points move along the segments
-/// only as fast as the surfaces slide, and where they slide friction sets the slip anew.
+/// Two segments with springs, and the elastic slips of these: they stay with the integration points of their
+/// pair. Points move along the segments only as fast as the surfaces slide, and where they slide friction
+/// sets the slip anew.
 #[derive(Clone, Copy, Debug, Default)]
 struct Facing {
     pair: [u32; 2],
@@ -236,8 +247,9 @@ impl Segment {
         self.pairs.dedup();
     }
 
-    /// What two segments have in common; `None` where they don't face each other. Those that had springs in the last step keep them, however deep they are: a pair that
-    /// came and went would give its energy and take it away.
+    /// What two segments have in common; `None` where they don't face each other. Those that had springs in
+    /// the last step keep them, however deep they are: a pair that came and went would give its energy and
+    /// take it away.
     fn common(&self, pair: [u32; 2], positions: &[Vector]) -> Option<Common> {
         let (surfaces, nodes) = (self.surfaces(), self.nodes(pair));
         if nodes[0].iter().any(|node| nodes[1].contains(node)) {
@@ -260,7 +272,8 @@ impl Segment {
         Some(common)
     }
 
-    /// Elastic slips and offsets of the points of a pair: what they had, or what its first segment had in the mean; and whether the pair is new.
+    /// Elastic slips and offsets of the points of a pair: what they had, or what its first segment had in the
+    /// mean; and whether the pair is new.
     fn kept(&self, pair: [u32; 2], length: f64) -> (Facing, bool) {
         if let Ok(at) = self.before.binary_search_by_key(&pair, |facing| facing.pair) {
             return (Facing { length, ..self.before[at] }, false);
@@ -279,7 +292,8 @@ impl Segment {
         (Facing { pair, length, slips: [slip; 2], offsets: [offset; 2], stored: 0.0 }, true)
     }
 
-    /// Distance that two segments keep, m. A body keeps no more distance from itself than half of what it had: neighbours along a surface are near, and stay so.
+    /// Distance that two segments keep, m. A body keeps no more distance from itself than half of what it
+    /// had: neighbours along a surface are near, and stay so.
     fn distance(&self, common: &Common) -> f64 {
         let Start { positions, bodies, .. } = &self.start;
         let [[a, _], [b, _]] = common.nodes;
@@ -350,7 +364,8 @@ impl Segment {
         self.facing.push(facing);
     }
 
-    /// Energy of the pairs that had springs in the last step, have none now, and yet have much in common: what runs out as surfaces slide goes on in its neighbours.
+    /// Energy of the pairs that had springs in the last step, have none now, and yet have much in common:
+    /// what runs out as surfaces slide goes on in its neighbours.
     fn missing(&self, positions: &[Vector]) -> f64 {
         let (mut now, mut sum) = (self.facing.iter().map(|facing| facing.pair).peekable(), 0.0);
         for before in &self.before {
@@ -366,7 +381,8 @@ impl Segment {
         sum
     }
 
-    /// Joins the pairs that share nodes to regions, and finds the least energy per area at ends of common parts in each.
+    /// Joins the pairs that share nodes to regions, and finds the least energy per area at ends of common
+    /// parts in each.
     fn join(&mut self) {
         for (i, root) in self.tree.iter_mut().enumerate() {
             *root = i as u32;
@@ -393,7 +409,8 @@ impl Segment {
                 self.free_ends[node as usize] ^= 1 << whose as usize;
             }
         }
-        // Where both pairs at a node end with it neither is an end of the region. Where one surface overhangs here and the other there the region's length is that of neither.
+        // Where both pairs at a node end with it neither is an end of the region. Where one surface overhangs
+        // here and the other there the region's length is that of neither.
         for index in 0..self.commons.len() {
             let Meeting { pair, common, .. } = self.commons[index];
             let at = self.root(pair) as usize;

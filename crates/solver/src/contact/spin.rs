@@ -1,6 +1,8 @@
-//! How far nodes turn together in a step in space, and a slip that turns with them: whatever their numbering, and exactly in every rigid motion.
+//! How far nodes turn together in a step in space, and a slip that turns with them: whatever their numbering,
+//! and exactly in every rigid motion.
 //!
-//! Nodes come from the elements of balls, from facets and from edges that touch, positions from the step; friction's elastic slip of the step before is turned by it.
+//! Nodes come from the elements of balls, from facets and from edges that touch, positions from the step;
+//! friction's elastic slip of the step before is turned by it.
 
 use super::Sweep;
 use crate::tensor::{cross, dot};
@@ -33,7 +35,8 @@ pub(super) fn add_arm(r: Vector, inertia: &mut [Vector; 3]) {
     }
 }
 
-/// How groups of nodes, each about its mean, turn together in a step: Θ⁻¹ Σ r × Δx, along the axis 2 tan ½φ of the angle φ of every rigid motion. Zero where all are on one line.
+/// How groups of nodes, each about its mean, turn together in a step: Θ⁻¹ Σ r × Δx, along the axis 2 tan ½φ
+/// of the angle φ of every rigid motion. Zero where all are on one line.
 pub(super) fn turn<'a>(groups: impl IntoIterator<Item = &'a [u32]>, sweep: Sweep<'_, 3>) -> Vector {
     let (mut sum, mut inertia) = ([0.0; 3], [[0.0; 3]; 3]);
     for nodes in groups {

@@ -1,11 +1,15 @@
-//! Tied contact: what touches at the start stays together, as if glued, until the traction exceeds a strength.
+//! Tied contact: what touches at the start stays together, as if glued, until the traction exceeds a
+//! strength.
 //!
-//! Each slave node near the target is bound to the segment below it: its place along the segment and its distance from it at the start are kept by two springs
-//! (law [`super::law::tie::Tie`], or multipliers), whose rows are those of node-to-segment contact: objective, and exact in both momenta. One surface is slave (the first
-//! one, unless the formulation is `single_pass` with another): binding the nodes of both would hold more than there is to hold.
+//! Each slave node near the target is bound to the segment below it: its place along the segment and its
+//! distance from it at the start are kept by two springs (law [`super::law::tie::Tie`], or multipliers),
+//! whose rows are those of node-to-segment contact: objective, and exact in both momenta. One surface is
+//! slave (the first one, unless the formulation is `single_pass` with another): binding the nodes of both
+//! would hold more than there is to hold.
 //!
-//! Where √(⟨−F⟩² + T²) / area exceeds the strength the tie is gone for good; pressing does not break it. What was stored in pulling and in slip is lost, and told to the ledger.
-//! Nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
+//! Where √(⟨−F⟩² + T²) / area exceeds the strength the tie is gone for good; pressing does not break it. What
+//! was stored in pulling and in slip is lost, and told to the ledger. Nodes that are free, and those whose
+//! ties are gone, are in ordinary contact with the same surface.
 
 use super::formulation::{FormulationKind, Setup, one_pass};
 use super::node_segment::{NodeSegment, PassInput, ends};
@@ -141,7 +145,8 @@ impl Tied {
     }
 }
 
-/// Where a node is seen from a segment: along it from its beginning, and above it, m; and the length of the segment, m. `None` where that has none.
+/// Where a node is seen from a segment: along it from its beginning, and above it, m; and the length of the
+/// segment, m. `None` where that has none.
 fn place(positions: &[Vector], node: u32, segment: [u32; 2]) -> Option<[f64; 3]> {
     let [a, b] = segment.map(|node| positions[node as usize]);
     let x = positions[node as usize];

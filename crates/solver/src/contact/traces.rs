@@ -1,6 +1,8 @@
-//! What contacts leave on the surfaces: sliding distance and friction heat of every node, and pressure, gap and status at an output time.
+//! What contacts leave on the surfaces: sliding distance and friction heat of every node, and pressure, gap
+//! and status at an output time.
 //!
-//! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides, and a node has its shares of the springs at it.
+//! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides,
+//! and a node has its shares of the springs at it.
 
 use super::springs::{Answer, Springs};
 use crate::archive::{Archive, Keep, Kept};
@@ -35,9 +37,9 @@ impl State {
 /// State of the surface at a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// Mean gap of the springs at the node by their shares, m; NaN where there is none. Of a node that is inside a body without a closed
-    /// spring: minus its distance to the body's surface when the
-    /// bodies were last looked at.
+    /// Mean gap of the springs at the node by their shares, m; NaN where there is none. Of a node that is
+    /// inside a body without a closed spring: minus its distance to the body's surface when the bodies were
+    /// last looked at.
     pub gap: f64,
     /// 0 open, 1 stick, 2 slip (also without friction).
     pub status: f64,
@@ -64,8 +66,9 @@ where
 }
 
 impl Traces<3> {
-    /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N) at their current positions: −f·n and |f + p n A| by current area A, n the normal of
-    /// the surface at the node. In pairs, as far as the nodes of the surface go; zero inside.
+    /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N) at
+    /// their current positions: −f·n and |f + p n A| by current area A, n the normal of the surface at the
+    /// node. In pairs, as far as the nodes of the surface go; zero inside.
     #[must_use]
     pub fn tractions(&self, forces: &ContactForces<3>, positions: &[[f64; 3]]) -> Vec<[f64; 2]> {
         let nodes = self.nodes();
@@ -93,8 +96,9 @@ impl Traces<3> {
 }
 
 impl Traces<2> {
-    /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at their current positions: −f·n and f·t
-    /// by current area, t along the surface with the body on its right. In pairs, as far as the nodes of the surface go; zero inside.
+    /// Contact pressure and shear stress (Pa) of every node, from the contact forces on the nodes (N/m) at
+    /// their current positions: −f·n and f·t by current area, t along the surface with the body on its right.
+    /// In pairs, as far as the nodes of the surface go; zero inside.
     #[must_use]
     pub fn tractions(&self, forces: &ContactForces, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let nodes = self.nodes();
@@ -127,7 +131,8 @@ impl<const D: usize> Traces<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// For `outside`, the outside of all bodies; `positions` are the initial ones. Of a model without contacts both are empty: nothing is remembered.
+    /// For `outside`, the outside of all bodies; `positions` are the initial ones. Of a model without
+    /// contacts both are empty: nothing is remembered.
     #[must_use]
     pub fn new(outside: Surface<D>, positions: &[[f64; D]], depth: Depth) -> Self {
         let mut area = vec![0.0; positions.len()];
@@ -177,8 +182,8 @@ where
         self.outside.nodes().last().map_or(0, |&node| node as usize + 1)
     }
 
-    /// State of nodes from the solved springs of the step, as far as any of the first `nodes` has one, and of nodes that are `inside` a
-    /// body by so much, m: those beyond are open.
+    /// State of nodes from the solved springs of the step, as far as any of the first `nodes` has one, and of
+    /// nodes that are `inside` a body by so much, m: those beyond are open.
     #[must_use]
     pub fn states<'a>(springs: &Springs<D>, nodes: usize, inside: impl Iterator<Item = &'a (u32, f64)>) -> Vec<State> {
         let ends = || springs.list.iter().flat_map(|spring| springs.ends(spring)).map(|end| end.at as usize);

@@ -9,9 +9,10 @@
 //!    1 ---- 2
 //! ```
 //!
-//! A nodal vector u is written in its parts ([`Parts`]): constant, linear a b c, bilinear h₁ (ηζ) h₂ (ζξ) h₃ (ξη), trilinear h₄ (ξηζ), each Σ_a of its pattern times u_a, so that
-//! ∂u/∂ξ = ⅛ (a + h₃ η + h₂ ζ + h₄ ηζ). At 2 × 2 × 2 points only four values of each derivative occur, which saves most of the work.
-//! Source: Hughes, The Finite Element Method (1987), 3.5 and 4.5 (mean dilatation).
+//! A nodal vector u is written in its parts ([`Parts`]): constant, linear a b c, bilinear h₁ (ηζ) h₂ (ζξ) h₃
+//! (ξη), trilinear h₄ (ξηζ), each Σ_a of its pattern times u_a, so that ∂u/∂ξ = ⅛ (a + h₃ η + h₂ ζ + h₄ ηζ).
+//! At 2 × 2 × 2 points only four values of each derivative occur, which saves most of the work. Source:
+//! Hughes, The Finite Element Method (1987), 3.5 and 4.5 (mean dilatation).
 
 use super::stiffest::{Metric, stiffest};
 use super::{Element, ElementKind, ElementOptions, Map};
@@ -35,7 +36,8 @@ pub(super) fn shape(natural: [f64; 3]) -> [f64; 8] {
     NODES.map(|[xi, eta, zeta]| 0.125 * (1.0 + xi * natural[0]) * (1.0 + eta * natural[1]) * (1.0 + zeta * natural[2]))
 }
 
-/// Linear and other parts of one component of a nodal vector, eight times what they are to the natural coordinates.
+/// Linear and other parts of one component of a nodal vector, eight times what they are to the natural
+/// coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts<L> {
     /// Along ξ, η, ζ.
@@ -106,7 +108,8 @@ pub(super) fn natural<L: Lane>(u: &[[L; 3]; 8]) -> [[L; 3]; 8] {
     out
 }
 
-/// The two points along each direction, at the low and high values of the last coordinate, and in it of the next one in turn: after ξ come η and ζ.
+/// The two points along each direction, at the low and high values of the last coordinate, and in it of the
+/// next one in turn: after ξ come η and ζ.
 const ALONG: [[[[usize; 2]; 2]; 2]; 3] =
     [[[[0, 1], [3, 2]], [[4, 5], [7, 6]]], [[[0, 3], [4, 7]], [[1, 2], [5, 6]]], [[[0, 4], [1, 5]], [[3, 7], [2, 6]]]];
 

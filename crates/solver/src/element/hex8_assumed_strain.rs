@@ -1,25 +1,37 @@
-//! Hourglass control of the one-point hexahedron by assumed strain: what bending, twisting and warping of an elastic brick cost, and no more.
+//! Hourglass control of the one-point hexahedron by assumed strain: what bending, twisting and warping of an
+//! elastic brick cost, and no more.
 //!
-//! The patterns h₁ = ηζ, h₂ = ζξ, h₃ = ξη, h₄ = ξηζ with amplitudes q_α (see [`super::hex8_reduced`]), in components along the lines through the middles of opposite faces:
-//! q̃_kα = ĝ_k·q_α, ĝ_k = g_k/|g_k|, g_k = ∂x/∂ξ_k at the centre, and the strains e_kα = q̃_kα / ℓ_k with the half lengths ℓ_k = |g_k| of the start. The displacement u_k = q̃_kα h_α stretches the
-//! lines k by e_kα ∂h_α/∂ξ_k. Of what strains it has, those are assumed that pure bending, torsion and warping have in a brick; shear that a bent one shows only because
-//! its faces stay flat is left out:
+//! The patterns h₁ = ηζ, h₂ = ζξ, h₃ = ξη, h₄ = ξηζ with amplitudes q_α (see [`super::hex8_reduced`]), in
+//! components along the lines through the middles of opposite faces: q̃_kα = ĝ_k·q_α, ĝ_k = g_k/|g_k|,
+//! g_k = ∂x/∂ξ_k at the centre, and the strains e_kα = q̃_kα / ℓ_k with the half lengths ℓ_k = |g_k| of the
+//! start. The displacement u_k = q̃_kα h_α stretches the lines k by e_kα ∂h_α/∂ξ_k. Of what strains it has,
+//! those are assumed that pure bending, torsion and warping have in a brick; shear that a bent one shows only
+//! because its faces stay flat is left out:
 //!
-//! - k ≠ α ≤ 3, bending: e_kα and e_αk vary along the same third direction, in which there is no stress, plane stress in the other two, an energy
-//!   ½ E/(1 − ν²) (e_kα² + e_αk² + 2ν e_kα e_αk) V/3. With e_αk = 0 the plate bends to a cylinder, with e_αk = −ν e_kα the beam with free sides, both exactly.
-//! - k = α, torsion: the shear strains ℓ_k⁻¹ q̃_mm + ℓ_m⁻¹ q̃_kk of each two directions k, m vary along the third one: ½ µ (…)² V/3.
+//! - k ≠ α ≤ 3, bending: e_kα and e_αk vary along the same third direction, in which there is no stress,
+//!   plane stress in the other two, an energy ½ E/(1 − ν²) (e_kα² + e_αk² + 2ν e_kα e_αk) V/3. With e_αk = 0
+//!   the plate bends to a cylinder, with e_αk = −ν e_kα the beam with free sides, both exactly.
+//! - k = α, torsion: the shear strains ℓ_k⁻¹ q̃_mm + ℓ_m⁻¹ q̃_kk of each two directions k, m vary along the
+//!   third one: ½ µ (…)² V/3.
 //! - α = 4: e_k4 with no stress in the other directions: ½ E e_k4² V/9.
 //!
-//! All of it goes to finite values at ν = ½, so nothing locks. W = κ times the sum of these energies is a potential of the present form with the ℓ, V, moduli and γ of the start: it is zero there, knows no
-//! rotations (products of vectors only), forces are its gradient, with what turns the ĝ_k, so energy, momentum and angular momentum are kept whatever becomes of the element. That is the
-//! stiffness of the source on bricks; it has rates, and axes of its own that turn with the element. Of the source's two fields this is the one for bending (ASQBI): that for isochoric
-//! strain (ADS) takes ½ for ν/(1 − ν), and an elastic beam of one element is too stiff. While the point flows the bending stays elastic. A fluid has no such stiffness.
+//! All of it goes to finite values at ν = ½, so nothing locks. W = κ times the sum of these energies is a
+//! potential of the present form with the ℓ, V, moduli and γ of the start: it is zero there, knows no
+//! rotations (products of vectors only), forces are its gradient, with what turns the ĝ_k, so energy,
+//! momentum and angular momentum are kept whatever becomes of the element. That is the stiffness of the
+//! source on bricks; it has rates, and axes of its own that turn with the element. Of the source's two fields
+//! this is the one for bending (ASQBI): that for isochoric strain (ADS) takes ½ for ν/(1 − ν), and an elastic
+//! beam of one element is too stiff. While the point flows the bending stays elastic. A fluid has no such
+//! stiffness.
 //!
-//! The stable step: a is the largest ω² of the mean gradient, and of W at q = 0 it is at most b = k λ (1 + Σ c²)/m, with k the largest stiffness against q̃, γ_α·γ_β = 8 (δ_αβ + Σ_k c_αk c_βk),
-//! and λ the largest eigenvalue of ĝ_k·ĝ_l. For two positive matrices whose ranges have at most the cosine c, ω² ≤ ½ (a + b + √((a − b)² + 4abc²)). The γ are at the angle
-//! θ₁ from the patterns, tan²θ₁ ≤ Σ c², the mean gradients B_i = ∂V/∂x_i, of linear and bilinear parts, at θ₂ from the linear ones, and cos ≤ tan θ₁ + tan θ₂. Where q is not zero
-//! the gradients of q̃ have |q|/|g| at most more, and q̃ has curvatures: with r = |q| max 1/|g|, |dq̃| ≤ (√(λ (1 + Σ c²)) + r)|dx|/√8 and, together, at most
-//! (k/m) ((√(λ (1 + Σ c²)) + 2r)² − λ (1 + Σ c²)) is added.
+//! The stable step: a is the largest ω² of the mean gradient, and of W at q = 0 it is at most b = k λ (1 + Σ
+//! c²)/m, with k the largest stiffness against q̃, γ_α·γ_β = 8 (δ_αβ + Σ_k c_αk c_βk), and λ the largest
+//! eigenvalue of ĝ_k·ĝ_l. For two positive matrices whose ranges have at most the cosine c, ω² ≤ ½ (a + b +
+//! √((a − b)² + 4abc²)). The γ are at the angle θ₁ from the patterns, tan²θ₁ ≤ Σ c², the mean gradients
+//! B_i = ∂V/∂x_i, of linear and bilinear parts, at θ₂ from the linear ones, and cos ≤ tan θ₁ + tan θ₂. Where
+//! q is not zero the gradients of q̃ have |q|/|g| at most more, and q̃ has curvatures: with r = |q| max
+//! 1/|g|, |dq̃| ≤ (√(λ (1 + Σ c²)) + r)|dx|/√8 and, together, at most (k/m) ((√(λ (1 + Σ c²)) + 2r)² − λ (1 +
+//! Σ c²)) is added.
 //!
 //! Source: Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 105 (1993) 225-260 (ASQBI).
 
@@ -28,7 +40,8 @@ use super::{Corners, Held};
 use crate::tensor::{Matrix, cross, dot};
 use embate_lanes::{Batch, Lane};
 
-/// What the potential keeps of the start: c_αk, √(κµV/3)/8ℓ_k, the moduli of bending, of its cross effect and of warping over µ, and the largest stiffness against 8 q̃.
+/// What the potential keeps of the start: c_αk, √(κµV/3)/8ℓ_k, the moduli of bending, of its cross effect and
+/// of warping over µ, and the largest stiffness against 8 q̃.
 pub(super) const POTENTIAL: usize = 19;
 
 /// The potential of an element.
@@ -120,7 +133,8 @@ impl<L: Lane> Potential<L> {
     }
 }
 
-/// tan²θ₂ at most: what the mean gradients have of the bilinear patterns, over what they have of the linear ones.
+/// tan²θ₂ at most: what the mean gradients have of the bilinear patterns, over what they have of the linear
+/// ones.
 #[inline(always)]
 fn warped<L: Lane>(jacobian: &Matrix<L, 3>, warp: &Matrix<L, 3>) -> L {
     let ([[a, b, c], bilinear], _) = mean(jacobian, warp);

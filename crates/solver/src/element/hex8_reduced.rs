@@ -1,28 +1,37 @@
-//! Eight-node hexahedra with one point: fast, free of locking, and blind to twelve hourglass shapes, which need a control of their own.
+//! Eight-node hexahedra with one point: fast, free of locking, and blind to twelve hourglass shapes, which
+//! need a control of their own.
 //!
-//! The gradient at the point is the exact mean over the element, B_a/V with B_a = ∂V/∂x_a: that at the centre fails the patch test on warped hexahedra. With the parts of
-//! [`super::hex8`], linear a b c and bilinear h₁ h₂ h₃ (the trilinear one adds nothing), each the sum over the nodes without the factor ⅛,
+//! The gradient at the point is the exact mean over the element, B_a/V with B_a = ∂V/∂x_a: that at the centre
+//! fails the patch test on warped hexahedra. With the parts of [`super::hex8`], linear a b c and bilinear h₁
+//! h₂ h₃ (the trilinear one adds nothing), each the sum over the nodes without the factor ⅛,
 //!
 //! ```text
 //! 64 V = D = a·(b×c) + ⅓ (a·(h₃×h₂) + b·(h₁×h₃) + c·(h₂×h₁))
 //! ∂D/∂a = b×c − ⅓ h₂×h₃,   ∂D/∂h₁ = ⅓ (c×h₂ − b×h₃),   and in turn,      V ∇u = Σ_parts u_part ⊗ ∂V/∂part
 //! ```
 //!
-//! which costs less than the 24 components of B_a. Hyperelastic laws get F in the same way from the parts of the start.
+//! which costs less than the 24 components of B_a. Hyperelastic laws get F in the same way from the parts of
+//! the start.
 //!
-//! Hourglass patterns are h_α = ηζ, ζξ, ξη, ξηζ at the nodes; γ_α = h_α − Σ_k c_αk ξ_k with c_α J = the part α of the positions (J = [a b c]) is blind to
-//! linear fields, q_α = ⅛ γ_α·x. M = K + 4µ/3, V the volume, m the mass, T = V Σ_a |∇N_a|² of the mean gradients:
+//! Hourglass patterns are h_α = ηζ, ζξ, ξη, ξηζ at the nodes; γ_α = h_α − Σ_k c_αk ξ_k with c_α J = the part
+//! α of the positions (J = [a b c]) is blind to linear fields, q_α = ⅛ γ_α·x. M = K + 4µ/3, V the volume, m
+//! the mass, T = V Σ_a |∇N_a|² of the mean gradients:
 //!
-//! - `stiffness`: W = ½ k Σ_α |q_α|², k = (8/3) κ M' T, all of the start. q is zero there, |q| does not know rotations, and forces are the gradient: the control gives back what it took, with
-//!   momentum and angular momentum, whatever becomes of the element. With κ = 1 and M' = M the patterns swing as fast as the stretch of a cube. The source takes rates and M' = M; here M' is
-//!   at most 4µ, because with M a κ of 0.05 locks what is nearly incompressible (see `quad4_reduced.rs`). Of a fluid it is M.
-//! - `viscous`: Q_α = 2 κ √(k₁ m) q̇_α with the γ of the present form and k₁ = (8/3) M' T: the part κ of critical damping. Shapes that are there remain. q̇ is taken at mid-step and turned with the point.
+//! - `stiffness`: W = ½ k Σ_α |q_α|², k = (8/3) κ M' T, all of the start. q is zero there, |q| does not know
+//!   rotations, and forces are the gradient: the control gives back what it took, with momentum and angular
+//!   momentum, whatever becomes of the element. With κ = 1 and M' = M the patterns swing as fast as the
+//!   stretch of a cube. The source takes rates and M' = M; here M' is at most 4µ, because with M a κ of 0.05
+//!   locks what is nearly incompressible (see `quad4_reduced.rs`). Of a fluid it is M.
+//! - `viscous`: Q_α = 2 κ √(k₁ m) q̇_α with the γ of the present form and k₁ = (8/3) M' T: the part κ of
+//!   critical damping. Shapes that are there remain. q̇ is taken at mid-step and turned with the point.
 //! - `assumed_strain`: [`super::hex8_assumed_strain`].
 //!
-//! The stable step: γ_α·γ_β = 8 (δ_αβ + Σ_k c_αk c_βk), so the patterns add at most ω_h² = (k/m)(1 + Σ c²) to the square of the largest frequency, about 2 % of it;
-//! dampers, which lag half a step, 2 d / Δt with d = (2κ√(k₁ m)/m)(1 + Σ c²).
+//! The stable step: γ_α·γ_β = 8 (δ_αβ + Σ_k c_αk c_βk), so the patterns add at most ω_h² = (k/m)(1 + Σ c²) to
+//! the square of the largest frequency, about 2 % of it; dampers, which lag half a step, 2 d / Δt with
+//! d = (2κ√(k₁ m)/m)(1 + Σ c²).
 //!
-//! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706, and J. Appl. Mech. 51 (1984) 35-40.
+//! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706, and J. Appl. Mech. 51
+//! (1984) 35-40.
 
 use super::hex8::{self, Hex8, Parts};
 use super::hex8_assumed_strain::{self, bend};

@@ -1,6 +1,8 @@
-//! Elements as declared facts plus two functions: the map from nodal vectors to natural gradients, and its transpose.
+//! Elements as declared facts plus two functions: the map from nodal vectors to natural gradients, and its
+//! transpose.
 //!
-//! Everything else (strain, internal force, volume) follows in the block. To add an element: one file, one line in `elements!`.
+//! Everything else (strain, internal force, volume) follows in the block. To add an element: one file, one
+//! line in `elements!`.
 
 mod bar2;
 mod hex8;
@@ -59,7 +61,8 @@ impl ElementKind {
     }
 }
 
-/// An element of dimension `D` with `N` nodes and `P` quadrature points. The functions must be `#[inline(always)]`.
+/// An element of dimension `D` with `N` nodes and `P` quadrature points. The functions must be
+/// `#[inline(always)]`.
 pub trait Element<const D: usize, const N: usize, const P: usize>: Copy + Send + Sync + 'static
 where
     Dim<D>: Space<D>,
@@ -72,15 +75,19 @@ where
     const WEIGHTS: [f64; P];
     /// Natural coordinates of the nodes.
     const NODES: [[f64; D]; N];
-    /// Whether the dilatation is averaged over the element (B-bar), which keeps plastic flow and rubber from locking.
+    /// Whether the dilatation is averaged over the element (B-bar), which keeps plastic flow and rubber from
+    /// locking.
     const MEAN_DILATATION: bool;
-    /// Whether the dilatation is averaged over the nodes of the block and back (`block/nodal.rs`); for elements with one point.
+    /// Whether the dilatation is averaged over the nodes of the block and back (`block/nodal.rs`); for
+    /// elements with one point.
     const NODAL_DILATATION: bool = false;
     /// Batches that hourglass control keeps per element; 0: none is needed.
     const HOURGLASS: usize = 0;
-    /// Patterns whose amplitude that control follows from step to step, keeping a force against each, which turns with the element; at most [`PATTERNS`].
+    /// Patterns whose amplitude that control follows from step to step, keeping a force against each, which
+    /// turns with the element; at most [`PATTERNS`].
     const SWINGS: usize = 0;
-    /// Whether the gradient at its one point is the exact mean over an element that may be warped: then it takes a second matrix of natural parts, [`Element::warp`].
+    /// Whether the gradient at its one point is the exact mean over an element that may be warped: then it
+    /// takes a second matrix of natural parts, [`Element::warp`].
     const WARPED: bool = false;
 
     /// The element with its options.
@@ -90,47 +97,59 @@ where
     fn shape(natural: [f64; D]) -> [f64; N];
     /// Rows of [`Element::natural`] that mean something.
     const PARTS: usize = N;
-    /// A nodal vector in the linear parts from which gradients are made: the values at the nodes themselves, or sums of them that serve all points. What is constant need not be among them.
+    /// A nodal vector in the linear parts from which gradients are made: the values at the nodes themselves,
+    /// or sums of them that serve all points. What is constant need not be among them.
     #[inline(always)]
     fn natural<L: Lane>(nodal: &[[L; D]; N]) -> [[L; D]; N] {
         *nodal
     }
-    /// Gradient of a nodal vector, given in its natural parts, with respect to the natural coordinates, at every point: `out[p][i][k]` = Σ_a u_a,i ∂N_a/∂ξ_k.
+    /// Gradient of a nodal vector, given in its natural parts, with respect to the natural coordinates, at
+    /// every point: `out[p][i][k]` = Σ_a u_a,i ∂N_a/∂ξ_k.
     fn gradients<L: Lane>(natural: &[[L; D]; N]) -> [Matrix<L, D>; P];
-    /// The transpose of [`Element::gradients`] of [`Element::natural`]: `out[a][i]` = Σ_p Σ_k flux_p,ik ∂N_a/∂ξ_k.
+    /// The transpose of [`Element::gradients`] of [`Element::natural`]: `out[a][i]` = Σ_p Σ_k flux_p,ik
+    /// ∂N_a/∂ξ_k.
     fn divergence<L: Lane>(flux: &[Matrix<L, D>; P]) -> [[L; D]; N];
-    /// Of an element that is warped: the parts of a nodal vector, given in its natural parts, that are not linear in the natural coordinates, as a second matrix.
+    /// Of an element that is warped: the parts of a nodal vector, given in its natural parts, that are not
+    /// linear in the natural coordinates, as a second matrix.
     #[inline(always)]
     fn warp<L: Lane>(_natural: &[[L; D]; N]) -> Matrix<L, D> {
         [[L::splat(0.0); D]; D]
     }
-    /// Of an element that is warped: from both matrices of positions what takes the place of their adjugates, and of the determinant: the mean gradient of a nodal vector
-    /// is (A adj(A) + B adj(B)) / det with its own two matrices A and B.
+    /// Of an element that is warped: from both matrices of positions what takes the place of their adjugates,
+    /// and of the determinant: the mean gradient of a nodal vector is (A adj(A) + B adj(B)) / det with its
+    /// own two matrices A and B.
     #[inline(always)]
     fn mean<L: Lane>(jacobian: &Matrix<L, D>, warp: &Matrix<L, D>) -> ([Matrix<L, D>; 2], L) {
         ([Dim::<D>::adjugate(jacobian), *warp], Dim::<D>::determinant(jacobian))
     }
-    /// Of an element that is warped: the transpose of [`Element::gradients`], [`Element::warp`] and of what part neither of them is, all together.
+    /// Of an element that is warped: the transpose of [`Element::gradients`], [`Element::warp`] and of what
+    /// part neither of them is, all together.
     #[inline(always)]
     fn divergence_warped<L: Lane>(flux: &[Matrix<L, D>; P], _pulls: &Pulls<L, D>) -> [[L; D]; N] {
         Self::divergence(flux)
     }
-    /// Square of the element's thickness h, m², as numerator and denominator, so that the step costs one division: dt = h / c is stable for waves of speed c² = M/ρ when
-    /// every corner has the mass share 1/N. `natural` are the parts of the positions, `map` is that of the element's present form, `volume` the weighted sum of its determinants, and `shear` the part s = 2µ/M of an
-    /// isotropic elastic stiffness in M = K + 4µ/3, or 0 where only M is known.
+    /// Square of the element's thickness h, m², as numerator and denominator, so that the step costs one
+    /// division: dt = h / c is stable for waves of speed c² = M/ρ when every corner has the mass share 1/N.
+    /// `natural` are the parts of the positions, `map` is that of the element's present form, `volume` the
+    /// weighted sum of its determinants, and `shear` the part s = 2µ/M of an isotropic elastic stiffness in
+    /// M = K + 4µ/3, or 0 where only M is known.
     fn thickness_squared<L: Lane>(natural: &[[L; D]; N], map: &Map<L, D, P>, volume: L, shear: L) -> [L; 2];
-    /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of a body of revolution; `None`: the points' sums are exact enough.
+    /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of a body of revolution; `None`: the points' sums are
+    /// exact enough.
     fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
         None
     }
-    /// Changes of the amplitudes q of the shapes that the points do not feel, m, in a `step` of the nodes to `x`, both in natural parts, whose displacement gradient at mid-step is known.
-    /// Called only where hourglass control follows them ([`Element::SWINGS`]).
+    /// Changes of the amplitudes q of the shapes that the points do not feel, m, in a `step` of the nodes to
+    /// `x`, both in natural parts, whose displacement gradient at mid-step is known. Called only where
+    /// hourglass control follows them ([`Element::SWINGS`]).
     #[inline(always)]
     fn swing<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [[L; D]; PATTERNS] {
         [[L::splat(0.0); D]; PATTERNS]
     }
-    /// Forces against the shapes that the points do not feel; `kept` is what was kept at the beginning of the step ([`Element::HOURGLASS`] batches, lanes from `at` on; a force that
-    /// follows an amplitude is turned to its end) and becomes what is kept until the next. Called only where hourglass control keeps something.
+    /// Forces against the shapes that the points do not feel; `kept` is what was kept at the beginning of the
+    /// step ([`Element::HOURGLASS`] batches, lanes from `at` on; a force that follows an amplitude is turned
+    /// to its end) and becomes what is kept until the next. Called only where hourglass control keeps
+    /// something.
     #[inline(always)]
     fn hold_shape<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
         let zero = L::splat(0.0);
@@ -250,13 +269,16 @@ pub struct Corners<L, const D: usize, const N: usize> {
 /// What hourglass control answers.
 #[derive(Clone, Copy, Debug)]
 pub struct Held<L, const D: usize, const N: usize> {
-    /// Forces against which the nodes move, as those of the stresses: f_a = ∂W/∂x_a, N/m. Not read of an element that is warped.
+    /// Forces against which the nodes move, as those of the stresses: f_a = ∂W/∂x_a, N/m. Not read of an
+    /// element that is warped.
     pub forces: [[L; D]; N],
-    /// Of an element that is warped: what pulls on the linear natural parts, as the flux of the stresses does.
+    /// Of an element that is warped: what pulls on the linear natural parts, as the flux of the stresses
+    /// does.
     pub flux: Matrix<L, D>,
     /// Of an element that is warped: what pulls on the other parts.
     pub pulls: Pulls<L, D>,
-    /// Work taken from the nodes in the step by the trapezoidal rule where control follows the amplitude, else the energy that is stored, J/m.
+    /// Work taken from the nodes in the step by the trapezoidal rule where control follows the amplitude,
+    /// else the energy that is stored, J/m.
     pub work: L,
     /// Square of the stable step without it over that with it, at least 1.
     pub stiffening: L,
@@ -310,7 +332,8 @@ macro_rules! elements {
             }
         })*
 
-        /// Every element of a dimension, in the order in which it is listed, but for [`BARS`]; none of a dimension that there is not.
+        /// Every element of a dimension, in the order in which it is listed, but for [`BARS`]; none of a
+        /// dimension that there is not.
         #[must_use]
         pub fn elements_of(dimension: usize) -> &'static [ElementKind] {
             match dimension {
@@ -348,7 +371,8 @@ pub const ELEMENTS: &[ElementKind] = <Dim<2> as Registered<2>>::ELEMENTS;
 /// Every element of space, in the order in which it is listed.
 pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENTS;
 
-/// Elements that are lines: blocks of their own make them, not the kernels that [`Element`]s are compiled into.
+/// Elements that are lines: blocks of their own make them, not the kernels that [`Element`]s are compiled
+/// into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
 /// Every element: those of the plane, bars too, then those of space.

@@ -7,9 +7,10 @@
 //!   1 ---- 2
 //! ```
 //!
-//! A nodal vector u is written in its constant, two linear and one bilinear part: ∂u/∂ξ = a + η h, ∂u/∂η = b + ξ h with
-//! a = ¼ Σ ξ_a u_a, b = ¼ Σ η_a u_a, h = ¼ Σ ξ_a η_a u_a. At 2 × 2 points only two values of each occur, which saves most of the work.
-//! Source: Hughes, The Finite Element Method (1987), 3.2 and 4.5 (mean dilatation).
+//! A nodal vector u is written in its constant, two linear and one bilinear part: ∂u/∂ξ = a + η h,
+//! ∂u/∂η = b + ξ h with a = ¼ Σ ξ_a u_a, b = ¼ Σ η_a u_a, h = ¼ Σ ξ_a η_a u_a. At 2 × 2 points only two
+//! values of each occur, which saves most of the work. Source: Hughes, The Finite Element Method (1987), 3.2
+//! and 4.5 (mean dilatation).
 
 use super::{Element, ElementKind, ElementOptions, Map};
 use crate::mesh::cell::CellKind;
@@ -67,15 +68,19 @@ pub(super) fn distance_squared<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
     dx * dx + dy * dy
 }
 
-/// h² = (V / ℓ)² (1 − q) / (1 + q/2), ℓ² = ½ (d₁₃² + d₂₄²) from the diagonals, q = (1 − 4 J_min / V)² from the smallest determinant at a point.
+/// h² = (V / ℓ)² (1 − q) / (1 + q/2), ℓ² = ½ (d₁₃² + d₂₄²) from the diagonals, q = (1 − 4 J_min / V)² from
+/// the smallest determinant at a point.
 ///
-/// Parallelogram (q = 0): E = ½ uᵀKu splits into the linear modes and the bilinear one, which is three times softer. The linear part has two
-/// blocks, u_a = α ξ_a and u_a = β η_a; the largest eigenvalue of a positive matrix of blocks is at most the sum of those of its diagonal
-/// blocks, ρc² V |∇ξ|² / m and ρc² V |∇η|² / m (acoustic tensors of the two directions), and |∇ξ|² + |∇η|² = 4 ℓ² / V²: ω² ≤ 4 c² ℓ² / V².
+/// Parallelogram (q = 0): E = ½ uᵀKu splits into the linear modes and the bilinear one, which is three times
+/// softer. The linear part has two blocks, u_a = α ξ_a and u_a = β η_a; the largest eigenvalue of a positive
+/// matrix of blocks is at most the sum of those of its diagonal blocks, ρc² V |∇ξ|² / m and ρc² V |∇η|² / m
+/// (acoustic tensors of the two directions), and |∇ξ|² + |∇η|² = 4 ℓ² / V²: ω² ≤ 4 c² ℓ² / V².
 ///
-/// Tapered: let the thickness grow along ξ as 1 + kξ. In a thin element only the stretch through the thickness counts, δ = ½(1−ξ) δ₁ + ½(1+ξ) δ₂
-/// with E ∝ Σ_p δ_p² / (1 + kξ_p), and ω² grows by (2 + √(1+k²)) / (3 − k²) ≤ (1 + q/2) / (1 − q), q = k²/3. Thicker elements and other forms
-/// stay below: k is the sum |j_ξ| + |j_η| of the determinant's relative slopes (`the_stable_step_bounds_the_largest_frequency` searches them all).
+/// Tapered: let the thickness grow along ξ as 1 + kξ. In a thin element only the stretch through the
+/// thickness counts, δ = ½(1−ξ) δ₁ + ½(1+ξ) δ₂ with E ∝ Σ_p δ_p² / (1 + kξ_p), and ω² grows by (2 + √(1+k²))
+/// / (3 − k²) ≤ (1 + q/2) / (1 − q), q = k²/3. Thicker elements and other forms stay below: k is the sum
+/// |j_ξ| + |j_η| of the determinant's relative slopes (`the_stable_step_bounds_the_largest_frequency`
+/// searches them all).
 #[inline(always)]
 fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> [L; 2] {
     let half = L::splat(0.5);

@@ -1,26 +1,39 @@
-//! Four-node quadrilaterals with one point: fast, free of locking, and blind to hourglass shapes, which need a control of their own.
+//! Four-node quadrilaterals with one point: fast, free of locking, and blind to hourglass shapes, which need
+//! a control of their own.
 //!
-//! A nodal vector u has a constant, a linear and an hourglass part; the point feels the linear one. The amplitude of the hourglass pattern h = (1, −1, 1, −1) is
-//! q = ¼ γ·u, γ = h − Σ_j (h·x_j) b_j, b_j = ∂N/∂x_j at the centre: γ is blind to constant and linear fields on any quadrilateral. Nodes feel the forces
-//! f_a = ¼ γ_a Q, whose power is Q·q̇. q̇ is taken at mid-step and Q turns with the step's rotation (Hughes and Winget's, of the point), so rigid motion
-//! changes nothing; both are done while the point is strained, stiffnesses are of the end of the step. M = K + 4µ/3, V the volume, h² the square of the thickness, m the mass:
+//! A nodal vector u has a constant, a linear and an hourglass part; the point feels the linear one. The
+//! amplitude of the hourglass pattern h = (1, −1, 1, −1) is q = ¼ γ·u, γ = h − Σ_j (h·x_j) b_j, b_j = ∂N/∂x_j
+//! at the centre: γ is blind to constant and linear fields on any quadrilateral. Nodes feel the forces
+//! f_a = ¼ γ_a Q, whose power is Q·q̇. q̇ is taken at mid-step and Q turns with the step's rotation (Hughes
+//! and Winget's, of the point), so rigid motion changes nothing; both are done while the point is strained,
+//! stiffnesses are of the end of the step. M = K + 4µ/3, V the volume, h² the square of the thickness, m the
+//! mass:
 //!
-//! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M' V / h². With κ = 1 and M' = M the pattern swings as fast as the stretch of a square. Keeps shapes. The source takes M' = M; here
-//!   it is at most 4µ (M at ν = 1/3, what bending costs at ν = ½), because with M a κ of 0.05 locks what is nearly incompressible. Of a fluid it is M.
+//! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M' V / h². With κ = 1 and M' = M the pattern swings as fast as the
+//!   stretch of a square. Keeps shapes. The source takes M' = M; here it is at most 4µ (M at ν = 1/3, what
+//!   bending costs at ν = ½), because with M a κ of 0.05 locks what is nearly incompressible. Of a fluid it
+//!   is M.
 //! - `viscous`: Q = 2 κ √(k₁ m) q̇: the part κ of critical damping. Shapes that are there remain.
-//! - `assumed_strain`: Q = K q, K = κ (V/A) Ē [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] in the axes along the line through the middles of two opposite sides,
-//!   H_ij = ∫ h,i h,j dA ≈ A/3 (ξ,i ξ,j + η,i η,j), Ē = 2µ (1 + ν̄), ν̄ = ν/(1 − ν) or, in plane stress, ν: what elastic bending costs, exact on rectangles (ASQBI).
-//!   The source has Q̇ = K q̇ with the shape of the moment; here K and γ are those of the start, and K turns with the element ([`Frame`]): W = ½ q̂·K q̂ is a potential, which gives back what it
-//!   took whatever becomes of the element, where rates gave ten times as much in elements that fold. f_a = ∂W/∂x_a has besides ¼ γ_a Q the couple that turns the frame, so that
-//!   angular momentum is kept. With γ of the start, h has the same share of it: every b_j is made of the two diagonals. While the point flows, the bending stays elastic.
+//! - `assumed_strain`: Q = K q, K = κ (V/A) Ē [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] in the axes along the line
+//!   through the middles of two opposite sides, H_ij = ∫ h,i h,j dA ≈ A/3 (ξ,i ξ,j + η,i η,j), Ē = 2µ (1 +
+//!   ν̄), ν̄ = ν/(1 − ν) or, in plane stress, ν: what elastic bending costs, exact on rectangles (ASQBI). The
+//!   source has Q̇ = K q̇ with the shape of the moment; here K and γ are those of the start, and K turns with
+//!   the element ([`Frame`]): W = ½ q̂·K q̂ is a potential, which gives back what it took whatever becomes of
+//!   the element, where rates gave ten times as much in elements that fold. f_a = ∂W/∂x_a has besides ¼ γ_a Q
+//!   the couple that turns the frame, so that angular momentum is kept. With γ of the start, h has the same
+//!   share of it: every b_j is made of the two diagonals. While the point flows, the bending stays elastic.
 //!
-//! The stable step: the linear shapes and the pattern, each with its own largest ω² (a and b), are orthogonal on parallelograms. Else they share c² = 1 − 4/γ·γ, since
-//! h is orthogonal to every b_j; for two positive matrices whose ranges have at most this cosine c, ω² ≤ ½ (a + b + √((a − b)² + 4abc²)) ≤ a + abc²/(a − b), which is taken
-//! where b ≤ a/2, with a/2 for a − b, and a + b elsewhere: no root. A damping d that lags half a
-//! step takes part as 2 d / Δt. With the linear shapes' step, a Δt² = 4, and b Δt² is ½ κ γ·γ and √2 κ γ·γ (with M for M', which is no less), and κ Ē λ h² γ·γ / 4M with
-//! the largest eigenvalue λ of H/A (of the potential K's own, κ Ē V λ at the start), and what the turn of the frame adds.
+//! The stable step: the linear shapes and the pattern, each with its own largest ω² (a and b), are orthogonal
+//! on parallelograms. Else they share c² = 1 − 4/γ·γ, since h is orthogonal to every b_j; for two positive
+//! matrices whose ranges have at most this cosine c, ω² ≤ ½ (a + b + √((a − b)² + 4abc²)) ≤ a + abc²/(a − b),
+//! which is taken where b ≤ a/2, with a/2 for a − b, and a + b elsewhere: no root. A damping d that lags half
+//! a step takes part as 2 d / Δt. With the linear shapes' step, a Δt² = 4, and b Δt² is ½ κ γ·γ and √2 κ γ·γ
+//! (with M for M', which is no less), and κ Ē λ h² γ·γ / 4M with the largest eigenvalue λ of H/A (of the
+//! potential K's own, κ Ē V λ at the start), and what the turn of the frame adds.
 //!
-//! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; Hughes and Winget, Int. J. Numer. Meth. Engng 15 (1980) 1862-1867; Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340.
+//! Sources: Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706; Hughes and Winget, Int. J.
+//! Numer. Meth. Engng 15 (1980) 1862-1867; Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991)
+//! 311-340.
 
 use super::quad4::{Quad4Full, distance_squared, shape};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
@@ -29,7 +42,8 @@ use crate::tensor::{Dim, Matrix, Space, scaled};
 use embate_lanes::{Batch, Lane};
 use std::f64::consts::{SQRT_2, TAU};
 
-/// Natural coordinates along the diagonals, from corner to corner of length one: at the centre the gradient is the differences between opposite nodes.
+/// Natural coordinates along the diagonals, from corner to corner of length one: at the centre the gradient
+/// is the differences between opposite nodes.
 const DIAGONAL_NODES: [[f64; 2]; 4] = [[-0.5, 0.0], [0.0, -0.5], [0.5, 0.0], [0.0, 0.5]];
 
 /// What holds an element against hourglass shapes.
@@ -92,8 +106,9 @@ impl<L: Lane> Differences<L> {
     }
 }
 
-/// Axes of an element: with the lines through the middles of opposite sides, l along and m across, p = (l_x + m_y, l_y − m_x) is the sum of l and of m turned back by a right angle.
-/// p·p = l·l + m·m + 2 l × m is positive as long as the area at the centre is.
+/// Axes of an element: with the lines through the middles of opposite sides, l along and m across, p = (l_x +
+/// m_y, l_y − m_x) is the sum of l and of m turned back by a right angle. p·p = l·l + m·m + 2 l × m is
+/// positive as long as the area at the centre is.
 struct Frame<L> {
     p: [L; 2],
     /// p/|p|.
@@ -144,7 +159,8 @@ fn turned_back<L: Lane>([x, y]: [L; 2], [cos, sin]: [L; 2]) -> [L; 2] {
     [cos * x + sin * y, cos * y - sin * x]
 }
 
-/// [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] / A in the axes along `axis`, as its three different entries xx, yy, xy.
+/// [[H_xx, −ν̄ H_xy], [−ν̄ H_xy, H_yy]] / A in the axes along `axis`, as its three different entries xx, yy,
+/// xy.
 #[inline(always)]
 fn bending<L: Lane>(natural: &Matrix<L, 2>, axis: [L; 2], poisson: L) -> [L; 3] {
     let third = L::splat(1.0 / 3.0);
@@ -152,7 +168,8 @@ fn bending<L: Lane>(natural: &Matrix<L, 2>, axis: [L; 2], poisson: L) -> [L; 3] 
     [(xi_x * xi_x + eta_x * eta_x) * third, (xi_y * xi_y + eta_y * eta_y) * third, -((xi_x * xi_y + eta_x * eta_y) * third * poisson)]
 }
 
-/// h² = 2 A² / (d₁₃² + d₂₄²), numerator and denominator: ω² ≤ M V (|∇ξ|² + |∇η|²) / m at the centre, by the two blocks of [`super::quad4`].
+/// h² = 2 A² / (d₁₃² + d₂₄²), numerator and denominator: ω² ≤ M V (|∇ξ|² + |∇η|²) / m at the centre, by the
+/// two blocks of [`super::quad4`].
 #[inline(always)]
 fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], area: L) -> [L; 2] {
     [L::splat(2.0) * area * area, distance_squared(x[0], x[2]) + distance_squared(x[1], x[3])]
@@ -183,7 +200,8 @@ struct Answer<L> {
     swing: L,
 }
 
-/// What the potential of the assumed strain keeps of the start: γ as its parts along the diagonals, and the stiffness in the axes of [`frame`], N/m (N).
+/// What the potential of the assumed strain keeps of the start: γ as its parts along the diagonals, and the
+/// stiffness in the axes of [`frame`], N/m (N).
 #[inline(always)]
 fn potential<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, start: &Differences<L>, inverse: L) -> [L; POTENTIAL] {
     let (one, two) = (L::splat(1.0), L::splat(2.0));
@@ -275,8 +293,9 @@ fn swing<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) 
     out
 }
 
-/// ω² Δt² of the linear shapes and of the pattern together over 4, at the step of the linear shapes, from b Δt² / γ·γ and γ·γ − 4. With a Δt² = 4 the bound is
-/// ½ (a + b + √((a − b)² + 4abc²)) ≤ a + abc² / (a − b) ≤ a (1 + 2bc²/a) where b is at most a/2, and at most a + b elsewhere.
+/// ω² Δt² of the linear shapes and of the pattern together over 4, at the step of the linear shapes, from b
+/// Δt² / γ·γ and γ·γ − 4. With a Δt² = 4 the bound is ½ (a + b + √((a − b)² + 4abc²)) ≤ a + abc² / (a −
+/// b) ≤ a (1 + 2bc²/a) where b is at most a/2, and at most a + b elsewhere.
 #[inline(always)]
 fn together<L: Lane>(swing: L, more: L) -> L {
     let (quarter, half, one, two) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0));

@@ -1,20 +1,27 @@
-//! The stiffest motion of an element of space: a bound of its largest frequency, from the Jacobians at its points.
+//! The stiffest motion of an element of space: a bound of its largest frequency, from the Jacobians at its
+//! points.
 //!
-//! Let ∂N_p be the gradients of the shape functions at a point in natural coordinates so chosen that Σ_p w_p |∂φ|² ≤ |φ|² for the values φ of any function at the
-//! nodes (they are for hexahedra with ξ = ±1 and for tetrahedra, wedges need other scales), and S_p = det_p J_p⁻¹ J_p⁻ᵀ. Of an isotropic elastic body with λ = K − 2µ/3,
-//! ε:C:ε ≤ max(λ, 0) tr(F)² + 2µ |F|² with the displacement gradient F. The second part is Σ_p w_p ∂u S_p ∂uᵀ ≤ Λ |u|², Λ = max_p λ_max(S_p). The first, with tr F of the point or,
-//! with mean dilatation (for which the deviator only takes away: Σ det_p w_p tr² ≥ V θ̄²), of the element, is at most T |u|², T = max_p tr S_p, by Cauchy and Schwarz:
-//! det_p tr(F_p)² = (adj_p : ∂u_p)²/det_p ≤ tr S_p |∂u_p|². So with corners of mass m/N
+//! Let ∂N_p be the gradients of the shape functions at a point in natural coordinates so chosen that Σ_p w_p
+//! |∂φ|² ≤ |φ|² for the values φ of any function at the nodes (they are for hexahedra with ξ = ±1 and for
+//! tetrahedra, wedges need other scales), and S_p = det_p J_p⁻¹ J_p⁻ᵀ. Of an isotropic elastic body with
+//! λ = K − 2µ/3, ε:C:ε ≤ max(λ, 0) tr(F)² + 2µ |F|² with the displacement gradient F. The second part is Σ_p
+//! w_p ∂u S_p ∂uᵀ ≤ Λ |u|², Λ = max_p λ_max(S_p). The first, with tr F of the point or, with mean dilatation
+//! (for which the deviator only takes away: Σ det_p w_p tr² ≥ V θ̄²), of the element, is at most T |u|²,
+//! T = max_p tr S_p, by Cauchy and Schwarz: det_p tr(F_p)² = (adj_p : ∂u_p)²/det_p ≤ tr S_p |∂u_p|². So with
+//! corners of mass m/N
 //!
 //! ```text
 //! ω² ≤ (N/m) (max(λ, 0) T + 2µ Λ),     h² = 4 V / (N (max(1 − s, 0) T + s Λ)),  s = 2µ/(K + 4µ/3),
 //! ```
 //!
-//! which is the exact frequency of a cube of any Poisson ratio and of a thin plate. Where only the speed of the waves is known, of whatever body, s = 0 counts all as if it were λ: on
-//! parallelepipeds a bound too, since the sum of the blocks of three orthogonal linear shapes is one, and the other shapes are softer.
+//! which is the exact frequency of a cube of any Poisson ratio and of a thin plate. Where only the speed of
+//! the waves is known, of whatever body, s = 0 counts all as if it were λ: on parallelepipeds a bound too,
+//! since the sum of the blocks of three orthogonal linear shapes is one, and the other shapes are softer.
 //!
-//! λ_max(S) ≤ ⅓ (t + √(2 (3q − t²))) with t = tr S, q = S:S, which is exact where two eigenvalues are equal and the third is larger. S_p has the eigenvalues of Σ_k r_k r_kᵀ / det_p with the rows r_k
-//! of the adjugate. Sources: Gershgorin's and Loewner's bounds; Flanagan and Belytschko, J. Appl. Mech. 51 (1984) 35-40, for the mean gradient.
+//! λ_max(S) ≤ ⅓ (t + √(2 (3q − t²))) with t = tr S, q = S:S, which is exact where two eigenvalues are equal
+//! and the third is larger. S_p has the eigenvalues of Σ_k r_k r_kᵀ / det_p with the rows r_k of the
+//! adjugate. Sources: Gershgorin's and Loewner's bounds; Flanagan and Belytschko, J. Appl. Mech. 51 (1984)
+//! 35-40, for the mean gradient.
 
 use embate_lanes::Lane;
 

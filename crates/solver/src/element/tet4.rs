@@ -1,5 +1,6 @@
-//! Four-node tetrahedra with one point: constant strain (`tet4`), which locks where the volume cannot change, and the same with averaged nodal pressure
-//! (`tet4_anp`), which does not: the block averages their dilatation over the nodes (`block/nodal.rs`).
+//! Four-node tetrahedra with one point: constant strain (`tet4`), which locks where the volume cannot change,
+//! and the same with averaged nodal pressure (`tet4_anp`), which does not: the block averages their
+//! dilatation over the nodes (`block/nodal.rs`).
 //!
 //! ```text
 //!        4
@@ -9,7 +10,8 @@
 //!        2
 //! ```
 //!
-//! Sources: Hughes, The Finite Element Method (1987), 3.I; Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449.
+//! Sources: Hughes, The Finite Element Method (1987), 3.I; Bonet and Burton, Commun. Numer. Meth. Engng 14
+//! (1998) 437-449.
 
 use super::stiffest::{Metric, stiffest};
 use super::{Element, ElementKind, ElementOptions, Map};
@@ -93,7 +95,8 @@ tetrahedron!(
     }
 );
 
-/// h² = 1 / (max(1 − s, 0) T + s Λ) of Σ_a ∇N_a ∇N_aᵀ, whose rows times the determinant are those of the adjugate, and minus their sum.
+/// h² = 1 / (max(1 − s, 0) T + s Λ) of Σ_a ∇N_a ∇N_aᵀ, whose rows times the determinant are those of the
+/// adjugate, and minus their sum.
 #[inline(always)]
 fn thickness_squared<L: Lane>(map: &Map<L, 3, 1>, shear: L) -> [L; 2] {
     let [a, b, c] = map.adjugates[0];

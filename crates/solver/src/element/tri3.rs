@@ -1,5 +1,6 @@
-//! Three-node triangles with one point: constant strain (`tri3`), which locks where the volume cannot change, and the same with averaged nodal pressure
-//! (`tri3_anp`), which does not: the block averages their dilatation over the nodes (`block/nodal.rs`).
+//! Three-node triangles with one point: constant strain (`tri3`), which locks where the volume cannot change,
+//! and the same with averaged nodal pressure (`tri3_anp`), which does not: the block averages their
+//! dilatation over the nodes (`block/nodal.rs`).
 //!
 //! ```text
 //!   3
@@ -7,7 +8,8 @@
 //!   1 - 2
 //! ```
 //!
-//! Sources: Hughes, The Finite Element Method (1987), 3.I; Bonet and Burton, Commun. Numer. Meth. Engng 14 (1998) 437-449.
+//! Sources: Hughes, The Finite Element Method (1987), 3.I; Bonet and Burton, Commun. Numer. Meth. Engng 14
+//! (1998) 437-449.
 
 use super::quad4::distance_squared;
 use super::{Element, ElementKind, ElementOptions, Map};
@@ -96,8 +98,10 @@ triangle!(
     }
 );
 
-/// h² = 16 A² / (3 Σ ℓ²) from the sides ℓ. In two vectors orthogonal to each other and to (1, 1, 1) the stiffness has two blocks; the largest eigenvalue is at most the
-/// sum of theirs, ρc² V Σ_a |∇N_a|², and |∇N_a| = ℓ_a / 2A with the side opposite to the node: ω² ≤ c² Σ ℓ² / (4 A²) · 3 for corners of a third of the mass.
+/// h² = 16 A² / (3 Σ ℓ²) from the sides ℓ. In two vectors orthogonal to each other and to (1, 1, 1) the
+/// stiffness has two blocks; the largest eigenvalue is at most the sum of theirs, ρc² V Σ_a |∇N_a|², and
+/// |∇N_a| = ℓ_a / 2A with the side opposite to the node: ω² ≤ c² Σ ℓ² / (4 A²) · 3 for corners of a third of
+/// the mass.
 #[inline(always)]
 pub(super) fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], area: L) -> [L; 2] {
     let sides = distance_squared(x[0], x[1]) + distance_squared(x[1], x[2]) + distance_squared(x[2], x[0]);

@@ -9,11 +9,13 @@
 //!     1 --- 2        +--- ξ
 //! ```
 //!
-//! Points at ξ, η of 1/6 and 2/3 in the triangle, at ±1/√3 across: exact for the volume and the masses of any wedge, warped faces too.
-//! The bound of the step wants coordinates in which the linear shapes are alike ([`super::stiffest`]): those of an equilateral triangle, of a suitable height. With M = R Rᵀ,
-//! M⁻¹ = [[1, ½], [½, 1]] in the triangle and 1/6 across, S has the eigenvalues of (r₁r₁ᵀ + r₂r₂ᵀ + ½ (r₁r₂ᵀ + r₂r₁ᵀ) + r₃r₃ᵀ/6) / det, and ½ (r₁r₁ᵀ + r₂r₂ᵀ + (r₁ + r₂)(r₁ + r₂)ᵀ) is the
-//! first part. The remaining shapes, linear in the triangle times ζ, have 1/3 + 1/4 < 1 of it.
-//! Source: Hughes, The Finite Element Method (1987), 3.I and 4.5 (mean dilatation).
+//! Points at ξ, η of 1/6 and 2/3 in the triangle, at ±1/√3 across: exact for the volume and the masses of any
+//! wedge, warped faces too. The bound of the step wants coordinates in which the linear shapes are alike
+//! ([`super::stiffest`]): those of an equilateral triangle, of a suitable height. With M = R Rᵀ, M⁻¹ = [[1,
+//! ½], [½, 1]] in the triangle and 1/6 across, S has the eigenvalues of (r₁r₁ᵀ + r₂r₂ᵀ + ½ (r₁r₂ᵀ + r₂r₁ᵀ) +
+//! r₃r₃ᵀ/6) / det, and ½ (r₁r₁ᵀ + r₂r₂ᵀ + (r₁ + r₂)(r₁ + r₂)ᵀ) is the first part. The remaining shapes,
+//! linear in the triangle times ζ, have 1/3 + 1/4 < 1 of it. Source: Hughes, The Finite Element Method
+//! (1987), 3.I and 4.5 (mean dilatation).
 
 use super::stiffest::{Metric, stiffest};
 use super::{Element, ElementKind, ElementOptions, Map};

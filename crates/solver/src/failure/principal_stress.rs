@@ -1,6 +1,7 @@
 //! Failure at the largest principal stress, tension only (Rankine): brittle materials and spall.
 //!
-//! σ₁ = max( ½ (σ_xx + σ_yy) + √(¼ (σ_xx − σ_yy)² + σ_xy²), σ_zz ) where no shear acts across the plane, else the largest eigenvalue.
+//! σ₁ = max( ½ (σ_xx + σ_yy) + √(¼ (σ_xx − σ_yy)² + σ_xy²), σ_zz ) where no shear acts across the plane, else
+//! the largest eigenvalue.
 
 use super::CriterionKind;
 use crate::quantity::{Dimension, Parameter, Range};

@@ -1,4 +1,5 @@
-//! Failure at a stable step: what is crushed or drawn out so far that it would stop the run is taken out of it. An element that turns inside out fails too.
+//! Failure at a stable step: what is crushed or drawn out so far that it would stop the run is taken out of
+//! it. An element that turns inside out fails too.
 
 use super::CriterionKind;
 use crate::quantity::{Dimension, Parameter, Range};

@@ -3,8 +3,10 @@
 //! gravity:      f = m g c(t)
 //! centrifugal:  f = m ω² (x − p),  ω = ω₀ c(t),  with the current position x
 //!
-//! with a factor c(t) of a curve. A body of revolution turns about its axis: m ω² x along x alone. The centrifugal force is that of a frame that turns with ω about p, in which a part at rest is seen; velocities are those seen in the
-//! frame, and are meant to be small: there is no Coriolis force, and none of ω̇. Each part gives its share of a node's mass. Works are external.
+//! with a factor c(t) of a curve. A body of revolution turns about its axis: m ω² x along x alone. The
+//! centrifugal force is that of a frame that turns with ω about p, in which a part at rest is seen;
+//! velocities are those seen in the frame, and are meant to be small: there is no Coriolis force, and none of
+//! ω̇. Each part gives its share of a node's mass. Works are external.
 
 use super::curve::Curves;
 use crate::mesh::Mesh;
@@ -69,7 +71,8 @@ impl<const D: usize> BodyForces<D>
 where
     Dim<D>: CellGeometry<D> + Rotate<D>,
 {
-    /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of each node, all in their initial positions.
+    /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of
+    /// each node, all in their initial positions.
     #[must_use]
     pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
         let load = |load: &Load| {

@@ -1,5 +1,6 @@
-//! Prescribed motion by direction: symmetry lines, fixed and driven nodes, nodes that are led around a point. After the free update the velocity is set
-//! along each direction; the impulse that this takes is the reaction, and its work goes to the ledger.
+//! Prescribed motion by direction: symmetry lines, fixed and driven nodes, nodes that are led around a point.
+//! After the free update the velocity is set along each direction; the impulse that this takes is the
+//! reaction, and its work goes to the ledger.
 
 use super::curve::{Curves, Meaning, Speed};
 use super::join::{Joins, back};
@@ -86,7 +87,8 @@ impl<const D: usize> Held<D> {
         direction
     }
 
-    /// The same of something that gives way to impulses by a symmetric matrix: the reactions act along the held directions.
+    /// The same of something that gives way to impulses by a symmetric matrix: the reactions act along the
+    /// held directions.
     #[must_use]
     pub fn apply_in(&self, mut velocity: [f64; D], mut mobility: Square<D>) -> [f64; D] {
         for (direction, speed) in &self.directions {
@@ -345,7 +347,8 @@ where
         givers.iter().map(|&giver| self.conditions[giver as usize].as_str()).collect::<Vec<_>>().join(" and ")
     }
 
-    /// Takes the velocities that change with time, as their mean between two times, s; `positions` at the first of them, m.
+    /// Takes the velocities that change with time, as their mean between two times, s; `positions` at the
+    /// first of them, m.
     pub fn drive(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; D]]) {
         for &(index, node) in &self.driven {
             let held = &mut self.held[index as usize];
@@ -439,7 +442,8 @@ impl<const D: usize> Constraints<D> {
         self.mirrors[start..].iter().take_while(move |mirror| mirror.node == node)
     }
 
-    /// Part of a node that belongs to the model: a half on a symmetry line, a quarter where two lines meet (in space: planes; an eighth where three do).
+    /// Part of a node that belongs to the model: a half on a symmetry line, a quarter where two lines meet
+    /// (in space: planes; an eighth where three do).
     #[must_use]
     pub fn share(&self, node: u32) -> f64 {
         let mut different: Vec<[f64; D]> = Vec::new();

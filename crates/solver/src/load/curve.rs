@@ -1,8 +1,9 @@
 //! Curves: functions of time by points, sine or formula; and prescribed motion that follows them.
 //!
-//! Curves come from the model. Constraints, rigid bodies and loads ask for means over a step, so that what is driven is at every step where its curve
-//! says, whatever the step, and a load's impulse is the integral of its curve. Means and moments of what has no closed form are taken by four Gauss
-//! points between the corners: exact for lines and smooth steps, of eighth order in the step for formulas.
+//! Curves come from the model. Constraints, rigid bodies and loads ask for means over a step, so that what is
+//! driven is at every step where its curve says, whatever the step, and a load's impulse is the integral of
+//! its curve. Means and moments of what has no closed form are taken by four Gauss points between the
+//! corners: exact for lines and smooth steps, of eighth order in the step for formulas.
 
 pub mod expression;
 pub mod sine;
@@ -114,7 +115,8 @@ pub enum Meaning {
     Acceleration,
 }
 
-/// A velocity that is prescribed: a constant, what grows with time, and multiples of what curves mean; m/s or rad/s.
+/// A velocity that is prescribed: a constant, what grows with time, and multiples of what curves mean; m/s or
+/// rad/s.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Speed {
     constant: f64,

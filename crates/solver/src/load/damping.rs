@@ -1,10 +1,12 @@
 //! Damping of mass: a force −rate m v on parts, so that what moves slowly comes to rest.
 //!
-//! It acts on the mean velocity of the update, v̄ = ½ (v^{n−½} + v^{n+½}): with a = ½ rate · ½ (dt^{n−1} + dt^n)
+//! It acts on the mean velocity of the update, v̄ = ½ (v^{n−½} + v^{n+½}): with a = ½ rate · ½ (dt^{n−1} +
+//! dt^n)
 //!
 //! v^{n+½} = [(1 − a) v^{n−½} + ½ (dt^{n−1} + dt^n) f / m] / (1 + a),
 //!
-//! so it only takes energy, whatever the rate and the step. A node then gives way to a force like one of mass m (1 + a), which contact must know.
+//! so it only takes energy, whatever the rate and the step. A node then gives way to a force like one of mass
+//! m (1 + a), which contact must know.
 
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
@@ -39,7 +41,8 @@ struct Acting {
 }
 
 impl Damping {
-    /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of each node.
+    /// `part_mass` lists the nodes of each part with the part's mass on them (kg/m), `mass` the whole mass of
+    /// each node.
     #[must_use]
     pub fn new<const D: usize>(model: &Model, mesh: &Mesh<D>, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self
     where
@@ -71,7 +74,8 @@ impl Damping {
         self.relaxation = Some(rate);
     }
 
-    /// What acts at `time` (s) in an update over `time_step` = ½ (dt^{n−1} + dt^n), s, on so many nodes. Tells whether rates have changed.
+    /// What acts at `time` (s) in an update over `time_step` = ½ (dt^{n−1} + dt^n), s, on so many nodes.
+    /// Tells whether rates have changed.
     pub fn prepare(&mut self, time: f64, time_step: f64, nodes: usize) -> bool {
         // Its rate changes from step to step.
         let mut changed = self.relaxation.is_some();

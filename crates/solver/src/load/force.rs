@@ -1,7 +1,8 @@
 //! Forces on nodes: given forces on sets, and pressures on surfaces.
 //!
-//! force:     F c(t) in all, shared over a surface by tributary length, over other sets equally
-//! pressure:  −p c(t) n per current length of each segment, n its current outward normal, half to each node: it follows the surface
+//! force: F c(t) in all, shared over a surface by tributary length, over other sets equally pressure: −p c(t)
+//! n per current length of each segment, n its current outward normal, half to each node: it follows the
+//! surface
 //!
 //! with a factor c(t) of a curve. Works are external. A closed surface under pressure feels no resultant.
 
@@ -25,7 +26,8 @@ where
     Dim<D>: Meshed<D>,
 {
     loads: Vec<Acting<D>>,
-    /// Forces that somebody gave while the simulation stood between two steps: nodes, ascending, and their forces, N/m.
+    /// Forces that somebody gave while the simulation stood between two steps: nodes, ascending, and their
+    /// forces, N/m.
     pushes: Vec<(u32, [f64; D])>,
     /// Force on every node now, N/m; empty when the model has no such load.
     now: Vec<[f64; D]>,
@@ -117,7 +119,8 @@ where
         }
     }
 
-    /// Lets these forces (N/m) act on nodes from the next update on, until others are given for them; a force of zero ends that of its node.
+    /// Lets these forces (N/m) act on nodes from the next update on, until others are given for them; a force
+    /// of zero ends that of its node.
     pub fn push(&mut self, given: impl IntoIterator<Item = (u32, [f64; D])>) {
         for (node, force) in given {
             match (self.pushes.binary_search_by_key(&node, |&(node, _)| node), force == [0.0; D]) {

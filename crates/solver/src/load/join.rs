@@ -1,10 +1,13 @@
-//! Nodes that move as one: tied where two sets coincide, periodic where one set is the image of the other by a translation or a rotation.
+//! Nodes that move as one: tied where two sets coincide, periodic where one set is the image of the other by
+//! a translation or a rotation.
 //!
-//! Joined nodes form groups. Each member's velocity is that of the group's leader, turned: v_i = R_i v. With this the update of the group is that of one node
+//! Joined nodes form groups. Each member's velocity is that of the group's leader, turned: v_i = R_i v. With
+//! this the update of the group is that of one node
 //!
 //! M v^{n+½} = M v^{n−½} + ½ (dt^{n−1} + dt^n) Σ R_iᵀ f_i,   M = Σ m_i
 //!
-//! so a join does no work. A node that is its own image by a rotation (the tip of a sector) can't move; it is held.
+//! so a join does no work. A node that is its own image by a rotation (the tip of a sector) can't move; it is
+//! held.
 
 use crate::error::Fault;
 use crate::load::messages::NO_PARTNER;

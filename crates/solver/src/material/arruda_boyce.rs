@@ -1,9 +1,12 @@
-//! Arruda and Boyce's rubber: eight chains in a cube, which stiffen as they near their full length. Hyperelastic.
+//! Arruda and Boyce's rubber: eight chains in a cube, which stiffen as they near their full length.
+//! Hyperelastic.
 //!
-//! W = µ Σ_i C_i λ_m^{2−2i} (Ī₁^i − 3^i) + ¼K (J² − 1 − 2 ln J) per initial volume, i = 1..5, C = 1/2, 1/20, 11/1050, 19/7000, 519/673750: the inverse Langevin
-//! function's series, as usual cut after five terms, so that the stress grows steeply beyond the locking stretch λ_m but has no pole there.
-//! The user gives the shear modulus at rest, µ₀ = µ Σ_i 2 i C_i (3/λ_m²)^{i−1}; the source's n k Θ is µ. Moduli at rest K and µ₀.
-//! Source: Arruda and Boyce, J. Mech. Phys. Solids 41 (1993) 389-412; volume as in `neo_hookean`, stable step as in `rubber.rs`.
+//! W = µ Σ_i C_i λ_m^{2−2i} (Ī₁^i − 3^i) + ¼K (J² − 1 − 2 ln J) per initial volume, i = 1..5, C = 1/2, 1/20,
+//! 11/1050, 19/7000, 519/673750: the inverse Langevin function's series, as usual cut after five terms, so
+//! that the stress grows steeply beyond the locking stretch λ_m but has no pole there. The user gives the
+//! shear modulus at rest, µ₀ = µ Σ_i 2 i C_i (3/λ_m²)^{i−1}; the source's n k Θ is µ. Moduli at rest K and
+//! µ₀. Source: Arruda and Boyce, J. Mech. Phys. Solids 41 (1993) 389-412; volume as in `neo_hookean`, stable
+//! step as in `rubber.rs`.
 
 use super::rubber::{FirstInvariant, Unimodular, Volume, isochoric};
 use super::{BULK, DENSITY, Family, Kinematics, Law, LawKind, Parameters, Response};

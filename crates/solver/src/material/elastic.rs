@@ -1,8 +1,8 @@
 //! Isotropic linear elasticity in rate form (hypoelastic, Jaumann rate).
 //!
-//! σ̂ = K tr(d) I + 2µ dev(d): over a step σ ← Q σ Qᵀ + K tr(Δε) I + 2µ dev(Δε), with Q from Hughes and Winget (1980)
-//! and the mid-step Δε turned by half of Q.
-//! Right for small elastic strains and any rotation; for large elastic strains take `neo_hookean`.
+//! σ̂ = K tr(d) I + 2µ dev(d): over a step σ ← Q σ Qᵀ + K tr(Δε) I + 2µ dev(Δε), with Q from Hughes and
+//! Winget (1980) and the mid-step Δε turned by half of Q. Right for small elastic strains and any rotation;
+//! for large elastic strains take `neo_hookean`.
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, Parameters, Response, YOUNG, bulk_and_shear};
 use crate::tensor::SymmetricTensor;

@@ -1,12 +1,14 @@
 //! Compressible Mooney-Rivlin rubber, hyperelastic.
 //!
-//! W = C₁₀ (tr b̄ − 3) + C₀₁ (tr b̄⁻¹ − 3) + ¼K (J² − 1 − 2 ln J) per initial volume, b̄ = J^{-2/3} b; with m₁ = 2 C₁₀, m₂ = 2 C₀₁ and v̄ = b̄⁻¹
-//! σ = (m₁ dev b̄ − m₂ dev v̄)/J + ½K (J − 1/J) I. Moduli at rest K and µ = m₁ + m₂. det b̄ = 1, so v̄ is the adjugate of b̄.
-//! Source: Mooney, J. Appl. Phys. 11 (1940) 582-592; Rivlin, Phil. Trans. R. Soc. A 241 (1948) 379-397; volume as in `neo_hookean`.
+//! W = C₁₀ (tr b̄ − 3) + C₀₁ (tr b̄⁻¹ − 3) + ¼K (J² − 1 − 2 ln J) per initial volume, b̄ = J^{-2/3} b; with
+//! m₁ = 2 C₁₀, m₂ = 2 C₀₁ and v̄ = b̄⁻¹ σ = (m₁ dev b̄ − m₂ dev v̄)/J + ½K (J − 1/J) I. Moduli at rest K and
+//! µ = m₁ + m₂. det b̄ = 1, so v̄ is the adjugate of b̄. Source: Mooney, J. Appl. Phys. 11 (1940) 582-592;
+//! Rivlin, Phil. Trans. R. Soc. A 241 (1948) 379-397; volume as in `neo_hookean`.
 //!
-//! Stiffness for the stable step: the second variation of W along L = a⊗n, t = a·n, gives
-//! J ρc² = J² U'' t² + m₁ (b̄_nn − 4/3 t b̄_an + 5/3 t² c_b) + m₂ (v̄_aa + 2/3 t v̄_an − 1/3 t² c_v), c = tr / 3.
-//! The first bracket is at most 4/3 b̄_max, the second at most 5/3 v̄_max − 1/3 c_v (it grows with t), and no eigenvalue exceeds c + √(2/3) |dev|.
+//! Stiffness for the stable step: the second variation of W along L = a⊗n, t = a·n, gives J ρc² = J² U'' t² +
+//! m₁ (b̄_nn − 4/3 t b̄_an + 5/3 t² c_b) + m₂ (v̄_aa + 2/3 t v̄_an − 1/3 t² c_v), c = tr / 3. The first
+//! bracket is at most 4/3 b̄_max, the second at most 5/3 v̄_max − 1/3 c_v (it grows with t), and no
+//! eigenvalue exceeds c + √(2/3) |dev|.
 
 use super::rubber::{Unimodular, Volume, isochoric};
 use super::{BULK, DENSITY, Family, Kinematics, Law, LawKind, Parameters, Response};

@@ -1,11 +1,12 @@
 //! Compressible neo-Hookean rubber, hyperelastic, with separate volumetric and isochoric energies.
 //!
-//! W = ½µ (J^{-2/3} tr b − 3) + ¼K (J² − 1 − 2 ln J) per initial volume;
-//! σ = µ J^{-5/3} dev b + ½K (J − 1/J) I. Moduli at rest K and µ.
-//! Source: Simo and Taylor, Comput. Meth. Appl. Mech. Engng 85 (1991) 273-310; Holzapfel, Nonlinear Solid Mechanics (2000), 6.5.
+//! W = ½µ (J^{-2/3} tr b − 3) + ¼K (J² − 1 − 2 ln J) per initial volume; σ = µ J^{-5/3} dev b + ½K (J − 1/J)
+//! I. Moduli at rest K and µ. Source: Simo and Taylor, Comput. Meth. Appl. Mech. Engng 85 (1991) 273-310;
+//! Holzapfel, Nonlinear Solid Mechanics (2000), 6.5.
 //!
-//! Stiffness for the stable step: waves along n have ρc² = J p' + (4/3 µ̄ − ⅓ s_nn)/J (pressure waves) and µ b̄_nn/J (shear waves), with
-//! µ̄ = µ tr b̄ / 3; the eigenvalues of b̄ lie within √(2/3) |dev b̄| of their mean, so µ̄ + µ √(2/3) |dev b̄| bounds both.
+//! Stiffness for the stable step: waves along n have ρc² = J p' + (4/3 µ̄ − ⅓ s_nn)/J (pressure waves) and µ
+//! b̄_nn/J (shear waves), with µ̄ = µ tr b̄ / 3; the eigenvalues of b̄ lie within √(2/3) |dev b̄| of their
+//! mean, so µ̄ + µ √(2/3) |dev b̄| bounds both.
 
 use super::rubber::{Unimodular, Volume, isochoric};
 use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, Parameters, Response, YOUNG, bulk_and_shear};

@@ -1,8 +1,10 @@
-//! A fluid: no shear stress but that of a Newtonian viscosity, s = 2µ dev(Δε)/Δt; the pressure is that of an equation of state, which it needs.
+//! A fluid: no shear stress but that of a Newtonian viscosity, s = 2µ dev(Δε)/Δt; the pressure is that of an
+//! equation of state, which it needs.
 //!
-//! What the viscosity takes is heat: s:Δε. In the stable step it counts as a shear stiffness 2µ/Δt: with the viscous force from the velocity before the step, central
-//! differences are stable for (ωΔt)²/4 + λΔt/2 ≤ 1, λ the rate at which the fastest shear decays. The step is that of the step before, so a fluid so stiff that µ/Δt is not
-//! small against its bulk stiffness needs a smaller `[run] time_step` for its first steps.
+//! What the viscosity takes is heat: s:Δε. In the stable step it counts as a shear stiffness 2µ/Δt: with the
+//! viscous force from the velocity before the step, central differences are stable for (ωΔt)²/4 + λΔt/2 ≤ 1,
+//! λ the rate at which the fastest shear decays. The step is that of the step before, so a fluid so stiff
+//! that µ/Δt is not small against its bulk stiffness needs a smaller `[run] time_step` for its first steps.
 //! Source: Landau and Lifshitz, Fluid Mechanics (1987), section 15.
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, Parameters, Response};

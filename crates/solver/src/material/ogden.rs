@@ -1,15 +1,18 @@
 //! Compressible Ogden rubber, hyperelastic, from principal stretches.
 //!
-//! W = Σ_k (µ_k/α_k) (Σ_i λ̄_i^{α_k} − 3) + ¼K (J² − 1 − 2 ln J) per initial volume, λ̄_i = J^{-1/3} λ_i. With β_i = λ̄_i^α and T_i = Σ_k µ_k β_i the
-//! principal Cauchy stresses are (T_i − Σ_j T_j / 3)/J + ½K (J − 1/J), along the eigenvectors of b. Moduli at rest K and µ = ½ Σ µ_k α_k.
-//! Each µ_k α_k > 0, so that the stress grows with the stretch. Sources that write W = Σ (2 µ_k/α_k²) (...) have other µ_k: µ_k here = 2 µ_k there / α_k.
-//! Source: Ogden, Proc. R. Soc. A 326 (1972) 565-584; volume as in `neo_hookean`.
+//! W = Σ_k (µ_k/α_k) (Σ_i λ̄_i^{α_k} − 3) + ¼K (J² − 1 − 2 ln J) per initial volume, λ̄_i = J^{-1/3} λ_i.
+//! With β_i = λ̄_i^α and T_i = Σ_k µ_k β_i the principal Cauchy stresses are (T_i − Σ_j T_j / 3)/J + ½K (J −
+//! 1/J), along the eigenvectors of b. Moduli at rest K and µ = ½ Σ µ_k α_k. Each µ_k α_k > 0, so that the
+//! stress grows with the stretch. Sources that write W = Σ (2 µ_k/α_k²) (...) have other µ_k: µ_k here = 2
+//! µ_k there / α_k. Source: Ogden, Proc. R. Soc. A 326 (1972) 565-584; volume as in `neo_hookean`.
 //!
-//! With x_i = α ln λ̄_i, Σ x_i = 0 and Σ (β_i − 1) = Σ (e^{x_i} − 1 − x_i): squares of small numbers near rest, without cancellation.
+//! With x_i = α ln λ̄_i, Σ x_i = 0 and Σ (β_i − 1) = Σ (e^{x_i} − 1 − x_i): squares of small numbers near
+//! rest, without cancellation.
 //!
-//! Stiffness for the stable step. Along L = a⊗n in principal axes, u_i = λ̄_i², y_i = a_i n_i, S_i = Σ_k µ_k α_k β_i, means over i with a bar:
-//! J ρc² − J² U'' (a·n)² = Σ_ij D_ij y_i y_j + Σ_{i≠j} g_ij u_j a_i² n_j² with the divided difference g_ij = (T_i − T_j)/(u_i − u_j),
-//! D_ii = (S_i + S̄)/3 − T_i + T̄ and D_ij = (S̄ − S_i − S_j)/3 + u_j g_ij − T_j + T̄ (symmetric). Since Σ_{i≠j} a_i² n_j² = 1 − Σ y_i² and Σ |y_i| ≤ 1,
+//! Stiffness for the stable step. Along L = a⊗n in principal axes, u_i = λ̄_i², y_i = a_i n_i, S_i = Σ_k µ_k
+//! α_k β_i, means over i with a bar: J ρc² − J² U'' (a·n)² = Σ_ij D_ij y_i y_j + Σ_{i≠j} g_ij u_j a_i² n_j²
+//! with the divided difference g_ij = (T_i − T_j)/(u_i − u_j), D_ii = (S_i + S̄)/3 − T_i + T̄ and D_ij = (S̄
+//! − S_i − S_j)/3 + u_j g_ij − T_j + T̄ (symmetric). Since Σ_{i≠j} a_i² n_j² = 1 − Σ y_i² and Σ |y_i| ≤ 1,
 //! with G = max g_ij u_j this is at most max(D_ii, G + |D_ij|).
 
 use super::rubber::Volume;
@@ -145,7 +148,8 @@ impl<L: Lane> Principal<L> {
         for i in 0..3 {
             let j = (i + 1) % 3;
             own = own.max((s[i] + slope) * third - t[i] + stress);
-            // Where two values nearly meet, the mean of the slopes at both: right to the square of their distance.
+            // Where two values nearly meet, the mean of the slopes at both: right to the square of their
+            // distance.
             let (apart, product) = (u[i] - u[j], u[i] * u[j]);
             let close = (apart * apart).less(product * L::splat(1e-8));
             // 1/u_i is the product of the other two.

@@ -1,17 +1,20 @@
-//! Orthotropic linear elasticity in rate form: three axes that turn with the material, in the plane of the model the first two.
+//! Orthotropic linear elasticity in rate form: three axes that turn with the material, in the plane of the
+//! model the first two.
 //!
-//! In the axes of the material ε_ii = Σ_j S_ij σ_jj with S_ii = 1/E_i, S_ij = −ν_ij/E_i (ν_ij: contraction along j under a pull along i, so that
-//! ν_ij/E_i = ν_ji/E_j), and σ_ij = 2 G_ij ε_ij. C = S⁻¹; positive definite when |ν_ij| < √(E_i/E_j) and
-//! 1 − ν₁₂² E₂/E₁ − ν₂₃² E₃/E₂ − ν₃₁² E₁/E₃ − 2 ν₁₂ ν₂₃ ν₃₁ > 0.
+//! In the axes of the material ε_ii = Σ_j S_ij σ_jj with S_ii = 1/E_i, S_ij = −ν_ij/E_i (ν_ij: contraction
+//! along j under a pull along i, so that ν_ij/E_i = ν_ji/E_j), and σ_ij = 2 G_ij ε_ij. C = S⁻¹; positive
+//! definite when |ν_ij| < √(E_i/E_j) and 1 − ν₁₂² E₂/E₁ − ν₂₃² E₃/E₂ − ν₃₁² E₁/E₃ − 2 ν₁₂ ν₂₃ ν₃₁ > 0.
 //!
-//! The state is the rotation R of the axes since they were x, y, z: R ← Q R with the Q that turns the stress; σ ← Q σ Qᵀ + R C[Rᵀ Δε R] Rᵀ.
-//! So the stress in the axes is C times the summed strain in the axes: the law stores and gives back energy exactly, for any rotation.
-//! Right for small strains; at large shear the axes follow the mean rotation (Jaumann), not the fibres.
-//! Source: Lekhnitskii, Theory of Elasticity of an Anisotropic Body (1963), 1.3; Jones, Mechanics of Composite Materials (1999), 2.4.
+//! The state is the rotation R of the axes since they were x, y, z: R ← Q R with the Q that turns the stress;
+//! σ ← Q σ Qᵀ + R C[Rᵀ Δε R] Rᵀ. So the stress in the axes is C times the summed strain in the axes: the law
+//! stores and gives back energy exactly, for any rotation. Right for small strains; at large shear the axes
+//! follow the mean rotation (Jaumann), not the fibres. Source: Lekhnitskii, Theory of Elasticity of an
+//! Anisotropic Body (1963), 1.3; Jones, Mechanics of Composite Materials (1999), 2.4.
 //!
-//! Stiffness for the stable step: with y_i = a_i n_i, ρc² = Σ_ij C_ij y_i y_j + Σ_{i<j} G_ij (a_i² n_j² + a_j² n_i² + 2 y_i y_j) is at most
-//! max(C_ii, G + |C_ij + G_ij|), G the largest G_ij, since Σ_{i≠j} a_i² n_j² = 1 − Σ y_i² and Σ |y_i| ≤ 1. Reported as Voigt's bulk modulus Σ C_ij / 9 and the shear
-//! modulus that completes the bound; both are those of the isotropic law where the material is isotropic.
+//! Stiffness for the stable step: with y_i = a_i n_i, ρc² = Σ_ij C_ij y_i y_j + Σ_{i<j} G_ij (a_i² n_j² +
+//! a_j² n_i² + 2 y_i y_j) is at most max(C_ii, G + |C_ij + G_ij|), G the largest G_ij, since Σ_{i≠j} a_i²
+//! n_j² = 1 − Σ y_i² and Σ |y_i| ≤ 1. Reported as Voigt's bulk modulus Σ C_ij / 9 and the shear modulus that
+//! completes the bound; both are those of the isotropic law where the material is isotropic.
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, Orientation, ParameterFault, Parameters, Response};
 use crate::angle::cos_sin;

@@ -1,4 +1,5 @@
-//! Parameters of laws as they are read: numbers and lists by name, defaults filled in, and the descriptions that many laws share.
+//! Parameters of laws as they are read: numbers and lists by name, defaults filled in, and the descriptions
+//! that many laws share.
 
 use crate::message::Message;
 use crate::quantity::{Dimension, Parameter, Range};
@@ -19,7 +20,8 @@ impl<'a> Parameters<'a> {
         Self { kind, values, lists }
     }
 
-    /// Value of `name`, its default if it was left out, NaN if there is neither (which the model's check refuses).
+    /// Value of `name`, its default if it was left out, NaN if there is neither (which the model's check
+    /// refuses).
     #[must_use]
     pub fn value(&self, name: &str) -> f64 {
         let default = || self.kind.iter().find(|parameter| parameter.name == name).and_then(|parameter| parameter.default);

@@ -1,11 +1,15 @@
-//! What hyperelastic laws share: the energy of volume, and the invariants of unimodular tensors free of cancellation near rest.
+//! What hyperelastic laws share: the energy of volume, and the invariants of unimodular tensors free of
+//! cancellation near rest.
 //!
-//! Every rubber splits its energy into one of the volume, U(J) = ¼K (J² − 1 − 2 ln J), and one of b̄ = J^{-2/3} b, det b̄ = 1.
+//! Every rubber splits its energy into one of the volume, U(J) = ¼K (J² − 1 − 2 ln J), and one of
+//! b̄ = J^{-2/3} b, det b̄ = 1.
 //!
-//! Both are squares of small numbers near rest, but differences of numbers near one as they stand: a stiff body's round-off would outweigh the whole
-//! energy of a slow start. With c = tr a / 3 and s = dev a, det a = 1 reads c³ − ½(s:s) c + det s = 1, so c − 1 = (½(s:s) c − det s) / (c² + c + 1).
+//! Both are squares of small numbers near rest, but differences of numbers near one as they stand: a stiff
+//! body's round-off would outweigh the whole energy of a slow start. With c = tr a / 3 and s = dev a, det
+//! a = 1 reads c³ − ½(s:s) c + det s = 1, so c − 1 = (½(s:s) c − det s) / (c² + c + 1).
 //!
-//! A pressure drops out of the acoustic tensor: for rank-one L = a⊗n, (tr L)² = L:Lᵀ. U adds J U'' (a·n)² to ρc², no more.
+//! A pressure drops out of the acoustic tensor: for rank-one L = a⊗n, (tr L)² = L:Lᵀ. U adds J U'' (a·n)² to
+//! ρc², no more.
 
 use super::Response;
 use crate::tensor::SymmetricTensor;
@@ -69,8 +73,8 @@ impl<L: Lane, T: SymmetricTensor<L>> Unimodular<L, T> {
 
 /// Isochoric energy w as a function of the first invariant Ī₁ alone, with its slope w' and curvature w''.
 ///
-/// σ = 2 w' dev b̄ / J. Along L = a⊗n the neo-Hookean part with µ = 2 w' needs J ρc² ≤ 4/3 µ b̄_max (see `mooney_rivlin`); the curvature adds 4 w'' (dev b̄)_an², at most
-/// 4 w'' (2/3) |dev b̄|² where w'' > 0.
+/// σ = 2 w' dev b̄ / J. Along L = a⊗n the neo-Hookean part with µ = 2 w' needs J ρc² ≤ 4/3 µ b̄_max (see
+/// `mooney_rivlin`); the curvature adds 4 w'' (dev b̄)_an², at most 4 w'' (2/3) |dev b̄|² where w'' > 0.
 pub(super) struct FirstInvariant<L> {
     /// w, J/m³.
     pub(super) stored: L,

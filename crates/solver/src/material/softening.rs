@@ -1,14 +1,16 @@
 //! Falling flow stress: how steep it may be, for the checks of a model.
 //!
-//! With M = ∂f/∂σ and the slope H = dσ_y/dε_p, stress has one answer to strain where M:C:M + H > 0: at a point with the stiffness C of the solid, in plane stress
-//! with that of the plate, in a bar with Young's modulus. C:M is least
+//! With M = ∂f/∂σ and the slope H = dσ_y/dε_p, stress has one answer to strain where M:C:M + H > 0: at a
+//! point with the stiffness C of the solid, in plane stress with that of the plate, in a bar with Young's
+//! modulus. C:M is least
 //! ```text
 //! von Mises     solid 3µ,             plate E / (2 (1 − ν)),                             bar E
 //! foam          solid min(3µ, Kα²)/c, plate min(E (½ + 2α²/9) / (c (1 − ν)), 3µ/c),      bar E
 //! ```
-//! (plate: of all states of plane stress, equal tension along x and y or shear). A slope is refused from nine tenths of it on: there a strain increment
-//! already makes ten times itself of plastic strain.
-//! Source: Hill, Journal of the Mechanics and Physics of Solids 6 (1958) 236-249; de Borst et al., Non-linear Finite Element Analysis of Solids and Structures (2012).
+//! (plate: of all states of plane stress, equal tension along x and y or shear). A slope is refused from nine
+//! tenths of it on: there a strain increment already makes ten times itself of plastic strain. Source: Hill,
+//! Journal of the Mechanics and Physics of Solids 6 (1958) 236-249; de Borst et al., Non-linear Finite
+//! Element Analysis of Solids and Structures (2012).
 
 use super::ParameterFault;
 use crate::material::messages::SOFTENS_TOO_STEEPLY;

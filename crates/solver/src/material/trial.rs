@@ -1,9 +1,12 @@
-//! What laws with a yield surface share: the elastic trial stress, the work of a plastic step for the ledger, and Newton's method in lanes.
+//! What laws with a yield surface share: the elastic trial stress, the work of a plastic step for the ledger,
+//! and Newton's method in lanes.
 //!
-//! The block takes ½ (σ_old + σ_new):Δε as the work of a step. With the strain split into Δε = C⁻¹:(σ_new − σ_old) + Δε_p that is, to the last
-//! digit, the change of ½ σ:C⁻¹:σ plus ½ (σ_old + σ_new):Δε_p. So a law that reports the latter as its plastic work leaves exactly the elastic
-//! energy in the ledger, whatever the size of its steps; for steps in one direction it is the trapezoidal rule on the flow stress.
-//! Where |σ_old| exceeds |σ_new| (heat, less rate, a flow stress that falls) and the direction turns in one step, it could be negative; then zero is reported.
+//! The block takes ½ (σ_old + σ_new):Δε as the work of a step. With the strain split into Δε = C⁻¹:(σ_new −
+//! σ_old) + Δε_p that is, to the last digit, the change of ½ σ:C⁻¹:σ plus ½ (σ_old + σ_new):Δε_p. So a law
+//! that reports the latter as its plastic work leaves exactly the elastic energy in the ledger, whatever the
+//! size of its steps; for steps in one direction it is the trapezoidal rule on the flow stress. Where |σ_old|
+//! exceeds |σ_new| (heat, less rate, a flow stress that falls) and the direction turns in one step, it could
+//! be negative; then zero is reported.
 
 use super::Kinematics;
 use crate::tensor::SymmetricTensor;
@@ -63,15 +66,17 @@ impl<L: Lane, T: SymmetricTensor<L>> Trial<L, T> {
 
 /// Largest residual over the trial stress.
 const TOLERANCE: f64 = 1e-12;
-/// Evaluations; one or two do where the function is smooth, and halving the bracket has no need of more than these.
+/// Evaluations; one or two do where the function is smooth, and halving the bracket has no need of more than
+/// these.
 pub(super) const LIMIT: usize = 60;
 
-/// Newton's method for a function that is positive left of its root and negative right of it, in a bracket that halves where Newton leaves it.
-/// A flow stress that falls bends the function the other way, and Newton's steps may pass the root; each that leaves the bracket, which shrinks with every step, halves it.
-/// Each step δ takes the curvature with it (Chebyshev's method): with δ₁ = −f/f' and h = f'' δ₁/f' it is δ₁ (1 − h/2), and leaves ½ f'' δ₁² h and f''' δ³/6 of f.
-/// Where that is within the tolerance, it is the last: the function is not evaluated again only to see it.
-/// Lanes that have converged stand still, so that no lane depends on its neighbours.
-/// Source: Traub, Iterative Methods for the Solution of Equations (1964), 5.2.
+/// Newton's method for a function that is positive left of its root and negative right of it, in a bracket
+/// that halves where Newton leaves it. A flow stress that falls bends the function the other way, and
+/// Newton's steps may pass the root; each that leaves the bracket, which shrinks with every step, halves it.
+/// Each step δ takes the curvature with it (Chebyshev's method): with δ₁ = −f/f' and h = f'' δ₁/f' it is δ₁
+/// (1 − h/2), and leaves ½ f'' δ₁² h and f''' δ³/6 of f. Where that is within the tolerance, it is the last:
+/// the function is not evaluated again only to see it. Lanes that have converged stand still, so that no lane
+/// depends on its neighbours. Source: Traub, Iterative Methods for the Solution of Equations (1964), 5.2.
 #[derive(Clone, Copy)]
 pub(super) struct Newton<L: Lane> {
     /// Where the function is wanted.
@@ -84,7 +89,8 @@ pub(super) struct Newton<L: Lane> {
 }
 
 impl<L: Lane> Newton<L> {
-    /// From zero to `high`, first at `start`, until the residual is 1e-12 of `size`; lanes that don't yield stay at zero.
+    /// From zero to `high`, first at `start`, until the residual is 1e-12 of `size`; lanes that don't yield
+    /// stay at zero.
     #[inline(always)]
     pub(super) fn new(start: L, high: L, size: L, yields: L::Mask) -> Self {
         let zero = L::splat(0.0);
@@ -118,8 +124,9 @@ impl<L: Lane> Newton<L> {
         true
     }
 
-    /// Moves on with the curvature as well, whose curvature changes by no more than its part of `reach` within that (see
-    /// [`super::hardening::Flow`]); with a reach of 0 the value there decides. False when every lane has converged.
+    /// Moves on with the curvature as well, whose curvature changes by no more than its part of `reach`
+    /// within that (see [`super::hardening::Flow`]); with a reach of 0 the value there decides. False when
+    /// every lane has converged.
     #[inline(always)]
     pub(super) fn next_curved(&mut self, value: L, slope: L, curvature: L, reach: L) -> bool {
         let (zero, half, one, three) = (L::splat(0.0), L::splat(0.5), L::splat(1.0), L::splat(3.0));

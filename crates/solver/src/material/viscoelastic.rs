@@ -1,17 +1,20 @@
 //! Linear viscoelasticity of the deviator with a Prony series, rate form.
 //!
-//! E and ν are those of a sudden load. The shear modulus relaxes as µ(t) = µ (1 − Σ g_k (1 − e^{−t/τ_k})), the bulk modulus stays.
-//! A spring µ∞ = µ (1 − Σ g_k) stands beside Maxwell branches of spring µ g_k and dashpot µ g_k τ_k with internal stresses h_k:
-//! ḣ_k + h_k/τ_k = 2µ g_k dev d, objective rate. For a constant rate over the step, x = Δt/τ_k and φ = (1 − e^{−x})/x, exactly
-//! h_k ← e^{−x} Q h_k Qᵀ + 2µ g_k φ dev Δε; s ← Q s Qᵀ + 2µ∞ dev Δε + Σ Δh_k.
+//! E and ν are those of a sudden load. The shear modulus relaxes as µ(t) = µ (1 − Σ g_k (1 − e^{−t/τ_k})),
+//! the bulk modulus stays. A spring µ∞ = µ (1 − Σ g_k) stands beside Maxwell branches of spring µ g_k and
+//! dashpot µ g_k τ_k with internal stresses h_k: ḣ_k + h_k/τ_k = 2µ g_k dev d, objective rate. For a constant
+//! rate over the step, x = Δt/τ_k and φ = (1 − e^{−x})/x, exactly h_k ← e^{−x} Q h_k Qᵀ + 2µ g_k φ dev Δε; s
+//! ← Q s Qᵀ + 2µ∞ dev Δε + Σ Δh_k.
 //!
-//! Dissipation: the dashpots' power h_k:h_k / (2µ g_k τ_k), integrated exactly over the same step. With w the part of the change that is done at a time,
-//! its mean is ½ + l and its variance l/x, l = ½ coth(x/2) − 1/x, so that the step takes (x |h + (½ + l) Δh|² + l |Δh|²) / (2µ g_k): never negative.
-//! What the block finds in its store is then the energy of the springs, to the square of x.
+//! Dissipation: the dashpots' power h_k:h_k / (2µ g_k τ_k), integrated exactly over the same step. With w the
+//! part of the change that is done at a time, its mean is ½ + l and its variance l/x, l = ½ coth(x/2) − 1/x,
+//! so that the step takes (x |h + (½ + l) Δh|² + l |Δh|²) / (2µ g_k): never negative. What the block finds in
+//! its store is then the energy of the springs, to the square of x.
 //!
-//! Limits: elastic strains small enough for a stress rate (as for `elastic`: some 10 %), any rotation. A stress rate has no energy function: a closed cycle
-//! of finite strain can store or release a little of the third order.
-//! Source: Simo and Hughes, Computational Inelasticity (1998), 10.3; Taylor, Pister and Goudreau, Int. J. Numer. Meth. Engng 2 (1970) 45-59.
+//! Limits: elastic strains small enough for a stress rate (as for `elastic`: some 10 %), any rotation. A
+//! stress rate has no energy function: a closed cycle of finite strain can store or release a little of the
+//! third order. Source: Simo and Hughes, Computational Inelasticity (1998), 10.3; Taylor, Pister and
+//! Goudreau, Int. J. Numer. Meth. Engng 2 (1970) 45-59.
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Tensors, YOUNG, bulk_and_shear};
 use crate::material::messages::PARAMETERS;
@@ -129,7 +132,8 @@ impl Law for Viscoelastic {
     }
 }
 
-/// φ = (1 − e^{−x})/x and l = ½ coth(x/2) − 1/x for x ≥ 0 with `decay` = e^{−x}; by their series where x < ½, to 1e-13 of their size.
+/// φ = (1 − e^{−x})/x and l = ½ coth(x/2) − 1/x for x ≥ 0 with `decay` = e^{−x}; by their series where x < ½,
+/// to 1e-13 of their size.
 #[inline(always)]
 fn fill_and_lag<L: Lane>(x: L, decay: L) -> [L; 2] {
     let one = L::splat(1.0);

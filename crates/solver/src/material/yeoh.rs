@@ -1,10 +1,11 @@
 //! Yeoh's rubber: a cubic in the first invariant, hyperelastic. Stiffens at large stretch.
 //!
 //! W = Σ C_i0 (Ī₁ − 3)^i + ¼K (J² − 1 − 2 ln J) per initial volume, i = 1..3, Ī₁ = tr b̄, b̄ = J^{-2/3} b;
-//! with w' = dW/dĪ₁: σ = 2 w' dev b̄ / J + ½K (J − 1/J) I. Moduli at rest K and µ = 2 C₁₀.
-//! Source: Yeoh, Rubber Chem. Technol. 66 (1993) 754-771; volume as in `neo_hookean`, stable step as in `rubber.rs`.
+//! with w' = dW/dĪ₁: σ = 2 w' dev b̄ / J + ½K (J − 1/J) I. Moduli at rest K and µ = 2 C₁₀. Source: Yeoh,
+//! Rubber Chem. Technol. 66 (1993) 754-771; volume as in `neo_hookean`, stable step as in `rubber.rs`.
 //!
-//! w' = C₁₀ + 2 C₂₀ x + 3 C₃₀ x² stays positive for all x = Ī₁ − 3 ≥ 0 when C₂₀ > −√(3 C₁₀ C₃₀), as fits with a first softening need.
+//! w' = C₁₀ + 2 C₂₀ x + 3 C₃₀ x² stays positive for all x = Ī₁ − 3 ≥ 0 when C₂₀ > −√(3 C₁₀ C₃₀), as fits with
+//! a first softening need.
 
 use super::rubber::{FirstInvariant, Unimodular, Volume, isochoric};
 use super::{BULK, DENSITY, Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response};

@@ -1,6 +1,8 @@
-//! What a mesh knows of its dimension: the pieces of its outside, its elements' forms and orientation, its curve.
+//! What a mesh knows of its dimension: the pieces of its outside, its elements' forms and orientation, its
+//! curve.
 //!
-//! [`Mesh`](super::Mesh) is written once for the plane and for space and asks here where the two differ in kind.
+//! [`Mesh`](super::Mesh) is written once for the plane and for space and asks here where the two differ in
+//! kind.
 
 use super::cell::{Cell, CellKind};
 use super::shapes::Body;
@@ -15,7 +17,8 @@ pub trait Meshed<const D: usize> {
     type Facet: Corners;
     /// An oriented surface.
     type Surface: Sided<Facet = Self::Facet>;
-    /// Bits of each coordinate along the curve on which nodes and elements are sorted; `D` times as many are 62 or 63.
+    /// Bits of each coordinate along the curve on which nodes and elements are sorted; `D` times as many are
+    /// 62 or 63.
     const CURVE_BITS: u32;
 
     /// See [`exterior`](super::surface::exterior).
@@ -24,7 +27,8 @@ pub trait Meshed<const D: usize> {
     /// As there.
     fn exterior<'a>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Vec<Self::Facet>, Fault>;
 
-    /// The whole outside of cells without the pieces that `leave_out` names, which is asked once for each in order.
+    /// The whole outside of cells without the pieces that `leave_out` names, which is asked once for each in
+    /// order.
     ///
     /// # Errors
     /// As [`exterior`](super::surface::exterior).
@@ -54,11 +58,13 @@ pub trait Meshed<const D: usize> {
     /// about it.
     fn wrong_form(kind: CellKind, places: &[[f64; D]]) -> Option<[&'static str; 2]>;
 
-    /// Distance along a Hilbert curve of a cell of a grid of 2^[`Meshed::CURVE_BITS`] cells in each direction.
+    /// Distance along a Hilbert curve of a cell of a grid of 2^[`Meshed::CURVE_BITS`] cells in each
+    /// direction.
     fn along_curve(cell: [u32; D]) -> u64;
 
-    /// Adds to `sums`, at each node of an element, what gives zero when the node is inside and the elements all around it have added theirs. (Where two fans meet
-    /// in a point of the plane it may look as if it were inside: it only lies elsewhere in memory.)
+    /// Adds to `sums`, at each node of an element, what gives zero when the node is inside and the elements
+    /// all around it have added theirs. (Where two fans meet in a point of the plane it may look as if it
+    /// were inside: it only lies elsewhere in memory.)
     fn add_around(cell: Cell<'_>, sums: &mut [u64]);
 }
 
@@ -92,7 +98,8 @@ impl Meshed<2> for Dim<2> {
         part.plane_body()
     }
 
-    /// Every corner must turn counter-clockwise: then the Jacobian is positive in the whole element, and so is a triangle's area.
+    /// Every corner must turn counter-clockwise: then the Jacobian is positive in the whole element, and so
+    /// is a triangle's area.
     fn wrong_form(kind: CellKind, places: &[[f64; 2]]) -> Option<[&'static str; 2]> {
         let n = kind.corners();
         let x = |corner: usize| places[corner % n];
@@ -156,7 +163,8 @@ impl Meshed<3> for Dim<3> {
         part.solid_body()
     }
 
-    /// The edges from every corner must span a positive volume: then the Jacobian is positive at the corners, and in a tetrahedron everywhere.
+    /// The edges from every corner must span a positive volume: then the Jacobian is positive at the corners,
+    /// and in a tetrahedron everywhere.
     fn wrong_form(kind: CellKind, places: &[[f64; 3]]) -> Option<[&'static str; 2]> {
         if kind.dimension() == 1 {
             return has_no_length(places);

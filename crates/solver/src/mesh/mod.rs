@@ -1,7 +1,8 @@
-//! Nodes, element groups, surfaces and sets: what the shapes and mesh files become before blocks are made from them.
+//! Nodes, element groups, surfaces and sets: what the shapes and mesh files become before blocks are made
+//! from them.
 //!
-//! [`Mesh::new`] puts the bodies of a model side by side with one node numbering; names (`part`, `part.side`, groups of a mesh file) are
-//! resolved to nodes and surfaces here and nowhere else.
+//! [`Mesh::new`] puts the bodies of a model side by side with one node numbering; names (`part`, `part.side`,
+//! groups of a mesh file) are resolved to nodes and surfaces here and nowhere else.
 
 pub mod cell;
 pub mod geometry;
@@ -25,7 +26,8 @@ use shapes::sweep::SweptMesh;
 use std::collections::BTreeMap;
 use surface::{Corners, Facet, Surface};
 
-/// Places of a model that are nearer to each other than this fraction of its extent are the same, and this one of its farthest coordinate: so much they round.
+/// Places of a model that are nearer to each other than this fraction of its extent are the same, and this
+/// one of its farthest coordinate: so much they round.
 const SAME_PLACE: f64 = 1e-9;
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
@@ -66,7 +68,8 @@ pub struct ElementGroup {
     pub connectivity: Vec<u32>,
     /// The user's number of each element: its place in the part as it was made or read, whatever its kind.
     pub user_elements: Vec<u32>,
-    /// Whether each element has been eroded: then it is no part of surfaces and bodies. Empty while all are there.
+    /// Whether each element has been eroded: then it is no part of surfaces and bodies. Empty while all are
+    /// there.
     pub eroded: Vec<bool>,
 }
 
@@ -139,9 +142,11 @@ where
     pub groups: Vec<ElementGroup>,
     /// The user's number of each node: its place in the parts as they were made or read.
     pub user_nodes: Vec<u32>,
-    /// The user's number of each node of the model's mesh files, of each file in its order; `u32::MAX`: no part has it.
+    /// The user's number of each node of the model's mesh files, of each file in its order; `u32::MAX`: no
+    /// part has it.
     pub imported: Vec<Vec<u32>>,
-    /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are numbered first.
+    /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are
+    /// numbered first.
     outlines: Vec<bool>,
     /// Named pieces of the outside: `part.side`, and groups of lines in the plane, of surfaces in space.
     sides: BTreeMap<String, Vec<Facet<D>>>,
@@ -167,7 +172,8 @@ where
     /// The mesh of a model whose references have been checked.
     ///
     /// # Errors
-    /// All faults: elements of a wrong shape or turned inside out, lines that bound no element, nodes of nothing.
+    /// All faults: elements of a wrong shape or turned inside out, lines that bound no element, nodes of
+    /// nothing.
     pub fn new(model: &Model) -> Result<Self, Vec<Fault>> {
         let mut mesh = Self::default();
         let mut faults = Vec::new();
@@ -223,7 +229,8 @@ where
         }
     }
 
-    /// Adds the elements of the part that comes next, in the user's order; `number` is the mesh's number of a node.
+    /// Adds the elements of the part that comes next, in the user's order; `number` is the mesh's number of a
+    /// node.
     fn add_elements<'c>(&mut self, cells: impl Iterator<Item = Cell<'c>>, number: impl Fn(&u32) -> u32) {
         let part = self.parts.len();
         let mut groups: Vec<ElementGroup> = Vec::new();
@@ -267,7 +274,8 @@ where
         self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)) });
     }
 
-    /// Adds a group of a mesh of the plane that is swept; parts of one file that are swept alike share their nodes.
+    /// Adds a group of a mesh of the plane that is swept; parts of one file that are swept alike share their
+    /// nodes.
     fn add_swept(&mut self, model: &Model, part: &Part, file: usize, all: &mut Vec<Swept>, faults: &mut Vec<Fault>) {
         let (Shape::Group { group, .. }, Some(sweep)) = (&part.shape, &part.sweep) else { return };
         let path = format!("part[{}]", self.parts.len());
@@ -389,7 +397,8 @@ where
         self.points.get(name).cloned()
     }
 
-    /// Body of each node, from 0: what is joined by elements, of whatever parts, is one body. Bodies are numbered by their lowest nodes.
+    /// Body of each node, from 0: what is joined by elements, of whatever parts, is one body. Bodies are
+    /// numbered by their lowest nodes.
     #[must_use]
     pub fn bodies(&self) -> Vec<u32> {
         let mut root: Vec<u32> = (0..self.positions.len() as u32).collect();
@@ -424,7 +433,8 @@ where
         self.outside_without(parts, |_| false)
     }
 
-    /// The same without the segments or facets that `leave_out` names (those on a symmetry, which are no outside of the whole body).
+    /// The same without the segments or facets that `leave_out` names (those on a symmetry, which are no
+    /// outside of the whole body).
     ///
     /// # Errors
     /// As [`Mesh::outside`].
@@ -432,8 +442,9 @@ where
         Dim::<D>::outside_without(self.cells(parts), leave_out)
     }
 
-    /// Surface of a part (its whole outside), a `part.side` or a group of lines (in space of surfaces), without the segments or facets that `leave_out` names (those
-    /// on a symmetry, which are no outside of the whole body).
+    /// Surface of a part (its whole outside), a `part.side` or a group of lines (in space of surfaces),
+    /// without the segments or facets that `leave_out` names (those on a symmetry, which are no outside of
+    /// the whole body).
     ///
     /// # Errors
     /// A fault without path when there is no such surface.

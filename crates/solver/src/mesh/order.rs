@@ -1,9 +1,12 @@
-//! The order in which nodes and elements are stored and summed: along a Hilbert curve through the initial positions.
+//! The order in which nodes and elements are stored and summed: along a Hilbert curve through the initial
+//! positions.
 //!
-//! Neighbours in space are neighbours in memory, and the order depends on the bodies alone, not on who numbered them: the same positions from
-//! a shape and from a mesh file give the same results to the last bit. Outputs and messages speak the user's numbering.
+//! Neighbours in space are neighbours in memory, and the order depends on the bodies alone, not on who
+//! numbered them: the same positions from a shape and from a mesh file give the same results to the last bit.
+//! Outputs and messages speak the user's numbering.
 //!
-//! Nodes on outlines come before all others, each kind in the order of the curve: what contact reads of them lies side by side and stays in the caches, however large the bodies are.
+//! Nodes on outlines come before all others, each kind in the order of the curve: what contact reads of them
+//! lies side by side and stays in the caches, however large the bodies are.
 
 use super::surface::Corners;
 use super::{Dim, ElementGroup, Mesh, Meshed};
@@ -22,7 +25,8 @@ where
         for (index, part) in self.parts.iter().enumerate().rev() {
             part.nodes.iter().for_each(|&node| owner[node as usize] = index as u32);
         }
-        // Bodies that touch have nodes in one place: the part's rank in the model decides, then the coordinates behind the curve's resolution.
+        // Bodies that touch have nodes in one place: the part's rank in the model decides, then the
+        // coordinates behind the curve's resolution.
         let order = sorted(codes(self.positions.iter().copied()), |a, b| {
             let (a, b) = (a as usize, b as usize);
             let place = |n: usize| self.positions[n];
@@ -120,7 +124,8 @@ fn sorted(codes: Vec<u64>, tie: impl Fn(u32, u32) -> Ordering) -> Vec<u32> {
     places.into_iter().map(|(_, index)| index).collect()
 }
 
-/// Place of each point on a Hilbert curve through the box of all of them; points that are not finite come first.
+/// Place of each point on a Hilbert curve through the box of all of them; points that are not finite come
+/// first.
 fn codes<const D: usize>(points: impl Iterator<Item = [f64; D]> + Clone) -> Vec<u64>
 where
     Dim<D>: Meshed<D>,
@@ -139,10 +144,12 @@ where
     points.map(|point| Dim::<D>::along_curve(std::array::from_fn(|d| ((point[d] - low[d]) * scale) as u32))).collect()
 }
 
-/// Distance along the Hilbert curve of the cell (x, y) of a grid of 2^31 by 2^31 cells. Hilbert, Math. Annalen 38 (1891) 459-460.
+/// Distance along the Hilbert curve of the cell (x, y) of a grid of 2^31 by 2^31 cells. Hilbert, Math.
+/// Annalen 38 (1891) 459-460.
 pub(super) fn hilbert([x, y]: [u32; 2]) -> u64 {
     let (mut distance, mut sense) = (0u64, 0usize);
-    // The curve in a quarter is that of the whole, turned: 31 bits of each coordinate, one by one and then three at a time.
+    // The curve in a quarter is that of the whole, turned: 31 bits of each coordinate, one by one and then
+    // three at a time.
     let mut low = BITS - 1;
     for bits in [1; 1].into_iter().chain([3; 10]) {
         let mask = (1 << bits) - 1;
@@ -155,11 +162,12 @@ pub(super) fn hilbert([x, y]: [u32; 2]) -> u64 {
     distance
 }
 
-/// Distance along a Hilbert curve of the cell (x, y, z) of a grid of 2^21 cells in each direction: coordinates are turned into the curve's digits in place.
-/// Skilling, AIP Conf. Proc. 707 (2004) 381-387.
+/// Distance along a Hilbert curve of the cell (x, y, z) of a grid of 2^21 cells in each direction:
+/// coordinates are turned into the curve's digits in place. Skilling, AIP Conf. Proc. 707 (2004) 381-387.
 pub(super) fn hilbert_in_space(mut cell: [u32; 3]) -> u64 {
     const HIGHEST: u32 = 1 << (<Dim<3> as Meshed<3>>::CURVE_BITS - 1);
-    // Each cube of the curve is the whole one, turned and mirrored: undone from the largest cubes to the smallest.
+    // Each cube of the curve is the whole one, turned and mirrored: undone from the largest cubes to the
+    // smallest.
     let mut bit = HIGHEST;
     while bit > 1 {
         let below = bit - 1;
@@ -192,7 +200,8 @@ pub(super) fn hilbert_in_space(mut cell: [u32; 3]) -> u64 {
     })
 }
 
-/// By bits per coordinate (1 or 3), sense and place (x · 8 + y): the way along the curve through the squares of those bits, and the sense in the last one.
+/// By bits per coordinate (1 or 3), sense and place (x · 8 + y): the way along the curve through the squares
+/// of those bits, and the sense in the last one.
 static STRETCH: [[[(u8, u8); 64]; 4]; 2] = [stretch(1), stretch(3)];
 
 /// A sense says how the curve lies in a square: 1 turned by half a turn, 2 with x and y exchanged, 3 both.

@@ -1,7 +1,8 @@
 //! Where the body of a built-in shape goes: mirrored, turned, moved, copied.
 //!
-//! Bodies come from the shapes, placements from the model; placed bodies go to the mesh. Turns use the shapes' own sine: the same bits everywhere. In the plane the
-//! third components are zero, and turns are about z.
+//! Bodies come from the shapes, placements from the model; placed bodies go to the mesh. Turns use the
+//! shapes' own sine: the same bits everywhere. In the plane the third components are zero, and turns are
+//! about z.
 
 use super::shapes::{Body, cos_sin, quarters, unit};
 use super::surface::Corners;
@@ -42,14 +43,16 @@ pub struct Mirror {
     pub normal: [f64; 3],
 }
 
-/// Bodies of one part that follow each other: each is turned and then moved as often as there are others before it.
+/// Bodies of one part that follow each other: each is turned and then moved as often as there are others
+/// before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Copies {
     /// How many bodies there are in all.
     pub count: usize,
     /// How far each is moved from the one before, m.
     pub translation: [f64; 3],
-    /// Angle by which each is turned from the one before, rad, counter-clockwise (in space by the right-hand rule about the axis).
+    /// Angle by which each is turned from the one before, rad, counter-clockwise (in space by the right-hand
+    /// rule about the axis).
     pub angle: f64,
     /// Point about which they are turned, in space one of the axis, m.
     pub point: [f64; 3],
@@ -71,7 +74,8 @@ pub(crate) struct Turn {
 }
 
 impl Placement {
-    /// The body, placed: first mirrored, then turned, then moved; copies follow each other, and their elements and nodes are numbered so.
+    /// The body, placed: first mirrored, then turned, then moved; copies follow each other, and their
+    /// elements and nodes are numbered so.
     pub(super) fn applied<const D: usize>(&self, mut body: Body<D>) -> Body<D>
     where
         Dim<D>: Meshed<D>,
@@ -103,7 +107,8 @@ impl<const D: usize> Body<D>
 where
     Dim<D>: Meshed<D>,
 {
-    /// Numbers the nodes of elements and sides anew after positions were mirrored: what was on the left is on the right now.
+    /// Numbers the nodes of elements and sides anew after positions were mirrored: what was on the left is on
+    /// the right now.
     fn turn_over(&mut self) {
         for (kind, nodes) in &mut self.elements {
             nodes.chunks_exact_mut(kind.nodes()).for_each(|cell| kind.reflect(cell));
@@ -114,7 +119,8 @@ where
         }
     }
 
-    /// Adds another body of the same shape: its elements after those that there are, its sides to those of the same name.
+    /// Adds another body of the same shape: its elements after those that there are, its sides to those of
+    /// the same name.
     fn append(&mut self, other: Self) {
         let first = self.positions.len() as u32;
         self.positions.extend(other.positions);

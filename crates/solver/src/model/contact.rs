@@ -1,6 +1,7 @@
 //! Contacts and obstacles of a [`super::Model`]: formulations, laws, friction, what touches what.
 //!
-//! Values come from the model file, checked by [`super::check`]; contacts are made of them by [`crate::build`].
+//! Values come from the model file, checked by [`super::check`]; contacts are made of them by
+//! [`crate::build`].
 
 use super::in_space;
 use super::motion::Motion;
@@ -13,7 +14,8 @@ pub enum Formulation {
     /// Nodes against segments; each surface is slave once and target once in every force evaluation.
     #[default]
     DoublePass,
-    /// Nodes against segments; only the nodes of `slave` (0 or 1: index into the two surfaces) are checked against the other surface.
+    /// Nodes against segments; only the nodes of `slave` (0 or 1: index into the two surfaces) are checked
+    /// against the other surface.
     SinglePass {
         /// Index of the slave surface.
         slave: usize,
@@ -266,8 +268,8 @@ pub struct Obstacle {
     pub shape: ObstacleShape,
     /// How it moves.
     pub motion: Motion,
-    /// Reference point of rotation and moments, m; `None`: the plane's point, the circle's centre, the mean of the polyline's points, the middle of the box around
-    /// triangles.
+    /// Reference point of rotation and moments, m; `None`: the plane's point, the circle's centre, the mean
+    /// of the polyline's points, the middle of the box around triangles.
     pub reference: Option<[f64; 3]>,
     /// Mass per metre of depth, kg/m; needed where it is free to move.
     pub mass: Option<f64>,
@@ -282,7 +284,8 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// A fixed plane without end that stops all parts; `normal` points to the free side. Vectors have two or three components.
+    /// A fixed plane without end that stops all parts; `normal` points to the free side. Vectors have two or
+    /// three components.
     #[must_use]
     pub fn wall<const D: usize>(name: &str, point: [f64; D], normal: [f64; D]) -> Self {
         Self::fixed(name, ObstacleShape::Plane { point: in_space(point), normal: in_space(normal), length: None })

@@ -1,6 +1,7 @@
 //! Springs, dampers and point masses, as plain data.
 
-/// `[[spring]]`: a spring, a damper or both between each pair of nodes of two sets; in space without the metre of depth.
+/// `[[spring]]`: a spring, a damper or both between each pair of nodes of two sets; in space without the
+/// metre of depth.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spring {
     /// The two sets: each node of the larger one has its pair in the nearest node of the other.

@@ -1,8 +1,10 @@
-//! What a part holds at the start besides its motion, as plain data: stress that varies linearly in the plane.
+//! What a part holds at the start besides its motion, as plain data: stress that varies linearly in the
+//! plane.
 //!
 //! Part of [`super::Part`]; blocks take it over in `block/initial.rs`.
 
-/// A Cauchy stress that varies linearly: σ(x) = σ₀ + (x − x₀) ∂σ/∂x + (y − y₀) ∂σ/∂y. Components xx, yy, zz, xy.
+/// A Cauchy stress that varies linearly: σ(x) = σ₀ + (x − x₀) ∂σ/∂x + (y − y₀) ∂σ/∂y. Components xx, yy, zz,
+/// xy.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InitialStress {
     /// σ₀, Pa. Of bars xx is the stress along the bar, and there is no other.

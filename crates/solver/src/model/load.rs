@@ -1,5 +1,5 @@
-//! What holds, moves and loads bodies from outside, as plain data: symmetry, constraints, loads, boundaries that reflect nothing, joins. Vectors have three components; in the
-//! plane the third is zero.
+//! What holds, moves and loads bodies from outside, as plain data: symmetry, constraints, loads, boundaries
+//! that reflect nothing, joins. Vectors have three components; in the plane the third is zero.
 //!
 //! Part of the [`Model`](super::Model); curves and rigid motion are in `mod.rs`.
 
@@ -76,7 +76,8 @@ pub enum Load {
         /// Key of [`super::Model::curves`]: a factor.
         curve: Option<String>,
     },
-    /// The centrifugal force of a frame that turns about a point: acceleration speed² (x − centre) of the mass of some parts.
+    /// The centrifugal force of a frame that turns about a point: acceleration speed² (x − centre) of the
+    /// mass of some parts.
     Centrifugal {
         /// Parts; empty: all.
         parts: Vec<String>,
@@ -114,7 +115,8 @@ pub enum Load {
         /// Times between which it acts, s.
         active: [f64; 2],
     },
-    /// A stress β C:ε̇ in the elements of some parts, with the elastic stiffness C: what swings fast is damped.
+    /// A stress β C:ε̇ in the elements of some parts, with the elastic stiffness C: what swings fast is
+    /// damped.
     StiffnessDamping {
         /// Parts; empty: all that deform.
         parts: Vec<String>,

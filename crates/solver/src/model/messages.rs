@@ -1,4 +1,5 @@
-//! Messages of what a model says, wherever it says it; `check/` raises them, and readers of files those that are public.
+//! Messages of what a model says, wherever it says it; `check/` raises them, and readers of files those that
+//! are public.
 
 use crate::message::{Example, Message};
 

@@ -1,6 +1,8 @@
-//! What the user wrote, as plain data in SI units. Comes from a model file or from code; goes to the mesh builder.
+//! What the user wrote, as plain data in SI units. Comes from a model file or from code; goes to the mesh
+//! builder.
 //!
-//! Nothing here is checked on construction: [`Model::check`] returns *all* faults, each with its path in the input.
+//! Nothing here is checked on construction: [`Model::check`] returns *all* faults, each with its path in the
+//! input.
 
 pub mod check;
 pub mod describe;
@@ -34,7 +36,8 @@ pub use crate::mesh::shapes::{
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A vector of the plane or of space as the model keeps it: with three components, of which those that it lacks are zero (nothing, where they are prescribed).
+/// A vector of the plane or of space as the model keeps it: with three components, of which those that it
+/// lacks are zero (nothing, where they are prescribed).
 #[must_use]
 pub fn in_space<T: Default, const D: usize>(vector: [T; D]) -> [T; 3] {
     let mut components = vector.into_iter();
@@ -93,13 +96,15 @@ pub struct Run {
     pub energy_limit: f64,
     /// Time step (s) below which the run stops; `None`: a thousandth of the first stable step.
     pub step_limit: Option<f64>,
-    /// Speed of a node (m/s) above which the run stops; `None`: [`crate::step::RUNAWAY`] times the fastest wave and the fastest node at the start together.
+    /// Speed of a node (m/s) above which the run stops; `None`: [`crate::step::RUNAWAY`] times the fastest
+    /// wave and the fastest node at the start together.
     pub velocity_limit: Option<f64>,
     /// Depth of a contact (m) at which the run stops; `None`: the longest segment of the surfaces.
     pub penetration_limit: Option<f64>,
     /// Memory (bytes) that the model may need; `None`: no limit.
     pub memory_limit: Option<f64>,
-    /// Largest time step (s), and that of a model of rigid parts alone; `None`: what the elements need, also those of rigid parts if there are no others.
+    /// Largest time step (s), and that of a model of rigid parts alone; `None`: what the elements need, also
+    /// those of rigid parts if there are no others.
     pub time_step: Option<f64>,
     /// Largest number of steps; `None`: no limit.
     pub max_steps: Option<u64>,
@@ -134,7 +139,8 @@ pub struct MassScaling {
 }
 
 impl Model {
-    /// 2 in the plane, 3 in space: what its first part is whose mesh is there; the check finds models with parts of both kinds.
+    /// 2 in the plane, 3 in space: what its first part is whose mesh is there; the check finds models with
+    /// parts of both kinds.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.parts.iter().find(|part| !self.lacks_mesh(part)).map_or(2, |part| self.dimension_of(part))
@@ -175,7 +181,8 @@ impl ImportedMesh {
 }
 
 impl Model {
-    /// Whether masses, forces and energies are those of whole bodies (of revolution, or solids), and not per metre of depth.
+    /// Whether masses, forces and energies are those of whole bodies (of revolution, or solids), and not per
+    /// metre of depth.
     #[must_use]
     pub fn is_of_whole_bodies(&self) -> bool {
         self.is_axisymmetric() || self.dimension() == 3
@@ -304,7 +311,8 @@ impl Part {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.state.is_axisymmetric)
     }
 
-    /// 3 where it is swept or has a solid shape, else 2; of a group of a mesh file its model knows ([`Model::dimension_of`]).
+    /// 3 where it is swept or has a solid shape, else 2; of a group of a mesh file its model knows
+    /// ([`Model::dimension_of`]).
     #[must_use]
     pub fn dimension(&self) -> usize {
         if self.sweep.is_some() || self.shape.solid().is_some() { 3 } else { 2 }
@@ -336,7 +344,8 @@ impl Part {
     }
 }
 
-/// A mesh that came from a file: nodes and named groups of cells. Parts that use the same mesh share its nodes.
+/// A mesh that came from a file: nodes and named groups of cells. Parts that use the same mesh share its
+/// nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportedMesh {
     /// Where it came from, for messages.

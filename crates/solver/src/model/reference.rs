@@ -1,7 +1,7 @@
 //! What a name in the model means: a part, a side of a part (`part.side`), or a group of a mesh file.
 //!
-//! Names come from contacts, constraints and probes; the answer goes to [`Model::check`] and to the mesh builder, so that both understand
-//! a name in the same way.
+//! Names come from contacts, constraints and probes; the answer goes to [`Model::check`] and to the mesh
+//! builder, so that both understand a name in the same way.
 
 use super::describe::nearest;
 use super::{ImportedMesh, MeshGroup, Model};
@@ -52,7 +52,8 @@ pub(crate) fn is_full_turn(from: f64, to: f64) -> bool {
 }
 
 impl Model {
-    /// What `name` stands for: first a part, then a group of a mesh file, then `part.side`. Only groups of the `wanted` kind count.
+    /// What `name` stands for: first a part, then a group of a mesh file, then `part.side`. Only groups of
+    /// the `wanted` kind count.
     ///
     /// # Errors
     /// What is wrong and what to do, as texts.

@@ -1,6 +1,8 @@
-//! A surface of triangles in space, the shape of an obstacle: points, each once, and triangles that are counter-clockwise seen from outside.
+//! A surface of triangles in space, the shape of an obstacle: points, each once, and triangles that are
+//! counter-clockwise seen from outside.
 //!
-//! Corners come from a file or from code; the surface goes to the check and to the builder, which makes facets of a rigid body of it.
+//! Corners come from a file or from code; the surface goes to the check and to the builder, which makes
+//! facets of a rigid body of it.
 
 use super::Placement;
 use crate::contact::messages::{OBSTACLE, TURNED};
@@ -26,7 +28,8 @@ pub struct TriangleSurface {
 const FLAT: f64 = 1e-9;
 
 impl TriangleSurface {
-    /// From the corners of triangles (m), which are one point where they are equal to the last bit. A triangle with two equal corners is left out: it is a line that its neighbours have in common.
+    /// From the corners of triangles (m), which are one point where they are equal to the last bit. A
+    /// triangle with two equal corners is left out: it is a line that its neighbours have in common.
     #[must_use]
     pub fn welded(source: &str, triangles: &[[[f64; 3]; 3]]) -> Self {
         // Zero has one sign, and so one point.

@@ -1,4 +1,5 @@
-//! What acts on the neighbourhood of a culprit: keys of the model that hold, move or load its nodes. Contacts that press on them are in the trace.
+//! What acts on the neighbourhood of a culprit: keys of the model that hold, move or load its nodes. Contacts
+//! that press on them are in the trace.
 
 use super::Suspect;
 use crate::model::{Load, Model};

@@ -1,4 +1,5 @@
-//! What mass scaling would need: of each element the mass that it must weigh more for a step, the whole as a function of the step, and the longest step within a limit.
+//! What mass scaling would need: of each element the mass that it must weigh more for a step, the whole as a
+//! function of the step, and the longest step within a limit.
 
 use super::{Neighbourhood, Suspect};
 use crate::error::Error;
@@ -56,7 +57,8 @@ pub struct MassNeeded {
     pub parts: Vec<PartNeeds>,
     /// Mass of all deformable parts, kg/m.
     pub mass: f64,
-    /// Of each element its part, its number there, and its stable step, `safety` included (s), and its mass (kg/m).
+    /// Of each element its part, its number there, and its stable step, `safety` included (s), and its mass
+    /// (kg/m).
     steps: Vec<(usize, usize, [f64; 2])>,
 }
 

@@ -1,7 +1,10 @@
-//! What a failed run knows of its failure: the culprit, its neighbourhood, and what became of both over the last steps.
+//! What a failed run knows of its failure: the culprit, its neighbourhood, and what became of both over the
+//! last steps.
 //!
-//! After a failure [`suspect`](crate::simulation::Simulation::suspect) names the culprit as the state of the failure shows it. A second simulation of the same model, set out from a state before, goes to the failure once more and
-//! [follows](crate::simulation::Simulation::follow) the culprit step by step (`trace.rs`); the steps are the same to the last bit. Values only: who writes a page of them is not known here.
+//! After a failure [`suspect`](crate::simulation::Simulation::suspect) names the culprit as the state of the
+//! failure shows it. A second simulation of the same model, set out from a state before, goes to the failure
+//! once more and [follows](crate::simulation::Simulation::follow) the culprit step by step (`trace.rs`); the
+//! steps are the same to the last bit. Values only: who writes a page of them is not known here.
 
 mod acting;
 mod mass;
@@ -190,7 +193,8 @@ where
         })
     }
 
-    /// The node whose kinetic energy changed most in the last update, and the contact that pressed most on it.
+    /// The node whose kinetic energy changed most in the last update, and the contact that pressed most on
+    /// it.
     fn hottest(&self) -> Suspect {
         let change = |node: usize| {
             let (old, new) = (self.velocities_old[node], self.velocities[node]);

@@ -1,8 +1,8 @@
-//! Motion of rigid bodies by dimension: generalized velocities and forces, and how rotations act ([`RigidMotion`], on
-//! [`Dim`]).
+//! Motion of rigid bodies by dimension: generalized velocities and forces, and how rotations act
+//! ([`RigidMotion`], on [`Dim`]).
 //!
-//! In 2D a body has three velocities (x, y, spin), in 3D six (x, y, z and the spins about them). Arrays of 2D keep the
-//! order in which their entries are added, so that results in 2D do not depend on there being 3D.
+//! In 2D a body has three velocities (x, y, spin), in 3D six (x, y, z and the spins about them). Arrays of 2D
+//! keep the order in which their entries are added, so that results in 2D do not depend on there being 3D.
 
 use super::space::{Attitude, Turning};
 use super::{Body, Drive};
@@ -103,7 +103,8 @@ pub trait RigidMotion<const D: usize>: Sized {
     fn numbers(body: &Body<D>) -> Vec<f64>
     where
         Dim<D>: RigidMotion<D>;
-    /// What of a rigid body's mass is free to move along an axis, kg/m (kg), its velocity, and its spin times its inertia.
+    /// What of a rigid body's mass is free to move along an axis, kg/m (kg), its velocity, and its spin times
+    /// its inertia.
     fn momenta(body: &Body<D>) -> (f64, [f64; D], [f64; 3])
     where
         Dim<D>: RigidMotion<D>;

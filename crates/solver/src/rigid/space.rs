@@ -1,15 +1,22 @@
-//! How a rigid body turns in space: a rotation instead of an angle, and an angular momentum that only moments change.
+//! How a rigid body turns in space: a rotation instead of an angle, and an angular momentum that only moments
+//! change.
 //!
-//! With L^{n−½} the angular momentum, J^n = R^n I (R^n)ᵀ the inertia (I in the frame of the body, about the reference point) and T the moments about X^n:
+//! With L^{n−½} the angular momentum, J^n = R^n I (R^n)ᵀ the inertia (I in the frame of the body, about the
+//! reference point) and T the moments about X^n:
 //!
-//! L^{n+½} = L^{n−½} + ½ (dt^{n−1} + dt^n) T,   ω^{n∓½} = (J^n)⁻¹ L^{n∓½},   ½ L^{n+½}·ω^{n+½} − ½ L^{n−½}·ω^{n−½} = Δt T·½ (ω^{n−½} + ω^{n+½})
+//! L^{n+½} = L^{n−½} + ½ (dt^{n−1} + dt^n) T, ω^{n∓½} = (J^n)⁻¹ L^{n∓½}, ½ L^{n+½}·ω^{n+½} − ½
+//! L^{n−½}·ω^{n−½} = Δt T·½ (ω^{n−½} + ω^{n+½})
 //!
-//! so the books of the velocity update close exactly. Over the step no moment acts, and R^{n+1} = R^n cay(½ dt (W^n + W^{n+1})) with the body's own spins W = I⁻¹ Rᵀ L^{n+½}, which keeps L
-//! and the energy ½ W·I W both to round-off (Simo and Wong, Int. J. Numer. Meth. Engng 31 (1991) 19-52): ½ L·(J^{n+1})⁻¹ L is what it was. cay(θ) is the rotation about θ by
-//! 2 atan(|θ|/2); the equation is solved by repetition, which a step that a body turns by little in needs few times.
+//! so the books of the velocity update close exactly. Over the step no moment acts, and R^{n+1} = R^n cay(½
+//! dt (W^n + W^{n+1})) with the body's own spins W = I⁻¹ Rᵀ L^{n+½}, which keeps L and the energy ½ W·I W
+//! both to round-off (Simo and Wong, Int. J. Numer. Meth. Engng 31 (1991) 19-52): ½ L·(J^{n+1})⁻¹ L is what
+//! it was. cay(θ) is the rotation about θ by 2 atan(|θ|/2); the equation is solved by repetition, which a
+//! step that a body turns by little in needs few times.
 //!
-//! Where spins about axes of space are driven they are what they are; the others follow from their part of L, and the turn of the step is that of ω^{n+½}. That is exact for a body that
-//! turns about one axis, or is driven altogether; a body that is driven about some axes and free about others has a rotation of first order in the step.
+//! Where spins about axes of space are driven they are what they are; the others follow from their part of L,
+//! and the turn of the step is that of ω^{n+½}. That is exact for a body that turns about one axis, or is
+//! driven altogether; a body that is driven about some axes and free about others has a rotation of first
+//! order in the step.
 
 use super::Body;
 use crate::angle::cos_sin;
@@ -100,7 +107,8 @@ fn quaternion_turn(w: f64, u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
 /// What a rigid body knows of its rotation in space.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Turning {
-    /// Inertia about the reference point in the frame of the body, kg m²: xx, xy, xz, yy, yz, zz (moments on the diagonal, products with their signs as in Σ m (r² I − r rᵀ)).
+    /// Inertia about the reference point in the frame of the body, kg m²: xx, xy, xz, yy, yz, zz (moments on
+    /// the diagonal, products with their signs as in Σ m (r² I − r rᵀ)).
     pub inertia: [f64; 6],
     /// L^{n+½}, kg m²/s.
     pub momentum: [f64; 3],
@@ -259,7 +267,8 @@ pub(crate) fn turned_by(body: &Body<3>, time_step: f64) -> Attitude {
     body.angle.after(&step_turn(body, time_step))
 }
 
-/// The matrix of what the step turns, less one, by time (1/s): 2 (w [u] + [u]²) / dt with the quaternion w, u as space sees it. No difference of near numbers.
+/// The matrix of what the step turns, less one, by time (1/s): 2 (w [u] + [u]²) / dt with the quaternion w, u
+/// as space sees it. No difference of near numbers.
 pub(crate) fn chords(body: &Body<3>, time_step: f64) -> [[f64; 3]; 3] {
     let Attitude([w, x, y, z]) = step_turn(body, time_step);
     let u = body.angle.turned([x, y, z]);

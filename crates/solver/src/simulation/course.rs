@@ -1,4 +1,5 @@
-//! Where a run stands beside its state: what was told, and where its stages begin, so that one that goes on later tells the same and takes the same samples.
+//! Where a run stands beside its state: what was told, and where its stages begin, so that one that goes on
+//! later tells the same and takes the same samples.
 
 use super::run::PROGRESS;
 use crate::archive::{Archive, Keep, Kept, keep_each};

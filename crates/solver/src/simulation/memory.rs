@@ -1,6 +1,8 @@
-//! States that a run keeps in memory while it goes on, so that a failure can be gone to once more from one that is near.
+//! States that a run keeps in memory while it goes on, so that a failure can be gone to once more from one
+//! that is near.
 //!
-//! Two generations, and only while they are small: taking a state costs about as much as a fifth of a hundred steps, whatever the size of the model, and is done every [`EVERY`] steps.
+//! Two generations, and only while they are small: taking a state costs about as much as a fifth of a hundred
+//! steps, whatever the size of the model, and is done every [`EVERY`] steps.
 
 use super::State;
 

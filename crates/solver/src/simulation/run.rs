@@ -121,12 +121,14 @@ where
         Ok(simulation)
     }
 
-    /// Lets the run keep states in memory, in so many bytes for all of them together: see [`Simulation::states`].
+    /// Lets the run keep states in memory, in so many bytes for all of them together: see
+    /// [`Simulation::states`].
     pub(crate) fn keep_states_in(&mut self, bytes: usize) {
         self.memory = Memory::of(bytes);
     }
 
-    /// States of the run so far that are in memory, the newest first; none where they are too large for their room.
+    /// States of the run so far that are in memory, the newest first; none where they are too large for their
+    /// room.
     pub(crate) fn states(&self) -> &[State] {
         self.memory.states()
     }
@@ -152,7 +154,8 @@ where
         if faults.is_empty() { Ok(()) } else { Err(Error::Model(faults)) }
     }
 
-    /// What the user should know of the model: it was accepted. [`Simulation::summary`] has them as texts, with those of the run.
+    /// What the user should know of the model: it was accepted. [`Simulation::summary`] has them as texts,
+    /// with those of the run.
     pub(crate) fn model_warnings(&self) -> &[Warning] {
         &self.model_warnings
     }
@@ -167,7 +170,8 @@ where
         self.system.time_step
     }
 
-    /// Most sweeps over the contact springs that a step took, and steps whose forces were not solved to the last digit.
+    /// Most sweeps over the contact springs that a step took, and steps whose forces were not solved to the
+    /// last digit.
     pub(crate) fn sweeps(&self) -> (usize, u64) {
         (self.system.springs.sweeps_max, self.system.springs.unsolved)
     }
@@ -220,7 +224,8 @@ where
         self.system.time >= self.system.limits.end || self.system.step >= self.max_steps
     }
 
-    /// Runs until the time `pause` is reached (s), at most `steps` steps or to the end, telling `observer` of rows, frames and progress. What was begun so, or was stopped, or is of a kept state
+    /// Runs until the time `pause` is reached (s), at most `steps` steps or to the end, telling `observer` of
+    /// rows, frames and progress. What was begun so, or was stopped, or is of a kept state
     /// ([`Simulation::resumed`]) goes on as if it had never been stopped: it tells nothing twice.
     ///
     /// # Errors
@@ -302,7 +307,8 @@ where
             if let Err(error) = result {
                 self.tell_hashes(observer)?;
                 observer.failing();
-                // The state of the failure is what the user needs to see, and what was to be seen of it before.
+                // The state of the failure is what the user needs to see, and what was to be seen of it
+                // before.
                 self.watch.look(&self.system, &self.shortest, true);
                 if self.system.time > course.last_row {
                     observer.row(&self.history_row()).map_err(output)?;
@@ -324,8 +330,9 @@ where
         hashes::hashes(&self.system, &nodes)
     }
 
-    /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there every `every`, and at the first step at or after `to`, all in s. The steps are those
-    /// of any run of the model.
+    /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there
+    /// every `every`, and at the first step at or after `to`, all in s. The steps are those of any run of the
+    /// model.
     ///
     /// # Errors
     /// As [`Simulation::run`].

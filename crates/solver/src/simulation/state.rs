@@ -1,4 +1,5 @@
-//! The state of a run: handed out as bytes, and taken over by a simulation that is made anew of the same model.
+//! The state of a run: handed out as bytes, and taken over by a simulation that is made anew of the same
+//! model.
 
 use super::Runs;
 use super::course::Course;

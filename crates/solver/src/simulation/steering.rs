@@ -1,8 +1,11 @@
-//! Changes between two steps, by whoever drives the simulation: other velocities, and forces besides those of the model.
+//! Changes between two steps, by whoever drives the simulation: other velocities, and forces besides those of
+//! the model.
 //!
-//! At the end of step n velocities are known at n − ½ and n + ½. A change Δv at n is added to both: what is shown at n is what was asked for, as if the steps until
-//! then had led to it. The books get the change of kinetic energy as work from outside, so that they close as without it (what friction and damping take in the half step that follows is booked by the
-//! velocities before). Nodes are named by the user's numbers, those of frames.
+//! At the end of step n velocities are known at n − ½ and n + ½. A change Δv at n is added to both: what is
+//! shown at n is what was asked for, as if the steps until then had led to it. The books get the change of
+//! kinetic energy as work from outside, so that they close as without it (what friction and damping take in
+//! the half step that follows is booked by the velocities before). Nodes are named by the user's numbers,
+//! those of frames.
 
 use super::Runs;
 use super::run::Run;
@@ -26,7 +29,8 @@ where
     /// Gives nodes these velocities at the present time, m/s; those that are held keep what is prescribed.
     ///
     /// # Errors
-    /// Nodes that are not there, or that something else leads; numbers that are none. Then nothing has changed.
+    /// Nodes that are not there, or that something else leads; numbers that are none. Then nothing has
+    /// changed.
     pub(crate) fn set_velocities(&mut self, nodes: &[u32], velocities: &[f64]) -> Result<(), Fault> {
         let given = self.vectors("velocity", nodes, velocities)?;
         let system = &mut self.system;

@@ -1,4 +1,5 @@
-//! What a run has to say of itself: its figures, what was checked in its contacts, and what the user should know.
+//! What a run has to say of itself: its figures, what was checked in its contacts, and what the user should
+//! know.
 
 use super::ContactSearch;
 use super::Runs;

@@ -1,4 +1,5 @@
-//! Elements whose stable step is far below that of the others of their part: slivers of a mesh, most often, for which all others have to wait.
+//! Elements whose stable step is far below that of the others of their part: slivers of a mesh, most often,
+//! for which all others have to wait.
 //!
 //! From the steps of the elements at time zero; warnings go to those of the model, before the run.
 
@@ -8,7 +9,8 @@ use crate::mesh::messages::TINY_STEP;
 use crate::step::System;
 use crate::tensor::Dim;
 
-/// An element whose step is so many times shorter than that of half of its part's elements is no matter of grading any more.
+/// An element whose step is so many times shorter than that of half of its part's elements is no matter of
+/// grading any more.
 const FAR_BELOW: f64 = 1000.0;
 
 /// A warning for each part with such elements, as far as they set the step.

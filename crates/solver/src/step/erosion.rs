@@ -1,8 +1,11 @@
-//! Erosion within a step: after the laws have answered, what fails is taken out of blocks, mesh, contacts and loads, before anything moves.
+//! Erosion within a step: after the laws have answered, what fails is taken out of blocks, mesh, contacts and
+//! loads, before anything moves.
 //!
-//! The elastic energy of an eroded element goes to the books as `eroded`. The element pulled until the step before and pulls no more now; by the trapezoidal rule of the ledger half of its
-//! last pull, f^n·½ (x^n − x^{n−1}), was never done on the nodes and stays in what is booked. Springs of contacts live in half steps: what those of surfaces that
-//! are gone stored at n − ½, less what springs of the new surfaces store there, is booked with it. So the drift does not see erosion.
+//! The elastic energy of an eroded element goes to the books as `eroded`. The element pulled until the step
+//! before and pulls no more now; by the trapezoidal rule of the ledger half of its last pull, f^n·½ (x^n −
+//! x^{n−1}), was never done on the nodes and stays in what is booked. Springs of contacts live in half steps:
+//! what those of surfaces that are gone stored at n − ½, less what springs of the new surfaces store there,
+//! is booked with it. So the drift does not see erosion.
 
 use super::System;
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
@@ -52,7 +55,8 @@ where
         self.gone.get(block).is_some_and(|&gone| gone)
     }
 
-    /// Books the contact springs that surfaces took with them, if they changed in this step; `stored`: what springs of the new ones store, J/m.
+    /// Books the contact springs that surfaces took with them, if they changed in this step; `stored`: what
+    /// springs of the new ones store, J/m.
     pub(crate) fn close_springs(&mut self, stored: impl FnOnce() -> f64) {
         if let Some(before) = self.springs.take() {
             self.energy += before - stored();
@@ -88,7 +92,8 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// Takes the elements that blocks have lost out of mesh, contacts and loads, as if they failed now: what is left of a state that was filled from outside.
+    /// Takes the elements that blocks have lost out of mesh, contacts and loads, as if they failed now: what
+    /// is left of a state that was filled from outside.
     pub(super) fn take_out_again(&mut self) {
         let Some(mut erosion) = self.erosion.take() else { return };
         let mut is_any_gone = false;
@@ -122,7 +127,8 @@ where
         elements
     }
 
-    /// What fails, ascending by block and element. Where an element is `inverted`, all such ones fail that may fail for their step.
+    /// What fails, ascending by block and element. Where an element is `inverted`, all such ones fail that
+    /// may fail for their step.
     fn failed(&self, erosion: &Erosion<D>, inverted: bool) -> Vec<Failed> {
         let mut failed = Vec::new();
         for (index, (block, criteria)) in self.blocks.iter().zip(&erosion.criteria).enumerate() {

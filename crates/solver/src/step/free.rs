@@ -1,7 +1,8 @@
-//! The velocity update of nodes that nothing holds, eight at a time: forces, loads, gravity and damping; no constraint, dashpot, group or rigid body.
+//! The velocity update of nodes that nothing holds, eight at a time: forces, loads, gravity and damping; no
+//! constraint, dashpot, group or rigid body.
 //!
-//! The same formulas as for any node in `nodes.rs`, in lanes. Groups of eight nodes in which one is not free are left to it. Sums run lane by lane, so they do not
-//! depend on the instruction set.
+//! The same formulas as for any node in `nodes.rs`, in lanes. Groups of eight nodes in which one is not free
+//! are left to it. Sums run lane by lane, so they do not depend on the instruction set.
 
 use super::nodes::Nodes;
 use crate::dimension::Dimension;
@@ -32,8 +33,8 @@ impl Groups {
     }
 }
 
-/// Nodes from `first` on (a multiple of eight) with their new velocities, and with the positions x^{n+1} to which these lead: they are written while everything
-/// is at hand.
+/// Nodes from `first` on (a multiple of eight) with their new velocities, and with the positions x^{n+1} to
+/// which these lead: they are written while everything is at hand.
 pub(super) struct Free<'a, 'b, const D: usize>
 where
     Dim<D>: Dimension<D>,

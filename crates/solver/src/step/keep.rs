@@ -1,4 +1,5 @@
-//! The system in a kept state: what it knows at the end of a step. It is made of its model first, as for time zero; then the state is filled in.
+//! The system in a kept state: what it knows at the end of a step. It is made of its model first, as for time
+//! zero; then the state is filled in.
 
 use super::{Governor, Limits, System};
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
@@ -54,7 +55,8 @@ where
     Dim<D>: Dimension<D>,
 {
     fn keep_system(&mut self, archive: &mut Archive<'_>) -> Kept {
-        // Nothing of these is state, or it is kept elsewhere below; loads of the model, dampings and constraints are worked out from the time.
+        // Nothing of these is state, or it is kept elsewhere below; loads of the model, dampings and
+        // constraints are worked out from the time.
         #[rustfmt::skip]
         let Self {
             mesh: _, assembly: _, mass: _, body_parts: _, rigid: _, has_springs: _, shares: _, outlines: _, constraints: _, damping: _, body_forces: _,
@@ -83,7 +85,8 @@ where
             list[..].keep(archive)?;
         }
         if archive.reads() {
-            // As the velocity update leaves it where nothing holds a node; elsewhere it is written before it is read.
+            // As the velocity update leaves it where nothing holds a node; elsewhere it is written before it
+            // is read.
             for (next, (x, v)) in positions_old.iter_mut().zip(positions.iter().zip(velocities.iter())) {
                 *next = plus(*x, times(*time_step, *v));
             }

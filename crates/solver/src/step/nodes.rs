@@ -1,7 +1,9 @@
-//! The velocity update of nodes: what pulls on a node (or on a group that moves as one), how it gives way, and what the books get.
+//! The velocity update of nodes: what pulls on a node (or on a group that moves as one), how it gives way,
+//! and what the books get.
 //!
-//! Forces come from the assembly, contacts and loads; new velocities and sums go back to `step.rs`, and the answers to springs in contact to
-//! [`crate::contact::springs`]. With m̃ = m (1 + a) I + ½ Δt C of damping (a) and dashpots (C), Δt = ½ (dt^{n−1} + dt^n), an impulse J changes the velocity by m̃⁻¹ J.
+//! Forces come from the assembly, contacts and loads; new velocities and sums go back to `step.rs`, and the
+//! answers to springs in contact to [`crate::contact::springs`]. With m̃ = m (1 + a) I + ½ Δt C of damping
+//! (a) and dashpots (C), Δt = ½ (dt^{n−1} + dt^n), an impulse J changes the velocity by m̃⁻¹ J.
 
 use crate::assembly::Assembly;
 use crate::contact::springs::TangentSpace;
@@ -158,8 +160,8 @@ where
         self.joins.of_node(leader as u32).map_or_else(|| self.pull(leader), |(group, _)| self.pull_of(group))
     }
 
-    /// Updates the velocities of the nodes from `first` on (a multiple of eight) and sums their works; groups that move as one are left out. The next positions of
-    /// free nodes follow at once.
+    /// Updates the velocities of the nodes from `first` on (a multiple of eight) and sums their works; groups
+    /// that move as one are left out. The next positions of free nodes follow at once.
     pub(crate) fn update(&self, first: usize, velocities: &mut [[f64; D]], positions_next: &mut [[f64; D]]) -> Sums {
         let mut sums = self.level.run(Free { nodes: self, first, velocities: &mut *velocities, positions_next });
         for (group, velocities) in velocities.chunks_mut(BATCH).enumerate() {

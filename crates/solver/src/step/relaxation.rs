@@ -1,8 +1,11 @@
-//! Dynamic relaxation: damping of mass at the critical rate of the motion that there is, and the end when all is at rest.
+//! Dynamic relaxation: damping of mass at the critical rate of the motion that there is, and the end when all
+//! is at rest.
 //!
-//! The Rayleigh quotient with the stiffness that the internal forces show in the step, ω² = −v·(f^n − f^{n−1}) / (dt Σ m v²), is the square of the angular frequency of the motion; what
-//! moves fast dies first, so it falls to that of the slowest mode, whose critical rate is 2 ω. Underwood, "Dynamic relaxation", in Computational Methods for Transient Analysis
-//! (1983) 245-265; Papadrakakis, Comput. Meth. Appl. Mech. Engng 25 (1981) 35-48.
+//! The Rayleigh quotient with the stiffness that the internal forces show in the step, ω² = −v·(f^n −
+//! f^{n−1}) / (dt Σ m v²), is the square of the angular frequency of the motion; what moves fast dies first,
+//! so it falls to that of the slowest mode, whose critical rate is 2 ω. Underwood, "Dynamic relaxation", in
+//! Computational Methods for Transient Analysis (1983) 245-265; Papadrakakis, Comput. Meth. Appl. Mech. Engng
+//! 25 (1981) 35-48.
 
 use super::System;
 use crate::archive::{Archive, Keep, Kept, keep_each};

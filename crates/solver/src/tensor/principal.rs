@@ -1,8 +1,10 @@
 //! Principal values and directions of symmetric tensors over lanes, safe where they coincide.
 //!
-//! In the plane in closed form; in space by Jacobi's rotations, a fixed number of them, so that every lane does the same and gives the same bits.
-//! What comes out are eigenvalues λ_i and projections P_i = n_i n_iᵀ: T = Σ λ_i P_i to round-off, P_i P_j = δ_ij P_i, Σ P_i = I, whatever coincides.
-//! Source: Golub and Van Loan, Matrix Computations (2013), 8.5 (cyclic Jacobi converges quadratically; from the sixth sweep on nothing changes).
+//! In the plane in closed form; in space by Jacobi's rotations, a fixed number of them, so that every lane
+//! does the same and gives the same bits. What comes out are eigenvalues λ_i and projections P_i = n_i n_iᵀ:
+//! T = Σ λ_i P_i to round-off, P_i P_j = δ_ij P_i, Σ P_i = I, whatever coincides. Source: Golub and Van Loan,
+//! Matrix Computations (2013), 8.5 (cyclic Jacobi converges quadratically; from the sixth sweep on nothing
+//! changes).
 
 use super::{Plane, Solid};
 use embate_lanes::Lane;

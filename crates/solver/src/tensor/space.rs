@@ -1,8 +1,9 @@
 //! What space knows of matrices: [`Space`] for three dimensions. The plane's is beside the trait.
 //!
-//! Hughes and Winget's rotation of a skew matrix W with the axial vector w (W v = w × v) is that by the angle θ about w with tan(θ/2) = |w|/2. With a = w/2 and
-//! A v = a × v it is Q = I + 2 (A + A²) / (1 + a·a), and half of it, with r = √(1 + a·a), is I + A/r + A²/(r (1 + r)).
-//! Source: Hughes and Winget, Int. J. Numer. Meth. Engng 15 (1980) 1862-1867; Rodrigues's formula.
+//! Hughes and Winget's rotation of a skew matrix W with the axial vector w (W v = w × v) is that by the angle
+//! θ about w with tan(θ/2) = |w|/2. With a = w/2 and A v = a × v it is Q = I + 2 (A + A²) / (1 + a·a), and
+//! half of it, with r = √(1 + a·a), is I + A/r + A²/(r (1 + r)). Source: Hughes and Winget, Int. J. Numer.
+//! Meth. Engng 15 (1980) 1862-1867; Rodrigues's formula.
 
 use super::{Dim, Matrix, Solid, Space, scaled};
 use embate_lanes::Lane;
@@ -129,7 +130,8 @@ mod tests {
         for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, -2.0, 0.5], [-0.3, 0.4, 3.0]] {
             for angle in [0.0, 1e-9, 0.01, 0.4, 1.5, 3.0] {
                 let q = rotation(axis, angle);
-                // x = Q J, mid-step configuration ½ (I + Q) J, displacement (Q − I) J, in any natural coordinates
+                // x = Q J, mid-step configuration ½ (I + Q) J, displacement (Q − I) J, in any natural
+                // coordinates
                 let j = [[3.0, -1.0, 0.5], [2.0, 1.1, -0.3], [0.7, 0.2, 2.0]];
                 let (natural, middle) = (product(&combined(&q, -1.0, &UNIT), &j), product(&scaled(combined(&q, 1.0, &UNIT), 0.5), &j));
                 let (gradient, [half, whole]) = Dim::<3>::displaced(&natural, &Dim::<3>::adjugate(&middle), Dim::<3>::determinant(&middle));

@@ -1,6 +1,8 @@
-//! What `docs/adding.md` says about a material is true: its file and its line, put into a copy of the solver, make a law that passes the contract tests.
+//! What `docs/adding.md` says about a material is true: its file and its line, put into a copy of the solver,
+//! make a law that passes the contract tests.
 //!
-//! The copy lies in the target folder and is brought up to date by contents, so that only what has changed is compiled again; it has a target folder of its own.
+//! The copy lies in the target folder and is brought up to date by contents, so that only what has changed is
+//! compiled again; it has a target folder of its own.
 
 use std::fs;
 use std::path::{Path, PathBuf};

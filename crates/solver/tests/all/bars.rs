@@ -1,7 +1,8 @@
 //! Elastic bars that hit a wall and each other, against closed forms.
 //!
-//! Plane strain with ν = 0 and free sides is uniaxial: c = √(E/ρ). Wall: force ρ c v A for 2L/c, then the bar flies back with its speed
-//! (Carpenter, Taylor and Katona 1991). Two equal bars: force ½ ρ c Δv A for 2L/c, then the velocities are exchanged.
+//! Plane strain with ν = 0 and free sides is uniaxial: c = √(E/ρ). Wall: force ρ c v A for 2L/c, then the bar
+//! flies back with its speed (Carpenter, Taylor and Katona 1991). Two equal bars: force ½ ρ c Δv A for 2L/c,
+//! then the velocities are exchanged.
 
 use crate::bodies::{add, rectangle, simulation, slender};
 use embate_solver::model::{Contact, Formulation, Model, Obstacle, Penalty};
@@ -10,7 +11,8 @@ use embate_solver::simulation::Simulation;
 const YOUNG: f64 = 200e9;
 const DENSITY: f64 = 7800.0;
 
-/// A bar of length 2 m and height 0.5 m (tall elements: the step is that of the bar, not of the height) that flies at 1.5 m/s towards a wall 1 mm away. `axis` 0 or 1: along x or y.
+/// A bar of length 2 m and height 0.5 m (tall elements: the step is that of the bar, not of the height) that
+/// flies at 1.5 m/s towards a wall 1 mm away. `axis` 0 or 1: along x or y.
 fn bar_and_wall(elements: usize, scale: f64, axis: usize) -> Model {
     let mut model = slender(1.8e-3, YOUNG, DENSITY);
     let turn = |along: f64, across: f64| if axis == 0 { [along, across] } else { [across, along] };
@@ -35,7 +37,8 @@ fn history(model: &Model, interval: f64, columns: &[&str]) -> (Simulation, Vec<V
     (simulation, rows)
 }
 
-/// When the force (column 1, times `sign`) first and last exceeds half of the closed form: the front of the discrete wave is that steep.
+/// When the force (column 1, times `sign`) first and last exceeds half of the closed form: the front of the
+/// discrete wave is that steep.
 fn contact_time(rows: &[Vec<f64>], sign: f64, force: f64) -> (f64, f64) {
     let times: Vec<f64> = rows.iter().filter(|row| sign * row[1] > 0.5 * force).map(|row| row[0]).collect();
     (times[0], times[times.len() - 1])
@@ -64,7 +67,8 @@ fn a_bar_bounces_off_a_wall_with_the_force_and_time_of_the_closed_form() {
     }
 }
 
-/// Theory, section 1: energy within 1 % for penalties of 0.1 to 100 times the elements' stiffness, at default settings.
+/// Theory, section 1: energy within 1 % for penalties of 0.1 to 100 times the elements' stiffness, at default
+/// settings.
 #[test]
 fn no_penalty_pumps_energy() {
     for elements in [10, 40, 100] {
@@ -104,7 +108,8 @@ fn two_equal_bars_exchange_their_velocities() {
         let lasts = (last - first) / duration;
         assert!((lasts - 1.0).abs() < 0.03, "{formulation:?}: contact lasts {lasts} of 2L/c");
         let end = &rows[rows.len() - 1];
-        // Springs of 20 times the elements' stiffness leave more in vibrations: which of two release patterns comes is a matter of round-off.
+        // Springs of 20 times the elements' stiffness leave more in vibrations: which of two release patterns
+        // comes is a matter of round-off.
         let most = if scale > 1.0 { 0.15 } else { 0.1 };
         assert!((end[2] + 10.0).abs() < most && (end[3] - 10.0).abs() < most, "{formulation:?}: {} {}", end[2], end[3]);
         let summary = simulation.summary();

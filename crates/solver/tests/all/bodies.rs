@@ -30,7 +30,8 @@ pub(crate) fn faults(model: &Model) -> Vec<String> {
     model_faults(model).iter().map(ToString::to_string).collect()
 }
 
-/// A model whose material has no lateral strain: bars in plane strain are uniaxial, and don't grow thicker under compression.
+/// A model whose material has no lateral strain: bars in plane strain are uniaxial, and don't grow thicker
+/// under compression.
 pub(crate) fn slender(end: f64, young: f64, density: f64) -> Model {
     let mut model = model(end);
     let mut material = elastic(young, density);
@@ -153,7 +154,8 @@ pub(crate) fn to_end(model: &Model) -> Simulation {
     simulation
 }
 
-/// The hash at the end of a run on one thread without vectors; that on so many threads with each instruction set has to be the same.
+/// The hash at the end of a run on one thread without vectors; that on so many threads with each instruction
+/// set has to be the same.
 pub(crate) fn hash_of_equal_bits(model: &Model, threads: &[usize], case: &str) -> String {
     let hash = |threads: usize, simd: &str| {
         let options = Options { threads, simd: Some(simd.into()) };
@@ -183,7 +185,8 @@ pub(crate) fn goes_on_to(hash: &str, model: &Model, run: &mut Simulation, case: 
 pub(crate) struct History {
     columns: Vec<String>,
     rows: Vec<Vec<f64>>,
-    /// Looks at the progress until the run is stopped, and the state then: with `EMBATE_STOPS` (see `restart`).
+    /// Looks at the progress until the run is stopped, and the state then: with `EMBATE_STOPS` (see
+    /// `restart`).
     stops: Option<usize>,
     kept: Option<State>,
 }

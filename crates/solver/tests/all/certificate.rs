@@ -1,5 +1,5 @@
-//! No contact is missed: what the tracker finds is held against winding numbers that are counted anew in every step, for bodies that move at random and at any speed, and whole
-//! runs certify themselves.
+//! No contact is missed: what the tracker finds is held against winding numbers that are counted anew in
+//! every step, for bodies that move at random and at any speed, and whole runs certify themselves.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
@@ -51,7 +51,8 @@ impl Rings {
         self.shapes.iter().zip(&self.bodies).map(place).collect()
     }
 
-    /// How often a node is inside a body, by the ray along +x; `None` where it is too near to the surface for rounding.
+    /// How often a node is inside a body, by the ray along +x; `None` where it is too near to the surface for
+    /// rounding.
     fn winding(&self, x: Vector, body: u32, positions: &[Vector]) -> Option<i32> {
         let mut sum = 0;
         for (segment, _) in self.target.surface.segments.iter().zip(0..).filter(|(segment, _)| self.bodies[segment[0] as usize] == body) {
@@ -207,8 +208,9 @@ fn a_contact_that_transmits_nothing_is_mentioned() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// What sleeps is found as if it had been looked at: the same touches, searches and proof in every step, of bodies that dart about (some of their nodes more slowly) and of such as go
-    /// straight towards each other, each as fast as the travel allows.
+    /// What sleeps is found as if it had been looked at: the same touches, searches and proof in every step,
+    /// of bodies that dart about (some of their nodes more slowly) and of such as go straight towards each
+    /// other, each as fast as the travel allows.
     #[test]
     fn what_sleeps_misses_nothing(
         moves in prop::collection::vec((prop::array::uniform2(-0.7..0.7_f64), -1.0..1.0_f64), 6 * 80),

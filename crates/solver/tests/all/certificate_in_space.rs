@@ -1,5 +1,5 @@
-//! No contact between solids is missed: bullets and edges that go through plates and beams are caught where the contact is blind, and what sleeps is proven as by a look at
-//! all pairs.
+//! No contact between solids is missed: bullets and edges that go through plates and beams are caught where
+//! the contact is blind, and what sleeps is proven as by a look at all pairs.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_solver::contact::law::penalty::Penalty;
@@ -141,7 +141,8 @@ fn a_bullet_that_flies_through_a_plate_in_one_step_is_caught_where_the_contact_i
                 assert_eq!((blind.go([0.0; 3]).unverified, sighted.go([0.0; 3]).unverified), (0, 0), "{still}");
             }
             assert_eq!(blind.go(way).unverified, nodes, "{size} {way:?}");
-            // Who sees holds it, by the face that it came through: beyond the plate's own size below it the side walls are nearer.
+            // Who sees holds it, by the face that it came through: beyond the plate's own size below it the
+            // side walls are nearer.
             let seen = sighted.go(way);
             assert!(seen.unverified == 0, "{size} {way:?}: {seen:?}");
             let inside = |touch: &&Touch| touch.pass == 0 && touch.projection.gap < 0.0;
@@ -215,7 +216,8 @@ fn a_node_that_is_let_go_inside_is_caught() {
     assert_eq!(pairing.go([0.2, 0.0, 0.0]).unverified, 4);
 }
 
-/// A node that enters a plate near its rim deeper than it is from the side stays with the face that it came through, and one that cuts the corner is out.
+/// A node that enters a plate near its rim deeper than it is from the side stays with the face that it came
+/// through, and one that cuts the corner is out.
 #[test]
 fn a_node_that_comes_in_near_a_rim_is_led_by_its_face_and_one_that_cuts_the_corner_is_not() {
     let cube = |first: u32| grid(first, [1; 3], |[x, y, z]| [0.3 * x + 0.65, 0.3 * y - 0.15, 0.3 * z + 0.1]);
@@ -257,8 +259,9 @@ fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The side from which each node came in that goes into the other body in a step and does not come out again by that side or beside it, nor comes around the body before the face there, by
-/// a look at all pairs: (pass, node, side).
+/// The side from which each node came in that goes into the other body in a step and does not come out again
+/// by that side or beside it, nor comes around the body before the face there, by a look at all pairs: (pass,
+/// node, side).
 fn all_that_enter(surfaces: &[SpaceSurface], [old, new]: [&[Vector]; 2]) -> Vec<(u32, u32, Vector)> {
     let mut all = Vec::new();
     for (pass, &(slave, target)) in BOTH.iter().enumerate() {
@@ -311,8 +314,9 @@ fn moved(x: Vector, way: Vector, turn: Vector, about: Vector) -> Vector {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 250, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// A rigid body darts about, by up to a metre a step, around, into and through a plate: who sees misses nothing, and whoever goes in, by a look at all pairs, is held on the side where it
-    /// came in; who is blind is told of each.
+    /// A rigid body darts about, by up to a metre a step, around, into and through a plate: who sees misses
+    /// nothing, and whoever goes in, by a look at all pairs, is held on the side where it came in; who is
+    /// blind is told of each.
     #[test]
     fn a_rigid_body_that_darts_through_a_plate_is_held_wherever_it_goes_in(
         ways in prop::collection::vec(prop::array::uniform3(-1.0..1.0_f64), 25),
@@ -340,7 +344,8 @@ proptest! {
             let new: Vec<Vector> = old.iter().enumerate().map(go).collect();
             let mut entered = all_that_enter(&surfaces, [&old, &new]);
             all += entered.len() as u64;
-            // Who is inside already, or has gone through the far side, is held on the side where it came in first.
+            // Who is inside already, or has gone through the far side, is held on the side where it came in
+            // first.
             let was_inside: Vec<(u32, u32)> =
                 sighted.contact.tracker().touches().iter().filter(|touch| touch.projection.gap < 0.0).map(|touch| (touch.pass, touch.node)).collect();
             entered.retain(|&(pass, node, _)| !was_inside.contains(&(pass, node)));
@@ -359,7 +364,8 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Of two bodies that dart about and change their shapes every node that goes into the other is caught, as by a look at all pairs without a search and without sleep.
+    /// Of two bodies that dart about and change their shapes every node that goes into the other is caught,
+    /// as by a look at all pairs without a search and without sleep.
     #[test]
     fn what_sleeps_and_is_not_searched_is_proven_as_by_a_look_at_all_pairs(
         ways in prop::collection::vec(prop::array::uniform3(-1.0..1.0_f64), 30),

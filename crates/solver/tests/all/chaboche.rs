@@ -1,4 +1,5 @@
-//! Kinematic and mixed hardening against closed forms: Bauschinger, saturation, the stabilised loop, ratcheting, energy, rotation.
+//! Kinematic and mixed hardening against closed forms: Bauschinger, saturation, the stabilised loop,
+//! ratcheting, energy, rotation.
 
 use crate::patches::{Spread, YOUNG};
 use crate::point::Point;
@@ -70,7 +71,8 @@ fn the_stabilised_loop_has_the_stress_of_the_closed_form() {
 
 #[test]
 fn a_bar_between_unequal_stresses_ratchets_by_the_closed_form() {
-    // Plastic strain per cycle (1/γ) ln[((C/γ)² − (σ_min + σ_y)²) / ((C/γ)² − (σ_max − σ_y)²)], Lemaitre and Chaboche, section 5.4.4.
+    // Plastic strain per cycle (1/γ) ln[((C/γ)² − (σ_min + σ_y)²) / ((C/γ)² − (σ_max − σ_y)²)], Lemaitre and
+    // Chaboche, section 5.4.4.
     let (modulus, recall): (f64, f64) = (200.0, 100.0);
     let (high, low) = (3.0, -2.5);
     let limit = modulus / recall;
@@ -113,7 +115,8 @@ fn the_flow_rule_holds_and_no_energy_is_lost_in_any_direction() {
         }
     }
     assert!(flowed > 1000);
-    // Work is found in dissipation, elastic energy and backstresses; one step with a large turn may tell zero instead of less.
+    // Work is found in dissipation, elastic energy and backstresses; one step with a large turn may tell zero
+    // instead of less.
     let mut stored = body.elastic_energy();
     for (alpha, modulus) in body.state.1.0.into_iter().zip(moduli) {
         stored += 0.75 * alpha.contract(alpha) / modulus;

@@ -269,7 +269,8 @@ fn gravity_acts_on_the_parts_it_names_and_on_their_share_of_common_nodes() {
     let apple = velocity("apple");
     assert!((apple[0] - 2.0 * time).abs() < 1e-4 * time && (apple[1] + 10.0 * time).abs() < 1e-4 * time, "{apple:?}");
     assert_eq!(velocity("moon"), [0.0, 0.0]);
-    // The bonded pair: only the left half is heavy, so the two together get half of it. Their probes share the common nodes.
+    // The bonded pair: only the left half is heavy, so the two together get half of it. Their probes share
+    // the common nodes.
     let mut model = model.clone();
     model.parts.drain(..2);
     model.probes.clear();

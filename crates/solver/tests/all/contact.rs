@@ -1,4 +1,5 @@
-//! Whole contacts through the public face: momentum, energy, resultants, searches, threads, passes, symmetry, walls, thin bodies.
+//! Whole contacts through the public face: momentum, energy, resultants, searches, threads, passes, symmetry,
+//! walls, thin bodies.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
@@ -148,7 +149,8 @@ fn every_contact_has_its_own_columns() {
 #[test]
 fn every_search_gives_the_same_bits() {
     let mut overlapping = oblique();
-    // Almost two segments inside at the start: some nodes are deeper than any search need look, and no search may see more than another.
+    // Almost two segments inside at the start: some nodes are deeper than any search need look, and no search
+    // may see more than another.
     if let Shape::Rectangle(Rectangle { corner, .. }) = &mut overlapping.parts[1].shape {
         corner[0] = 0.07;
     }
@@ -292,7 +294,8 @@ fn a_half_model_is_half_of_the_whole() {
                 let column = format!("{name}.{axis}");
                 let (a, b) = (half.1.column(&column), whole.1.column(&column));
                 let worst = a.iter().zip(&b).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs()));
-                // Of 8 mm. Not round-off: on the slightest ridge two sides are equally near, and the whole model takes one of them.
+                // Of 8 mm. Not round-off: on the slightest ridge two sides are equally near, and the whole
+                // model takes one of them.
                 assert!(worst < 1e-6, "{penalty:?} {column}: {worst}");
             }
         }
@@ -329,7 +332,8 @@ fn a_disk_bounces_between_two_walls_many_times_and_keeps_its_energy() {
 
 #[test]
 fn parts_that_share_nodes_may_have_a_contact_and_feel_nothing_at_the_seam() {
-    // Two blocks bonded along their lower half; a fine mesh beside a coarse one, so that neighbours at the seam are nearer than the skin.
+    // Two blocks bonded along their lower half; a fine mesh beside a coarse one, so that neighbours at the
+    // seam are nearer than the skin.
     let mut model = model(3e-4);
     let n = 8;
     let mut mesh = mapped([n, n], |u, v| [0.1 * u, 0.1 * v * v]);
@@ -345,7 +349,8 @@ fn parts_that_share_nodes_may_have_a_contact_and_feel_nothing_at_the_seam() {
 
 #[test]
 fn a_projectile_that_moves_several_plate_thicknesses_in_a_step_does_not_pass() {
-    // A soft heavy foil, a light block that comes at a third of its own sound speed: four thicknesses in a step, from many heights.
+    // A soft heavy foil, a light block that comes at a third of its own sound speed: four thicknesses in a
+    // step, from many heights.
     let speed = 0.33 * 1160.0;
     for k in 0..8 {
         let mut model = model(6e-4);
@@ -369,7 +374,8 @@ fn a_projectile_that_moves_several_plate_thicknesses_in_a_step_does_not_pass() {
 
 #[test]
 fn a_contact_that_gives_way_is_told_with_its_deepest_node() {
-    // A block meets a wall with next to no penalty: it goes on with its velocity, so the depth after t is v (t − t0).
+    // A block meets a wall with next to no penalty: it goes on with its velocity, so the depth after t is v
+    // (t − t0).
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.01, 0.01], [2, 2]), [10.0, 0.0]);
     add(&mut model, "wall", rectangle([0.011, -0.01], [0.02, 0.03], [4, 6]), [0.0, 0.0]);

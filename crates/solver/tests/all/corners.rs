@@ -1,11 +1,12 @@
-//! Energy at corners and edges: bodies that slide and tumble over them. Rigid ones store nothing themselves, so that all that
-//! contact takes it must give back, to round-off.
+//! Energy at corners and edges: bodies that slide and tumble over them. Rigid ones store nothing themselves,
+//! so that all that contact takes it must give back, to round-off.
 
 use crate::bodies::*;
 use crate::edge_edge::{Block, meet};
 use embate_solver::model::{Contact, Disk, Interface, Model, Motion, Obstacle, ObstacleShape, Partners, Penalty, Polygon, Shape};
 
-/// A room with corners of 45 to 135 degrees, convex and concave: 0.1 m wide, with a ridge on its floor and a notch in its wall.
+/// A room with corners of 45 to 135 degrees, convex and concave: 0.1 m wide, with a ridge on its floor and a
+/// notch in its wall.
 fn room(turned: f64, mirrored: bool) -> ObstacleShape {
     let corners = [
         [0.05, 0.05],
@@ -29,7 +30,8 @@ fn room(turned: f64, mirrored: bool) -> ObstacleShape {
     ObstacleShape::Polyline { points }
 }
 
-/// Largest error of the total energy by the work of contact: the sum of all changes of what its springs store.
+/// Largest error of the total energy by the work of contact: the sum of all changes of what its springs
+/// store.
 fn error_by_work(model: &Model) -> (f64, f64) {
     let steps = every_step(model);
     let (total, stored) = (steps.column("energy.total"), steps.column("energy.contact"));
@@ -56,7 +58,8 @@ fn rigid_bodies_keep_their_energy_over_corners_of_every_angle() {
 
 #[test]
 fn a_soft_body_slides_over_corners_with_no_more_than_its_elements_lose() {
-    // The same scene with hard and with soft springs: the elements' own error, of the same size in both, is the bound.
+    // The same scene with hard and with soft springs: the elements' own error, of the same size in both, is
+    // the bound.
     for scale in [1.0, 0.1] {
         let mut model = model(0.02);
         add(&mut model, "ball", Shape::Disk(Disk { centre: [-0.02, 0.03], radius: 0.01, elements: 3 }), [10.0, -17.0]);

@@ -6,7 +6,8 @@ use embate_solver::simulation::{Options, Simulation};
 
 const SIDE: f64 = 1.0;
 
-/// Two squares of one metre, two metres apart, `springs` between them; the left one is held, the right one rigid with 2 kg/m.
+/// Two squares of one metre, two metres apart, `springs` between them; the left one is held, the right one
+/// rigid with 2 kg/m.
 fn model(spring: Spring, velocity: f64) -> Model {
     let mut model = Model { run: Run { end: 10.0, ..Run::default() }, ..Model::default() };
     model.materials.insert("m".into(), material("elastic", 0.3));

@@ -38,7 +38,8 @@ fn brick(low: Vector, size: Vector) -> [Vector; 8] {
     corners.map(|corner: [u8; 3]| std::array::from_fn(|d| low[d] + f64::from(corner[d]) * size[d]))
 }
 
-/// Two rigid bricks of 1e3 kg/m³, 0.2 × 0.3 × 0.6 m and twice that, with a spring between the corners that look at each other, along the line through their centres.
+/// Two rigid bricks of 1e3 kg/m³, 0.2 × 0.3 × 0.6 m and twice that, with a spring between the corners that
+/// look at each other, along the line through their centres.
 fn two_bricks(spring: Spring) -> Model {
     let mut model = model(1.0);
     let small = SKEW.map(|component| 0.1 * component);
@@ -256,8 +257,8 @@ fn a_brick_hangs_on_bars_of_its_own_mesh() {
     assert!(summary.energy_drift < 1e-3 && summary.ledger_residual < 1e-11, "{summary:?}");
 }
 
-/// A rod of hexahedra, turned by an angle about a skew axis, whose left end gets a pulse, and whose right end reflects nothing; its sides are held. Energy that has
-/// come, and that is left when the pulse has gone.
+/// A rod of hexahedra, turned by an angle about a skew axis, whose left end gets a pulse, and whose right end
+/// reflects nothing; its sides are held. Energy that has come, and that is left when the pulse has gone.
 fn rod(element: &str, angle: f64, poisson: f64, shear: bool) -> (f64, f64) {
     let (length, width) = (0.1, 2e-3);
     let axis = unit([1.0, 2.0, -0.5]);
@@ -342,7 +343,8 @@ fn a_tripod_of_a_model_file_is_that_of_a_mesh_file() {
     assert_eq!(ours, theirs);
 }
 
-/// A rod of 400 bars whose first point gets a pulse of velocity along it: displacements along and across it, m, and energies at each step.
+/// A rod of 400 bars whose first point gets a pulse of velocity along it: displacements along and across it,
+/// m, and energies at each step.
 fn pulse(along: Vector) -> (Vec<[f64; 2]>, Vec<f64>, Simulation) {
     let (young, density, from) = (1e9, 1e3, [0.3, -0.1, 0.2]);
     let speed = f64::sqrt(young / density);
@@ -379,7 +381,8 @@ fn a_wave_runs_along_a_rod_of_bars_at_its_speed_whatever_its_direction() {
     let (straight, energies, simulation) = pulse([1.0, 0.0, 0.0]);
     let summary = simulation.summary();
     assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-3, "{summary:?}");
-    // A smooth pulse of a tenth of the length leaves a way of half of 1e-3 m/s · 0.1 m / (1000 m/s) behind; half of it is made where its middle is, 0.05 m behind its front.
+    // A smooth pulse of a tenth of the length leaves a way of half of 1e-3 m/s · 0.1 m / (1000 m/s) behind;
+    // half of it is made where its middle is, 0.05 m behind its front.
     let whole = 0.5 * 1e-3 * 0.1 / 1e3;
     // Both ends come first, then what is between them; k in hundredths of the length.
     let at = |k: usize| 4 * k + 1;

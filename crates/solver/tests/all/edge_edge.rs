@@ -1,4 +1,5 @@
-//! Contact in space where edges cross between their nodes: beams on edge that hit each other, and the edge of a box. Nodes against facets alone would let them through.
+//! Contact in space where edges cross between their nodes: beams on edge that hit each other, and the edge of
+//! a box. Nodes against facets alone would let them through.
 
 use crate::bodies::*;
 use embate_solver::model::{
@@ -29,7 +30,8 @@ pub(crate) struct Block {
 }
 
 impl Block {
-    /// A beam at this angle (degrees) to the x-axis in a plane of constant z, turned by 45 degrees about its axis.
+    /// A beam at this angle (degrees) to the x-axis in a plane of constant z, turned by 45 degrees about its
+    /// axis.
     pub(crate) fn on_edge(length: f64, cells: usize, degrees: f64, middle: Vector) -> Self {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let axes = [[cos, sin, 0.0], [-R * sin, R * cos, R], [R * sin, -R * cos, R]];
@@ -87,7 +89,8 @@ pub(crate) fn is_sound(simulation: &Simulation, drift: f64, case: &str) {
 
 #[test]
 fn beams_that_cross_on_edge_exchange_their_velocities() {
-    // A soft contact: beside its time their vibrations are fast, so that they hit each other like rigid bodies.
+    // A soft contact: beside its time their vibrations are fast, so that they hit each other like rigid
+    // bodies.
     let speed = 0.1;
     for (degrees, named) in [(90.0, true), (40.0, true), (90.0, false), (40.0, false)] {
         let mut model = model(0.05);
@@ -134,7 +137,8 @@ fn start_of(model: &Model) -> Frame {
     Simulation::new(model, &Options { threads: 1, simd: None }).unwrap().frame()
 }
 
-/// How far the upper beam is above the lower one where they cross (m), and how fast it goes away there (m/s): of the nodes that were near at the start.
+/// How far the upper beam is above the lower one where they cross (m), and how fast it goes away there (m/s):
+/// of the nodes that were near at the start.
 fn at_crossing(model: &Model, frame: &Frame) -> [f64; 2] {
     let start = start_of(model);
     let crossing = [0.1 - 0.12 / 70.0f64.to_radians().tan(), 0.0];
@@ -171,7 +175,8 @@ fn beams_that_hit_each_other_off_their_middles_part_again_and_keep_both_momenta_
 #[test]
 fn a_beam_that_hits_the_edge_of_a_box_off_its_middle_spins_and_keeps_the_angular_momentum() {
     let mut model = model(6e-3);
-    // The edge of the box is along y; the beam crosses it, at right angles to what leaves the edge half way between both faces.
+    // The edge of the box is along y; the beam crosses it, at right angles to what leaves the edge half way
+    // between both faces.
     let at = R * (0.3 * 0.5f64.sqrt() + HALF + 1e-3);
     let tilted = [[-R, 0.0, R], [0.5, R, 0.5], [-0.5, R, -0.5]];
     let off = 0.17;
@@ -274,7 +279,8 @@ fn edges_whose_elements_fail_are_gone_and_those_of_the_new_surface_meet_and_the_
     }
 }
 
-/// A beam on edge that goes straight along x, around a loop and back over itself at right angles: one body, of two parts that share nodes.
+/// A beam on edge that goes straight along x, around a loop and back over itself at right angles: one body,
+/// of two parts that share nodes.
 fn loop_over_itself(gap: f64, speed: f64) -> Model {
     let (straight, radius, cells) = (0.5, 0.22, 26);
     let arc = 1.5 * std::f64::consts::PI * radius;
@@ -340,7 +346,8 @@ fn one_body_whose_legs_cross_meets_itself_by_its_edges_alone() {
 
 #[test]
 fn a_layer_between_edges_presses_on_half_of_what_their_four_nodes_stand_for_and_once() {
-    // Of a ridge each node has two half strips of facets as long as an edge: both passes together one of each pair of edges.
+    // Of a ridge each node has two half strips of facets as long as an edge: both passes together one of each
+    // pair of edges.
     let (reach, pressure, speed) = (5e-4, 4e6, 0.2);
     let law = ContactLaw::PressureGap { gaps: vec![-5e-4, reach], pressures: vec![2.0 * pressure, 0.0] };
     let mut parted = Vec::new();
@@ -381,7 +388,8 @@ fn a_layer_between_edges_presses_on_half_of_what_their_four_nodes_stand_for_and_
 
 #[test]
 fn the_force_of_an_edge_goes_on_where_the_line_of_the_other_one_bends_however_much() {
-    // A rigid blade slides along a rigid ridge that bends in plan, and sinks a little: the crossing is level on both of its edges, and the force only grows with the depth.
+    // A rigid blade slides along a rigid ridge that bends in plan, and sinks a little: the crossing is level
+    // on both of its edges, and the force only grows with the depth.
     for degrees in [30.0, 60.0, 80.0_f64] {
         for interface in [Penalty::Pressure(1e10).into(), Interface { friction: rough(0.2).friction, ..Penalty::Pressure(1e10).into() }] {
             let (speed, sinks) = (10.0, 0.5);

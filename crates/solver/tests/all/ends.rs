@@ -1,5 +1,5 @@
-//! Where faces end: bodies that end flush stay in contact at their corners, what slides down beside a body is not caught by its top, and what leaves a face at a sharp edge gives
-//! its energy back.
+//! Where faces end: bodies that end flush stay in contact at their corners, what slides down beside a body is
+//! not caught by its top, and what leaves a face at a sharp edge gives its energy back.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
@@ -43,11 +43,13 @@ fn blocks_that_end_flush_stay_in_contact_at_their_corners() {
                     let start = column("middle")[0];
                     let moved = column("middle").iter().fold(0.0_f64, |most, y| most.max((y - start).abs()));
                     let off = column("end").iter().zip(column("middle")).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-                    // Springs of equal areas: the corner with its half of the mass moves as the others do, though it has a side wall too.
+                    // Springs of equal areas: the corner with its half of the mass moves as the others do,
+                    // though it has a side wall too.
                     let bound = if wider.abs() > 1e-6 {
                         0.1
                     } else if formulation == Formulation::Segment {
-                        // Of whole outsides the side walls take a little part as soon as they are not quite upright.
+                        // Of whole outsides the side walls take a little part as soon as they are not quite
+                        // upright.
                         0.01
                     } else {
                         1e-5
@@ -106,7 +108,8 @@ fn on_a_corner(x: f64, velocity: [f64; 2]) -> Model {
 
 #[test]
 fn what_leaves_a_face_at_a_sharp_edge_gives_its_energy_back() {
-    // A corner pressed into a named bottom, nodes of which slide over the edge; before faces fell off at their ends these drifts were 2e-2, 1e-2, 3e-3, 2e-2.
+    // A corner pressed into a named bottom, nodes of which slide over the edge; before faces fell off at
+    // their ends these drifts were 2e-2, 1e-2, 3e-3, 2e-2.
     for (x, velocity) in [(-0.0451, [-3.0, -20.0]), (-0.0449, [-3.0, -20.0]), (-0.0499, [0.0, -20.0]), (-0.0501, [0.0, -60.0])] {
         for friction in [None, Some(Friction { coefficient: 0.3, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY })] {
             let mut model = on_a_corner(x, velocity);

@@ -1,4 +1,5 @@
-//! Failure and erosion: what fails at its limit, where its energy and momentum go, and that contact sees the new surfaces at once.
+//! Failure and erosion: what fails at its limit, where its energy and momentum go, and that contact sees the
+//! new surfaces at once.
 
 use crate::bodies::*;
 use crate::self_contact::all;
@@ -69,7 +70,8 @@ fn a_bar_is_torn_at_the_strain_of_its_middle_and_both_ends_fly_on() {
 
 #[test]
 fn elastic_energy_of_what_fails_is_booked_to_the_last_digits() {
-    // The drift of the bar that holds is that of the trapezoidal rule; a bar that breaks has no more, though much more energy goes with its elements.
+    // The drift of the bar that holds is that of the trapezoidal rule; a bar that breaks has no more, though
+    // much more energy goes with its elements.
     let mut model = torn_bar(&[]);
     for part in &mut model.parts {
         part.velocity[0] *= 3e-4;

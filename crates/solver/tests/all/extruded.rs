@@ -1,4 +1,5 @@
-//! A body of hexahedra that is held in plane strain answers as the quadrilaterals that it was drawn out of: every law, also with an equation of state, by both ways through the kernels.
+//! A body of hexahedra that is held in plane strain answers as the quadrilaterals that it was drawn out of:
+//! every law, also with an equation of state, by both ways through the kernels.
 
 use crate::patches::{Body, Patch, Spread, lists, material, parameters, patch, solids};
 use embate_solver::block::BlockInput;

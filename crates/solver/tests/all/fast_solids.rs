@@ -41,7 +41,8 @@ fn bars_that_are_thrown_at_each_other_as_fast_as_their_waves_hold() {
             let place = format!("{across} across at {share}: {summary:?}");
             assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.ledger_residual < 1e-12, "{place}");
             assert!(summary.energy_drift < 0.02, "{place}");
-            // Where they cross the one above is still above, however squeezed; their ends fly on and bend them.
+            // Where they cross the one above is still above, however squeezed; their ends fly on and bend
+            // them.
             let start = simulation(&model).frame().positions::<3>().to_vec();
             let now = simulation_at_end.frame().positions::<3>().to_vec();
             let mean = |nodes: std::ops::Range<usize>| {

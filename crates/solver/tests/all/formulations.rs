@@ -1,4 +1,5 @@
-//! Every formulation with every law: momentum, energy, closed forms, objectivity; penalties from every source; ties that hold and break.
+//! Every formulation with every law: momentum, energy, closed forms, objectivity; penalties from every
+//! source; ties that hold and break.
 
 use crate::bodies::*;
 use crate::contact::scenes;
@@ -44,7 +45,8 @@ fn momentum_is_kept_and_the_books_close_with_every_law_and_formulation() {
                     assert!(summary.momentum_drift_angular.unwrap() <= 1e-12, "{what}: {summary:?}");
                     assert!(summary.ledger_residual <= 1e-12, "{what}: {summary:?}");
                     assert!(summary.energy_drift <= 0.01, "{what}: {summary:?}");
-                    // A corner of the other side goes in between the nodes of a single pass, and between disks.
+                    // A corner of the other side goes in between the nodes of a single pass, and between
+                    // disks.
                     let is_open = matches!(formulation, Formulation::SinglePass { .. } | Formulation::Pinball);
                     let most = if is_open { 1.0 } else { 0.25 };
                     assert!(summary.penetration_max < most * segment, "{what}: {summary:?}");
@@ -74,18 +76,21 @@ fn springs_as_stiff_as_one_likes_are_solved_and_the_books_close() {
                 summary.energy_drift
             };
             let drifts = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5].map(drift);
-            // Beyond these up to a third of the energy drifts in some scenes although the forces are solved: only the solution and the books are asserted there.
+            // Beyond these up to a third of the energy drifts in some scenes although the forces are solved:
+            // only the solution and the books are asserted there.
             let kept = if formulation == Formulation::DoublePass { 5 } else { 2 };
             assert!(drifts[..kept].iter().all(|&drift| drift <= 0.05), "{formulation:?} {name}: {drifts:?}");
             if formulation == Formulation::DoublePass && name == "corner in a notch" {
-                // Where springs went from face to face as if nothing had been stored, 82 % were lost at 1e3 and an element was turned inside out at 1e5.
+                // Where springs went from face to face as if nothing had been stored, 82 % were lost at 1e3
+                // and an element was turned inside out at 1e5.
                 assert!(drifts[2..5].iter().all(|&drift| drift <= 1e-3), "{drifts:?}");
             }
         }
     }
 }
 
-/// Two equal bars, 50 elements of 2 mm each, that meet at 20 m/s; mean force and gap on the plateau, fraction of the closed form, and the model's force.
+/// Two equal bars, 50 elements of 2 mm each, that meet at 20 m/s; mean force and gap on the plateau, fraction
+/// of the closed form, and the model's force.
 fn bars(formulation: Formulation, law: ContactLaw) -> (Vec<f64>, Vec<f64>, Simulation, f64) {
     let (young, density, length, height) = (1e9, 1000.0, 0.1, 0.02);
     let c = f64::sqrt(young / density);
@@ -141,7 +146,8 @@ fn penalties_from_every_source_are_as_stiff_as_their_formulas() {
                 PenaltySource::TimeStep => 0.1 * 0.5 * density * height / simulation.time_step().powi(2),
             };
             let (found, right) = (mean(&depths) / mean(&forces), pressure / (2.0 * kappa));
-            // Pinballs of such flat elements are short: their length is that of the element's height, ten disks in a row make the same.
+            // Pinballs of such flat elements are short: their length is that of the element's height, ten
+            // disks in a row make the same.
             assert!((found / right - 1.0).abs() < 0.02, "{formulation:?} {source:?}: {found} {right}");
         }
     }
@@ -217,7 +223,8 @@ fn a_block_that_slides_is_braked_by_the_coefficient_times_what_presses() {
 
 #[test]
 fn a_soft_layer_takes_the_energy_that_its_table_says() {
-    // A stiff block, thrown on a stiff heavy plate with a layer: ∫ p dg from the edge of the table to the greatest depth is the kinetic energy per area.
+    // A stiff block, thrown on a stiff heavy plate with a layer: ∫ p dg from the edge of the table to the
+    // greatest depth is the kinetic energy per area.
     let (speed, density, height) = (2.0, 1000.0, 0.05);
     for formulation in [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }, Formulation::Segment] {
         let mut model = slender(6e-3, 1e11, density);
@@ -271,7 +278,8 @@ fn ties_hold_up_to_their_strength_and_break_beyond_it() {
                 assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 0.01, "{summary:?}");
                 (history.last("right.vx").hypot(history.last("right.vy")), summary.warnings)
             };
-            // Before the wave is back from the free ends (2 L / c = 0.2 ms) the bars have lost the part of their momentum that the tie pulls.
+            // Before the wave is back from the free ends (2 L / c = 0.2 ms) the bars have lost the part of
+            // their momentum that the tie pulls.
             let (speed, warnings) = held(f64::INFINITY);
             assert!((speed - 5.0).abs() < 0.4 && warnings.is_empty(), "{speed} {warnings:?}");
             let (speed, warnings) = held(0.5 * traction);
@@ -314,8 +322,9 @@ fn ties_that_bind_nothing_or_a_node_twice_are_told() {
     assert!(told.contains("contact[1].tied") && told.contains("tied already by contact \"glue\"") && told.contains("node at ("), "{told}");
 }
 
-/// V-1 of the contact patch test (Taylor and Papadopoulos 1991; data of Crisfield 2000): two blocks 1 m x 0.5 m, three rows of elements each, pressed together by 10 mm, brought to rest by
-/// damping; turned by an angle as a whole. Largest |σ/σ_mean − 1| across the interface and |σ_other/σ_mean| of all elements.
+/// V-1 of the contact patch test (Taylor and Papadopoulos 1991; data of Crisfield 2000): two blocks 1 m x
+/// 0.5 m, three rows of elements each, pressed together by 10 mm, brought to rest by damping; turned by an
+/// angle as a whole. Largest |σ/σ_mean − 1| across the interface and |σ_other/σ_mean| of all elements.
 fn patch_error(formulation: Formulation, penalty: Penalty, meshes: [usize; 2], angle: f64) -> f64 {
     let [lower, upper] = meshes;
     let (sin, cos) = f64::sin_cos(angle);
@@ -405,7 +414,8 @@ fn a_body_alone_feels_itself_in_no_formulation() {
                 model.contacts[0].formulation = formulation;
                 model.contacts[0].interface.thickness = thickness;
                 let (simulation, history) = run(&model);
-                // A surface that keeps a distance from itself may come nearer to itself than half of what it had.
+                // A surface that keeps a distance from itself may come nearer to itself than half of what it
+                // had.
                 let limit = if thickness > 0.0 { 1e-3 * simulation.ledger().largest } else { 0.0 };
                 assert!(
                     history.largest("energy.contact") <= limit,

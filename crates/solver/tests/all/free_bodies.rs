@@ -1,4 +1,5 @@
-//! Whole models without contact against closed forms: free fall, driven and spinning bars, waves, energy, equal bits for any threads.
+//! Whole models without contact against closed forms: free fall, driven and spinning bars, waves, energy,
+//! equal bits for any threads.
 
 use crate::patches::{DENSITY, every_pair, material, modulus_along_x, nodes_of, solids, stay_elastic};
 use embate_lanes::Level;
@@ -35,7 +36,8 @@ fn bar(element: &str, law: &str, size: [f64; 2], elements: [usize; 2], end: f64)
     }
 }
 
-/// One part for every element of a bar, each with the velocity that `velocity` gives its centre; neighbours share nodes.
+/// One part for every element of a bar, each with the velocity that `velocity` gives its centre; neighbours
+/// share nodes.
 fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Model {
     let [nx, ny] = elements;
     let place = |i: f64, j: f64| [size[0] * (i / nx as f64 - 0.5), size[1] * (j / ny as f64 - 0.5)];
@@ -164,7 +166,8 @@ fn time_zero_shows_the_initial_velocity_and_parts_share_the_kinetic_energy() {
 
 #[test]
 fn a_spinning_bar_has_the_stress_of_its_spin_and_keeps_its_momenta() {
-    // σ_max = ρ ω² L² / 8 in the middle of a slender bar; it swings about this after its sudden start, so the mean over whole swings is taken.
+    // σ_max = ρ ω² L² / 8 in the middle of a slender bar; it swings about this after its sudden start, so the
+    // mean over whole swings is taken.
     const LENGTH: f64 = 2.0;
     const SPIN: f64 = 1.0;
     let mut model = bar_of_parts("elastic", [LENGTH, 0.1], [40, 2], 8.0, |[x, y]| [-SPIN * y, SPIN * x]);
@@ -215,7 +218,8 @@ fn a_spinning_bar_has_the_stress_of_its_spin_and_keeps_its_momenta() {
 
 #[test]
 fn a_pressure_wave_runs_with_the_speed_of_sound() {
-    // c = √((K + 4µ/3)/ρ) between guides that keep the width; half of the end's velocity passes with the front.
+    // c = √((K + 4µ/3)/ρ) between guides that keep the width; half of the end's velocity passes with the
+    // front.
     const SPEED: f64 = 0.01;
     every_bar(|element, law| {
         let mut model = bar(element, law, [10.0, 0.05], [200, 1], 0.4);
@@ -244,8 +248,9 @@ fn a_pressure_wave_runs_with_the_speed_of_sound() {
 
 #[test]
 fn waves_are_as_slow_as_their_mesh_and_step_make_them() {
-    // Between guides and fixed ends the mode sin kx of a row of elements of length h is one of a chain of masses and springs: after n steps by central
-    // differences its displacement is Δt V sin(nθ) / sin θ with sin(θ/2) = (c Δt / h) sin(kh/2), for long waves and for those of two elements.
+    // Between guides and fixed ends the mode sin kx of a row of elements of length h is one of a chain of
+    // masses and springs: after n steps by central differences its displacement is Δt V sin(nθ) / sin θ with
+    // sin(θ/2) = (c Δt / h) sin(kh/2), for long waves and for those of two elements.
     const ELEMENTS: usize = 16;
     const SIZE: f64 = 0.05;
     const SPEED: f64 = 1e-6;
@@ -278,7 +283,8 @@ fn waves_are_as_slow_as_their_mesh_and_step_make_them() {
             let displacement = field(&simulation, "displacement");
             for (u, [x, _]) in displacement.chunks_exact(2).zip(start) {
                 let expected = dt * SPEED * (steps * theta).sin() / theta.sin() * (k * (x + 0.5 * length)).sin();
-                // Faster motion is not linear, slower motion is lost in the digits of the positions: 1e-6 both.
+                // Faster motion is not linear, slower motion is lost in the digits of the positions: 1e-6
+                // both.
                 let error = (u[0] - expected) / (dt * SPEED / theta.sin());
                 assert!(error.abs() < 1e-5, "{element}, mode {mode}, x = {x}: {error}");
             }

@@ -1,4 +1,5 @@
-//! Friction, contact damping and multipliers through the public face: momentum, energy, work that is lost, and where it shows up.
+//! Friction, contact damping and multipliers through the public face: momentum, energy, work that is lost,
+//! and where it shows up.
 
 use crate::bodies::*;
 use embate_solver::contact::node_segment::ends;
@@ -27,7 +28,8 @@ fn history_end(simulation: &embate_solver::simulation::Simulation, column: &str)
 
 #[test]
 fn the_slip_rate_does_not_see_rotation_of_both_surfaces_together() {
-    // A node above and below a segment, beyond its end too; every point moves as in a rigid rotation about some centre.
+    // A node above and below a segment, beyond its end too; every point moves as in a rigid rotation about
+    // some centre.
     let cell: [u32; 3] = [1, 2, 3];
     let surface = Surface::<2>::outside([CellKind::Triangle.cell(&cell)]).unwrap();
     let target = Target { surface, mirrors: vec![] };
@@ -66,7 +68,8 @@ fn friction_keeps_both_momenta_and_what_it_takes_is_in_the_ledger() {
             let stores = simulation.ledger().stores;
             assert!(stores.friction > 0.02 * stores.total(), "{formulation:?} {law:?}: friction {}", stores.friction);
             assert!(stores.contact_damping == 0.0 && stores.contact.abs() < 1e-3 * stores.total());
-            // The floor is dragged along, the block is held back: the impulses' ratio is at most µ, but for the tilt of the dented floor.
+            // The floor is dragged along, the block is held back: the impulses' ratio is at most µ, but for
+            // the tilt of the dented floor.
             let (vx, vy) = (history_end(&simulation, "floor.vx"), history_end(&simulation, "floor.vy"));
             assert!(vx > 0.0 && vx <= 0.302 * -vy, "{formulation:?} {law:?}: {vx} {vy}");
             assert!(vx > 0.25 * -vy, "{formulation:?} {law:?}: it slides nearly all the time, {vx} {vy}");
@@ -122,7 +125,8 @@ fn a_multiplier_holds_the_gap_at_round_off_and_loses_only_in_impacts() {
     let mut losses = vec![];
     for refine in [1, 4] {
         let mut model = model(3e-4);
-        // No lateral strain: ends that bulge are curved, and there the gap is zero to second order of the step only.
+        // No lateral strain: ends that bulge are curved, and there the gap is zero to second order of the
+        // step only.
         for material in model.materials.values_mut() {
             material.parameters.insert("poisson".into(), 0.0);
         }

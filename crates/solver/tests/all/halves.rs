@@ -1,4 +1,5 @@
-//! Whole models of space against their halves and quarters: what symmetry planes cut off, in nodes, edges and images, moves as the whole does.
+//! Whole models of space against their halves and quarters: what symmetry planes cut off, in nodes, edges and
+//! images, moves as the whole does.
 
 use crate::bodies::*;
 use crate::edge_edge::{Block, DEPTH, HALF, WIDTH, meet};
@@ -16,7 +17,8 @@ fn plane(model: &mut Model, point: Vector, normal: Vector) {
     model.symmetries.push(Symmetry { point, normal, ..Symmetry::default() });
 }
 
-/// What the columns of two runs, step by step, differ by, relative to the largest one; `count` times the part is the whole.
+/// What the columns of two runs, step by step, differ by, relative to the largest one; `count` times the part
+/// is the whole.
 fn is_so_many_times(whole: &Model, part: &Model, count: f64, tolerance: f64, case: &str) {
     let [whole, part] = [whole, part].map(every_step);
     let most = ["energy.kinetic", "energy.internal"].into_iter().flat_map(|column| whole.column(column)).fold(0.0, f64::max);
@@ -32,7 +34,8 @@ fn is_so_many_times(whole: &Model, part: &Model, count: f64, tolerance: f64, cas
     assert!(worst < tolerance, "{case}: {worst}");
 }
 
-/// How far the nodes of a part of a model are at the end from those of the whole which were where they were at the start, m.
+/// How far the nodes of a part of a model are at the end from those of the whole which were where they were
+/// at the start, m.
 fn apart(whole: &Simulation, part: &Simulation, starts: [Vec<Vector>; 2]) -> f64 {
     let distance = |x: Vector, y: Vector| (0..3).map(|d| (x[d] - y[d]).powi(2)).sum::<f64>().sqrt();
     let [all, one] = [whole, part].map(|simulation| simulation.frame().positions::<3>().to_vec());
@@ -67,7 +70,8 @@ fn compare(whole: &Model, part: &Model, count: f64, [way, energy]: [f64; 2], cas
     both
 }
 
-/// A small body beside what moves, on the planes x = 0 and, in a quarter, y = 0: without a node on it a plane is none.
+/// A small body beside what moves, on the planes x = 0 and, in a quarter, y = 0: without a node on it a plane
+/// is none.
 fn anchor(model: &mut Model, [x, y]: [bool; 2], size: f64, place: Vector) {
     let half = |is_cut: bool| if is_cut { [0.5 * size, 0.25 * size] } else { [size, 0.0] };
     let ([along, dx], [across, dy]) = (half(x), half(y));
@@ -126,7 +130,8 @@ fn rounded(x: Vector) -> Vector {
     x.map(|c| c * by)
 }
 
-/// A ball between two slabs that close on it, whole or cut by x = 0 and y = 0: all in cells of the cube from `low` to 1 along x and y.
+/// A ball between two slabs that close on it, whole or cut by x = 0 and y = 0: all in cells of the cube from
+/// `low` to 1 along x and y.
 fn squeezed_ball(low: f64, interface: Interface) -> Model {
     let mut model = model(6e-4);
     model.run.time_step = Some(2.5e-6);
@@ -144,7 +149,8 @@ fn squeezed_ball(low: f64, interface: Interface) -> Model {
         let cells = if low < 0.0 { 6 } else { 3 };
         add(name, [size, size, 0.5], [cells, cells, 2], [middle, middle, z], velocity, &|[x, y, z]| [2.0 * x, 2.0 * y, z]);
     }
-    // Slabs that stay flat, and the ball's nodes alone: on the planes nodes lie over edges of the other body, and of two facets that lean there rounding would say which is the nearer one.
+    // Slabs that stay flat, and the ball's nodes alone: on the planes nodes lie over edges of the other body,
+    // and of two facets that lean there rounding would say which is the nearer one.
     for (slab, velocity) in [("upper", -8.0), ("lower", 6.0)] {
         let held = Some(Drive::from(0.0));
         stiffen(&mut model, slab, Motion { velocity: [held.clone(), held.clone(), Some(Drive::from(velocity))], spin: held });
@@ -162,7 +168,8 @@ fn squeezed_ball(low: f64, interface: Interface) -> Model {
 
 #[test]
 fn a_quarter_of_a_ball_between_slabs_does_what_the_whole_does() {
-    // Between soft layers the whole ball, which nothing holds, can tip: what rounding makes of that grows tenfold in 0.1 ms, from 1e-14 m at 0.2 ms on.
+    // Between soft layers the whole ball, which nothing holds, can tip: what rounding makes of that grows
+    // tenfold in 0.1 ms, from 1e-14 m at 0.2 ms on.
     for (interface, way) in [(Interface::default(), 1e-12), (rough(0.3), 1e-12), (layer(), 1e-11)] {
         let case = format!("{:?} {}", interface.law, interface.friction.is_some());
         let [whole, part] = compare(&squeezed_ball(-1.0, interface.clone()), &squeezed_ball(0.0, interface), 4.0, [way, 1e-9], &case);
@@ -182,7 +189,8 @@ fn metal(fails: bool) -> Material {
     }
 }
 
-/// Two bars that fly against each other, or one against its image in x = 0; held aside by four planes, which makes them straight.
+/// Two bars that fly against each other, or one against its image in x = 0; held aside by four planes, which
+/// makes them straight.
 fn bars(is_half: bool, interface: Interface, fails: bool) -> Model {
     let mut model = model(1.2e-5);
     model.run.time_step = Some(1e-7);
@@ -229,7 +237,8 @@ fn a_bar_meets_its_image_as_two_bars_meet_each_other_whatever_the_law_and_whethe
     }
 }
 
-/// A block that flies into the corner of two planes, without the row of elements at the corner, or all four of them.
+/// A block that flies into the corner of two planes, without the row of elements at the corner, or all four
+/// of them.
 fn into_the_corner(is_quarter: bool, is_rigid: bool, interface: Interface) -> Model {
     let mut model = slender(2.5e-3, 1e9, 1e3);
     model.run.time_step = Some(1e-5);
@@ -277,8 +286,9 @@ fn into_the_corner(is_quarter: bool, is_rigid: bool, interface: Interface) -> Mo
 
 #[test]
 fn a_block_meets_both_images_in_a_corner_of_two_planes_as_four_blocks_meet_each_other() {
-    // Faces that stay flat: what is opposite is just as far as the image. Where waves bend them outward, rounding says by which of four facets a node goes out of the other body: then the
-    // whole is no more symmetric, and about the same.
+    // Faces that stay flat: what is opposite is just as far as the image. Where waves bend them outward,
+    // rounding says by which of four facets a node goes out of the other body: then the whole is no more
+    // symmetric, and about the same.
     for (is_rigid, tolerance) in [(true, 1e-12), (false, 1e-2)] {
         for interface in [Interface::default(), Penalty::Pressure(1e12).into(), layer()] {
             let case = format!("{is_rigid} {:?}", interface.law);

@@ -107,7 +107,8 @@ fn work_less_dissipation_is_the_elastic_energy_for_any_step() {
     with_every_hardening(0.0, &mut Energy(1.0, 1e-11));
 }
 
-/// Shear back and forth in steps of any size: the flow stress at the end of each is met to twice the tolerance of the return.
+/// Shear back and forth in steps of any size: the flow stress at the end of each is met to twice the
+/// tolerance of the return.
 struct Return;
 impl Check for Return {
     fn check<M: Law>(&mut self, curve: &dyn Fn(f64) -> f64, mut point: Point<M>, plastic: &dyn Fn(&Point<M>) -> f64) {
@@ -140,7 +141,8 @@ fn the_flow_stress_is_met_to_the_tolerance_after_steps_of_any_size() {
     with_every_hardening(0.0, &mut Return);
 }
 
-/// Steady shear: q = √3 τ = σ_y R(rate) once the flow is steady, and at every step the equation of the return.
+/// Steady shear: q = √3 τ = σ_y R(rate) once the flow is steady, and at every step the equation of the
+/// return.
 struct Rates;
 impl Check for Rates {
     fn check<M: Law>(&mut self, curve: &dyn Fn(f64) -> f64, point: Point<M>, plastic: &dyn Fn(&Point<M>) -> f64) {
@@ -187,7 +189,8 @@ fn a_fast_bar_is_stronger_by_the_factor_of_its_rate() {
 
 #[test]
 fn work_less_dissipation_is_the_elastic_energy_with_rates_too() {
-    // Where the load turns within a step and the rate falls, the mean stress may oppose the flow; a dissipation of zero is told then.
+    // Where the load turns within a step and the rate falls, the mean stress may oppose the flow; a
+    // dissipation of zero is told then.
     struct Slow;
     impl Check for Slow {
         fn check<M: Law>(&mut self, curve: &dyn Fn(f64) -> f64, point: Point<M>, plastic: &dyn Fn(&Point<M>) -> f64) {

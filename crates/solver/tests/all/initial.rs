@@ -1,4 +1,5 @@
-//! Bodies that are inside each other at the start: told with places, or their gap counts as zero, or they are moved apart without stress.
+//! Bodies that are inside each other at the start: told with places, or their gap counts as zero, or they are
+//! moved apart without stress.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
@@ -235,7 +236,8 @@ fn bodies_are_pushed_out_of_obstacles_or_left_in_peace() {
     }
 }
 
-/// A bush in a ring, polygons of 120 and 148 sides with one radius: nodes of each are behind chords of the other. Of the ring a sector.
+/// A bush in a ring, polygons of 120 and 148 sides with one radius: nodes of each are behind chords of the
+/// other. Of the ring a sector.
 fn press_fit(sides: bool, to: f64, radius: f64) -> Model {
     let ring = |inner: f64, outer: f64, around: usize| {
         Shape::Ring(Ring { centre: [0.0, 0.0], inner, outer, from: 0.0, to, elements: [2, around], ..Ring::default() })
@@ -318,7 +320,8 @@ fn solids_that_overlap_are_told_ignored_or_pushed_out_without_stress() {
         // Moved by less than the depth, and nothing is inside any more.
         let [ignored, pushed] = [InitialPenetration::Ignore, InitialPenetration::PushOut].map(|what| {
             let simulation = to_end(&solids_in_each_other(depth, off, what));
-            // Nodes are pushed out; what edges still cut off is no deeper than it was, and nothing presses there.
+            // Nodes are pushed out; what edges still cut off is no deeper than it was, and nothing presses
+            // there.
             let left = if what == InitialPenetration::Ignore { 1e-9 } else { depth };
             assert!(simulation.summary().penetration_max < left, "{depth} {off:?} {what:?}: {}", simulation.summary().penetration_max);
             assert!(value(&simulation, "energy.kinetic") < 1e-12);

@@ -1,4 +1,5 @@
-//! Forces, pressures, centrifugal force, boundaries that reflect nothing, and joined nodes against closed forms and against models that need none of them.
+//! Forces, pressures, centrifugal force, boundaries that reflect nothing, and joined nodes against closed
+//! forms and against models that need none of them.
 
 use crate::bodies::*;
 use embate_solver::model::{
@@ -41,7 +42,8 @@ fn moved(model: &Model) -> (Simulation, Paths) {
     (simulation, pairs)
 }
 
-/// Largest distance between where nodes of `some` end and where those of `all` that began at the same places do.
+/// Largest distance between where nodes of `some` end and where those of `all` that began at the same places
+/// do.
 fn farthest(some: &[([f64; 2], [f64; 2])], all: &[([f64; 2], [f64; 2])]) -> f64 {
     let away = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
     some.iter().fold(0.0, |worst: f64, (start, end)| {
@@ -189,7 +191,8 @@ fn bodies_of_revolution_feel_pressure_and_spin_all_around() {
     assert!(faults(&ring)[0].contains("turns about its axis"), "{:?}", faults(&ring));
 }
 
-/// A bar along `angle`, whose left end gets a pulse, and whose right end reflects nothing: energy that has come and that is left when the pulse has gone.
+/// A bar along `angle`, whose left end gets a pulse, and whose right end reflects nothing: energy that has
+/// come and that is left when the pulse has gone.
 fn bar(angle: f64, height: f64, poisson: f64, shear: bool) -> (Simulation, f64, f64) {
     let (s, c) = angle.sin_cos();
     let turn = |[x, y]: [f64; 2]| [c * x - s * y, s * x + c * y];
@@ -332,7 +335,8 @@ fn one_period_moves_like_two() {
 
 #[test]
 fn a_quarter_moves_like_the_whole_that_spins() {
-    // A square that spins about its centre under pressure; its quarter with the tip in the centre; and a ring with its sector.
+    // A square that spins about its centre under pressure; its quarter with the tip in the centre; and a ring
+    // with its sector.
     let spin = 800.0;
     let flying = |model: &mut Model, centre: [f64; 2]| {
         let part = model.parts.last_mut().unwrap();

@@ -1,5 +1,6 @@
-//! Elements of space do not lock: beams of one element through the thickness, Cook's membrane as a slab, a pressed block that can hardly change its volume; by the tangent stiffness at rest,
-//! against closed forms and the elements of the plane. The slab's frame is that of `nodal_pressure.rs`.
+//! Elements of space do not lock: beams of one element through the thickness, Cook's membrane as a slab, a
+//! pressed block that can hardly change its volume; by the tangent stiffness at rest, against closed forms
+//! and the elements of the plane. The slab's frame is that of `nodal_pressure.rs`.
 
 use crate::nodal_pressure::{deflection, membrane, solve};
 use crate::patches::{Body, Patch, Spread, YOUNG, material, nodes_of, stiffness};
@@ -30,7 +31,8 @@ fn cut(mut patch: Patch<3>, element: &str) -> Patch<3> {
     patch
 }
 
-/// Displacements under `load(position)` (a force on each node) where only what `is_free(position, direction)` moves.
+/// Displacements under `load(position)` (a force on each node) where only what `is_free(position, direction)`
+/// moves.
 fn displaced(
     element: &str,
     law: &str,
@@ -65,7 +67,8 @@ fn bricks([along, across, through]: [usize; 3], [length, width, height]: [f64; 3
     slab(&plane, through, height / through as f64)
 }
 
-/// Energy of a beam of one element through, bent to a curvature, over that of the closed form; `free`: its sides curve the other way.
+/// Energy of a beam of one element through, bent to a curvature, over that of the closed form; `free`: its
+/// sides curve the other way.
 fn bent(element: &str, poisson: f64, size: [f64; 3], along: usize, free: bool) -> f64 {
     const CURVATURE: f64 = 1e-6;
     let (material, beam) = (material("elastic", poisson), bricks([along, 1, 1], size));
@@ -97,7 +100,8 @@ fn a_beam_of_one_brick_through_bends_as_beam_theory_says_with_free_and_with_held
 
 #[test]
 fn twisted_and_warped_bricks_cost_what_torsion_and_uniaxial_stress_do() {
-    // u_y = −θ x z, u_z = θ x y: shear strains θ z and θ y. u_x = w x' y' z' about the middle: ε_xx = w y' z'.
+    // u_y = −θ x z, u_z = θ x y: shear strains θ z and θ y. u_x = w x' y' z' about the middle: ε_xx = w y'
+    // z'.
     let size = [2.0, 1.0, 0.6];
     let energy = |to: &dyn Fn(Vector) -> Vector| {
         let mut body = Body::of(ASSUMED, &material("elastic", 0.3), &bricks([1, 1, 1], size));
@@ -186,7 +190,8 @@ fn cooks_membrane_as_a_slab_does_not_lock_near_incompressibility() {
     }
 }
 
-/// Mean sinking of the pressed quarter of the top of a block whose sides are held across (half of each shown by symmetry).
+/// Mean sinking of the pressed quarter of the top of a block whose sides are held across (half of each shown
+/// by symmetry).
 fn pressed(element: &str, poisson: f64) -> f64 {
     const N: usize = 4;
     let is_free = |[x, y, z]: Vector, d: usize| match d {

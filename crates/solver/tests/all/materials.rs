@@ -1,4 +1,5 @@
-//! What every registered law promises by itself, in plane strain and in space: rest, objectivity, energy, dissipation, stiffness, equal bits.
+//! What every registered law promises by itself, in plane strain and in space: rest, objectivity, energy,
+//! dissipation, stiffness, equal bits.
 
 use crate::patches::{Spread, YOUNG, eigenvalues, lists, options, parameters, solids};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
@@ -226,7 +227,8 @@ fn small_energies<M: Law, T: Shown>() {
     let law = law::<M>(0.3);
     let mut numbers = Spread::new(23);
     for _ in 0..50 {
-        // W = ½ K tr² + µ dev:dev for strains so small that differences of numbers near one would be all noise.
+        // W = ½ K tr² + µ dev:dev for strains so small that differences of numbers near one would be all
+        // noise.
         let strain = random_symmetric::<T>(1e-9, &mut numbers);
         let f: Full = std::array::from_fn(|i| std::array::from_fn(|j| ONE[i][j] + strain[i][j]));
         let e = T::of(&strain);
@@ -238,7 +240,8 @@ fn small_energies<M: Law, T: Shown>() {
 }
 every_law!(the_energy_of_tiny_strains_does_not_drown_in_round_off, small_energies);
 
-/// Waves along many directions need at most `modulus`, and some of them nearly as much; `stress` is linear in the strain.
+/// Waves along many directions need at most `modulus`, and some of them nearly as much; `stress` is linear in
+/// the strain.
 fn bounds_every_wave<T: Shown>(name: &str, modulus: f64, stress: impl Fn(&Full) -> Full) {
     let mut numbers = Spread::new(28);
     let mut largest = 0.0f64;
@@ -304,7 +307,8 @@ fn initial_stiffness<M: Law, T: Shown>() {
 }
 every_law!(the_stiffness_at_rest_is_the_slope_of_the_stress_and_the_reported_one, initial_stiffness);
 
-/// Acoustic tensor: with F → (I + h a⊗n) F the traction on the unit face n (which this does not change) grows by h Q a.
+/// Acoustic tensor: with F → (I + h a⊗n) F the traction on the unit face n (which this does not change) grows
+/// by h Q a.
 fn acoustic_tensor<M: Law, T: Shown>(law: &M, f: &Full, n: [f64; 3]) -> Full {
     const H: f64 = 1e-5;
     let traction = |k: usize, h: f64| {

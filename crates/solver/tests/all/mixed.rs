@@ -8,7 +8,8 @@ use embate_solver::output::CellKind;
 use embate_solver::simulation::{Options, Simulation};
 use std::sync::Arc;
 
-/// A block of `n` by `n` squares of which every other one is cut into two triangles, in the order of the rows.
+/// A block of `n` by `n` squares of which every other one is cut into two triangles, in the order of the
+/// rows.
 fn cells(n: u32) -> Vec<Vec<u32>> {
     let mut cells = Vec::new();
     for (i, j) in (0..n).flat_map(|j| (0..n).map(move |i| (i, j))) {

@@ -1,4 +1,5 @@
-//! Whole models in space without contact: conservation, the plane as the limit of a slice, waves, loads against closed forms, rigid bodies, erosion, equal bits, states.
+//! Whole models in space without contact: conservation, the plane as the limit of a slice, waves, loads
+//! against closed forms, rigid bodies, erosion, equal bits, states.
 
 use crate::bodies::{every_step, goes_on_to, hash_of_equal_bits, simulation, to_end, value};
 use crate::patches::material;
@@ -25,7 +26,8 @@ fn cuboid(size: [f64; 3], elements: [usize; 3]) -> Shape {
     Shape::Cuboid(Cuboid { corner: [0.0; 3], size, elements, ..Cuboid::default() })
 }
 
-/// Cuts the hexahedra of a box into two wedges or six tetrahedra each; its sides become the groups `left` and `right`.
+/// Cuts the hexahedra of a box into two wedges or six tetrahedra each; its sides become the groups `left` and
+/// `right`.
 fn cut(model: &mut Model, nodes: usize) {
     let Shape::Cuboid(Cuboid { size, elements: [nx, ny, nz], .. }) = model.parts[0].shape else { panic!("a box") };
     let number = |i: usize, j: usize, k: usize| ((k * (ny + 1) + j) * (nx + 1) + i) as u32;
@@ -53,7 +55,8 @@ fn cut(model: &mut Model, nodes: usize) {
     }
     for (j, k) in (0..ny * nz).map(|facet| (facet % ny, facet / ny)) {
         for (side, i) in [0, nx].into_iter().enumerate() {
-            // As both cuts do it: along the diagonal of x = const from the lowest corner; of wedges the whole.
+            // As both cuts do it: along the diagonal of x = const from the lowest corner; of wedges the
+            // whole.
             let [a, b, c, d] = [number(i, j, k), number(i, j + 1, k), number(i, j + 1, k + 1), number(i, j, k + 1)];
             sides[side].extend(if nodes == 6 { vec![vec![a, b, c, d]] } else { vec![vec![a, b, c], vec![a, c, d]] });
         }

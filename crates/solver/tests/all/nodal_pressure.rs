@@ -1,9 +1,11 @@
-//! Triangles with averaged nodal pressure do not lock: Cook's membrane near incompressibility, by the tangent stiffness at rest.
+//! Triangles with averaged nodal pressure do not lock: Cook's membrane near incompressibility, by the tangent
+//! stiffness at rest.
 
 use crate::patches::*;
 use embate_solver::block::BlockInput;
 
-/// Cook's membrane: (0,0) (48,44) (48,60) (0,44), `n` × `n` cells, quadrilaterals cut by the shorter diagonal for triangles.
+/// Cook's membrane: (0,0) (48,44) (48,60) (0,44), `n` × `n` cells, quadrilaterals cut by the shorter diagonal
+/// for triangles.
 pub(crate) fn membrane(n: usize, corners: usize) -> Patch {
     let side = n + 1;
     let place = |k: usize| {

@@ -1,4 +1,5 @@
-//! Contact in space with friction hangs on no numbering: corners of elements, nodes, elements and parts in another order, or the whole model turned, give the same motion.
+//! Contact in space with friction hangs on no numbering: corners of elements, nodes, elements and parts in
+//! another order, or the whole model turned, give the same motion.
 
 use crate::bodies::*;
 use crate::edge_edge::{Block, DEPTH, HALF, WIDTH, meet};
@@ -130,7 +131,8 @@ fn moved(model: &Model) -> Model {
     remade(model, |mesh| mesh.positions.iter_mut().for_each(|x| (0..3).for_each(|d| x[d] += WAY[d])))
 }
 
-/// Places at the start and at the end of each node, taken back to where the model was, m; and the deepest penetration.
+/// Places at the start and at the end of each node, taken back to where the model was, m; and the deepest
+/// penetration.
 fn motion(model: &Model, back: impl Fn(&Vector) -> Vector) -> (Vec<[Vector; 2]>, f64) {
     let start = simulation(model).frame();
     let (simulation, history) = run(model);

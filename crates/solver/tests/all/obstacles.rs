@@ -1,4 +1,5 @@
-//! Obstacles: planes, circles and polylines that are fixed, driven or free; what goes through them, and what is behind them at the start.
+//! Obstacles: planes, circles and polylines that are fixed, driven or free; what goes through them, and what
+//! is behind them at the start.
 
 use crate::bodies::*;
 use embate_solver::model::{
@@ -110,7 +111,8 @@ fn a_free_circle_in_a_hollow_one_keeps_momenta_and_energy() {
 
 #[test]
 fn a_free_circle_without_friction_gets_no_spin() {
-    // Of a node that it meets with its outside or inside, and of segments that it meets with its edge; soft and stiff.
+    // Of a node that it meets with its outside or inside, and of segments that it meets with its edge; soft
+    // and stiff.
     for (radius, scale) in [(0.04, 1.0), (0.04, 1e3), (0.004, 1.0), (0.004, 100.0), (-0.12, 1.0), (-0.12, 100.0)] {
         let mut model = model(2e-3);
         model.run.energy_limit = 0.1;
@@ -161,7 +163,8 @@ fn a_polyline_has_convex_and_concave_corners() {
 
 #[test]
 fn the_end_of_a_plane_stops_a_segment_between_its_nodes() {
-    // A plate on edge under the middle of the only segment of a block: no node of the block comes near its plane. Fixed, and free with friction and a thickness.
+    // A plate on edge under the middle of the only segment of a block: no node of the block comes near its
+    // plane. Fixed, and free with friction and a thickness.
     let plate = ObstacleShape::Plane { point: [0.0, -0.101, 0.0], normal: [1.0, 0.0, 0.0], length: Some(0.2) };
     for (free, friction, thickness) in [(false, 0.0, 0.0), (true, 0.0, 0.0), (true, 0.3, 0.0), (false, 0.0, 5e-4)] {
         let mut model = model(3e-3);
@@ -248,11 +251,13 @@ fn a_free_polyline_keeps_both_momenta_and_moves_with_its_outline() {
 
 #[test]
 fn nothing_goes_through_a_thin_obstacle_at_any_speed() {
-    // A speck that moves by many times its size and the obstacle's per step; the step is that of its elements.
+    // A speck that moves by many times its size and the obstacle's per step; the step is that of its
+    // elements.
     let speck = |velocity: [f64; 2]| {
         let mut model = model(6e-6);
         add(&mut model, "speck", rectangle([-5e-4, -5e-4], [1e-3, 1e-3], [2, 2]), velocity);
-        // Stiff springs on a round pin, a third of its radius per step and more, do not close to the last digit.
+        // Stiff springs on a round pin, a third of its radius per step and more, do not close to the last
+        // digit.
         model.run.energy_limit = 0.15;
         // It is meant to come in by many of its elements.
         model.run.penetration_limit = Some(1.0);
@@ -281,7 +286,8 @@ fn nothing_goes_through_a_thin_obstacle_at_any_speed() {
                 simulation.summary().energy_drift
             );
         }
-        // Beside the plate and beside the pin there is nothing; ends of a plate are seen ahead by the way of a step.
+        // Beside the plate and beside the pin there is nothing; ends of a plate are seen ahead by the way of
+        // a step.
         let beside = 0.02 + speed * dt;
         for obstacle in [
             Obstacle {

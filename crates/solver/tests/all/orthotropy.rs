@@ -1,4 +1,5 @@
-//! Orthotropic elasticity against closed forms: pull along, across and aslant, known isotropy, rotation, parameters that are refused.
+//! Orthotropic elasticity against closed forms: pull along, across and aslant, known isotropy, rotation,
+//! parameters that are refused.
 
 use crate::patches::{Body, YOUNG, material, modulus_along_x, patch};
 use embate_solver::block::BlockInput;
@@ -22,7 +23,8 @@ fn ply(angle: f64) -> Material {
     ply
 }
 
-/// Compliance of a pull at an angle to axis 1: strains along, across and shear γ per stress. Jones, Mechanics of Composite Materials (1999), 2.6.
+/// Compliance of a pull at an angle to axis 1: strains along, across and shear γ per stress. Jones, Mechanics
+/// of Composite Materials (1999), 2.6.
 fn compliance(angle: f64) -> [f64; 3] {
     let (s, c) = angle.sin_cos();
     let [s11, s22, s12, s66] = [1.0 / YOUNGS[0], 1.0 / YOUNGS[1], -RATIOS[0] / YOUNGS[0], 1.0 / SHEARS[0]];

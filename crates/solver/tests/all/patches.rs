@@ -1,4 +1,5 @@
-//! What the contract tests are made on: numbers, materials for any registered law, patches for any registered element, and a block with its nodes.
+//! What the contract tests are made on: numbers, materials for any registered law, patches for any registered
+//! element, and a block with its nodes.
 
 use embate_lanes::{Level, Team};
 use embate_solver::block::{Block, BlockInput, Blocks, Motion, NO_NODE, Report, make};
@@ -37,8 +38,9 @@ fn last(name: &str) -> usize {
     name.bytes().last().map_or(0, |digit| usize::from(digit - b'1'))
 }
 
-/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by their range. What makes a law of another
-/// kind of it (dependence on the rate) is left out, `options` has it.
+/// A value for any parameter: known ones as above, stresses a small part of Young's modulus, the rest by
+/// their range. What makes a law of another kind of it (dependence on the rate) is left out, `options` has
+/// it.
 fn value(parameter: &Parameter, poisson: f64) -> f64 {
     match (parameter.name, parameter.range) {
         ("density", _) => DENSITY,
@@ -92,7 +94,8 @@ pub(crate) fn options(kind: &LawKind) -> Vec<Vec<(&'static str, f64)>> {
     all.into_iter().filter(|set| set.iter().all(|(name, _)| has(name))).collect()
 }
 
-/// Values for parameters that are lists: two ascending ones unless they must go together; curves begin at zero.
+/// Values for parameters that are lists: two ascending ones unless they must go together; curves begin at
+/// zero.
 fn list(parameter: &Parameter) -> Vec<f64> {
     match parameter.name {
         "plastic_strain" => vec![0.0, 0.1],
@@ -114,13 +117,14 @@ pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
 pub(crate) fn material(law: &str, poisson: f64) -> Material {
     let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
     let mut lists = lists(kind);
-    // What is told of bodies holds while they stand still: nothing may relax meanwhile. Laws by themselves are tested with short times.
+    // What is told of bodies holds while they stand still: nothing may relax meanwhile. Laws by themselves
+    // are tested with short times.
     lists.entry("relaxation_time".into()).and_modify(|times| times.fill(1e12));
     Material { law: law.into(), parameters: parameters(kind, poisson), lists, ..Material::default() }
 }
 
-/// Every law that stands by itself: a fluid has no pressure without an equation of state. With the environment variable `EMBATE_LAW` only the law of that
-/// name, for who writes it.
+/// Every law that stands by itself: a fluid has no pressure without an equation of state. With the
+/// environment variable `EMBATE_LAW` only the law of that name, for who writes it.
 pub(crate) fn solids() -> impl Iterator<Item = &'static LawKind> {
     let only = std::env::var("EMBATE_LAW").ok();
     assert!(only.as_ref().is_none_or(|only| LAWS.iter().any(|law| law.name == only)), "there is no law {only:?}");
@@ -139,8 +143,8 @@ pub(crate) fn stay_elastic(material: &mut Material) {
 /// One law of each family.
 const ONE_OF_EACH_FAMILY: [&str; 2] = ["elastic", "neo_hookean"];
 
-/// Calls `check(element, law)` for every element with a law of each family, and for every law in the first element: elements and laws meet only in what
-/// the contract between them says, so no other pair can fail.
+/// Calls `check(element, law)` for every element with a law of each family, and for every law in the first
+/// element: elements and laws meet only in what the contract between them says, so no other pair can fail.
 pub(crate) fn every_pair(check: impl FnMut(&'static str, &'static str)) {
     every_pair_of(ELEMENTS, check);
 }
@@ -200,7 +204,8 @@ fn convexity(x: &[[f64; 2]]) -> f64 {
     (0..n).map(corner).fold(f64::INFINITY, f64::min)
 }
 
-/// A random convex element: corners moved by up to `roughness` of its half size, stretched by up to `aspect`, sheared, turned.
+/// A random convex element: corners moved by up to `roughness` of its half size, stretched by up to `aspect`,
+/// sheared, turned.
 pub(crate) fn distorted(element: &str, roughness: f64, aspect: f64, numbers: &mut Spread) -> Vec<[f64; 2]> {
     let reference = reference_nodes(element);
     loop {
@@ -369,7 +374,8 @@ pub(crate) fn is_isotropic(law: &str) -> bool {
     with_law(law, Ask).unwrap()
 }
 
-/// Tangent stiffness K_ij = −∂f_i/∂x_j by central differences; `make_body` must give the same body every time.
+/// Tangent stiffness K_ij = −∂f_i/∂x_j by central differences; `make_body` must give the same body every
+/// time.
 pub(crate) fn stiffness<const D: usize>(make_body: impl Fn() -> Body<D>) -> Vec<Vec<f64>>
 where
     Dim<D>: Blocks<D>,

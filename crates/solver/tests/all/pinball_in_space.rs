@@ -1,4 +1,5 @@
-//! Pinballs between solids: balls in the elements. Conservation with every element, law and friction, closed forms, objectivity, every search, states, erosion, and what is inside at the start.
+//! Pinballs between solids: balls in the elements. Conservation with every element, law and friction, closed
+//! forms, objectivity, every search, states, erosion, and what is inside at the start.
 
 use crate::bodies::*;
 use embate_solver::contact::search::registry;
@@ -57,7 +58,8 @@ fn meet(model: &mut Model, named: bool, interface: Interface) {
     model.contacts.push(Contact { name: "hit".into(), partners, formulation: Formulation::Pinball, interface, ..Contact::default() });
 }
 
-/// Two boxes that hit each other obliquely and off their middles, all turned by an angle about the line x = y = z.
+/// Two boxes that hit each other obliquely and off their middles, all turned by an angle about the line
+/// x = y = z.
 fn oblique(element: &str, named: bool, interface: Interface, angle: f64) -> Model {
     let mut model = model(3e-3);
     let turn = move |v: Vector| rotated([1.0 / 3f64.sqrt(); 3], angle, v);
@@ -109,7 +111,8 @@ fn boxes_of_every_solid_hit_each_other_and_keep_both_momenta_and_the_energy() {
                 let (simulation, history) = run(&model);
                 is_sound(&simulation, 1e-2, &case);
                 assert!(history.largest("energy.contact") > 0.0 || history.largest("contact.force_z[hit]") != 0.0 || !named, "{case}");
-                // Between four balls of the blocks, 0.05 m wide, another one comes nearer by 29 % of that, with what the springs give way.
+                // Between four balls of the blocks, 0.05 m wide, another one comes nearer by 29 % of that,
+                // with what the springs give way.
                 let deepest = simulation.summary().penetration_max;
                 assert!(history.last("energy.contact") == 0.0 && deepest < 0.02 + 0.29 * 0.05, "{case}: they part again, {deepest}");
                 assert!(friction.is_none() || history.last("energy.friction") > 0.0, "{case}");
@@ -169,7 +172,8 @@ fn bars_of_solids_meet_with_the_force_of_the_closed_form() {
 
 #[test]
 fn a_model_that_is_turned_as_a_whole_gives_turned_results() {
-    // Nodes and elements of a turned model are numbered otherwise, and so which of two balls is the first: nothing hangs on that.
+    // Nodes and elements of a turned model are numbered otherwise, and so which of two balls is the first:
+    // nothing hangs on that.
     for friction in [None, Some(FRICTION)] {
         let interface = Interface { friction, damping: 0.1, ..Interface::default() };
         let [straight, turned] = [0.0, 0.7].map(|angle| {

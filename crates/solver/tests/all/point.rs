@@ -1,4 +1,5 @@
-//! A material point: a law driven by strains, or by one strain under uniaxial stress, with its work and its dissipation.
+//! A material point: a law driven by strains, or by one strain under uniaxial stress, with its work and its
+//! dissipation.
 
 use crate::patches::DENSITY;
 use embate_solver::material::{Kinematics, Law, Parameters};

@@ -1,4 +1,5 @@
-//! What a failed run knows of its failure: the culprit, and the way to the failure once more, which changes nothing.
+//! What a failed run knows of its failure: the culprit, and the way to the failure once more, which changes
+//! nothing.
 
 use crate::bodies::*;
 use embate_solver::error::Error;
@@ -22,7 +23,8 @@ impl Observer for Deaf {
     }
 }
 
-/// A block on a floor, into which a round punch is driven at a tenth of the speed of its waves, until an element has no volume left.
+/// A block on a floor, into which a round punch is driven at a tenth of the speed of its waves, until an
+/// element has no volume left.
 fn punched() -> Model {
     let (young, density) = (1e6, 1e3);
     let speed = 0.1 * f64::sqrt(young / density);

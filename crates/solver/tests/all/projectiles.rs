@@ -1,6 +1,8 @@
-//! Whole runs with fast bodies and thin plates: nothing passes, at more than ten thicknesses in a step, with the settings that a user gets.
+//! Whole runs with fast bodies and thin plates: nothing passes, at more than ten thicknesses in a step, with
+//! the settings that a user gets.
 //!
-//! The plates are heavy and soft: their waves are so slow that the projectile's elements set the step, thin as the plates are.
+//! The plates are heavy and soft: their waves are so slow that the projectile's elements set the step, thin
+//! as the plates are.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
@@ -34,7 +36,8 @@ fn shoot(model: &mut Model, corner: [f64; 2], size: [f64; 2], elements: [usize; 
     }
 }
 
-/// Runs to the end: more than ten thicknesses in a step at first, everybody on its own side at last, momentum and energy kept.
+/// Runs to the end: more than ten thicknesses in a step at first, everybody on its own side at last, momentum
+/// and energy kept.
 fn nobody_passes(model: &Model, thickness: f64, place: &str) {
     let plates = model.parts.len() - 1;
     let (simulation, history) = run(model);

@@ -1,4 +1,5 @@
-//! Local search, case by case, on a target alone: nearest features, corners, ends, thin bodies, and swept crossings against exact arithmetic.
+//! Local search, case by case, on a target alone: nearest features, corners, ends, thin bodies, and swept
+//! crossings against exact arithmetic.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_solver::contact::projection::node_segment::{Projection, Target, Vector};
@@ -218,7 +219,8 @@ fn a_node_is_followed_around_a_corner_to_the_outside() {
 
 #[test]
 fn a_corner_that_meets_a_corner_end_on_is_pushed_back() {
-    // The end of a bar of the same height comes in at the right end: its corner runs along the lower side, a round-off above or below.
+    // The end of a bar of the same height comes in at the right end: its corner runs along the lower side, a
+    // round-off above or below.
     let (target, points) = plate(4, 0.5);
     for offset in [0.0, 1e-17, -1e-17, 1e-9, -1e-9] {
         let (time, segment) = entry(&target, [4.01, offset], [3.99, offset], &points, &points).unwrap();
@@ -286,7 +288,8 @@ fn a_plate_that_moves_and_turns_over_a_node_finds_it() {
 
 #[test]
 fn a_node_that_goes_exactly_through_a_vertex_is_found() {
-    // Two segments that meet at any angle; the path goes through the shared vertex, from many directions and offsets.
+    // Two segments that meet at any angle; the path goes through the shared vertex, from many directions and
+    // offsets.
     for turn in [-0.9, -0.5, -1e-3, 0.0, 1e-9, 1e-3, 0.3, 0.5, 0.9] {
         for origin in [[0.0, 0.0], [0.1, 0.7], [1e3, -1e3], [1.0 / 3.0, 1e4 / 7.0]] {
             let at = |x: f64, y: f64| [origin[0] + x, origin[1] + y];
@@ -392,7 +395,8 @@ fn segments_without_length_and_values_that_are_no_numbers_do_no_harm() {
 
 #[test]
 fn gaps_are_continuous_around_corners() {
-    // A closed path around a block with a notch, close to its surface, inside and outside: the gap moves by no more than the node does.
+    // A closed path around a block with a notch, close to its surface, inside and outside: the gap moves by
+    // no more than the node does.
     let points = [[0.0, 0.0], [0.0, 2.0], [1.0, 2.0], [1.5, 1.2], [2.0, 2.0], [3.0, 2.0], [3.0, 0.0]];
     let target = chain(&points, true);
     for offset in [-0.11, -0.03, 0.02, 0.09] {
@@ -485,7 +489,8 @@ proptest! {
         let (old, new) = ([p[0], p[1]], [p[2], p[3]]);
         let target = chain(&old, false);
         let found = target.crossing(p[4], p[5], 0, &old, &new);
-        // f > 0 above the line, s along it; sampled, with the first change of sign from above to below within the segment.
+        // f > 0 above the line, s along it; sampled, with the first change of sign from above to below within
+        // the segment.
         let state = |t: f64| {
             let (a, b, x) = (at(t, old[0], new[0]), at(t, old[1], new[1]), at(t, p[4], p[5]));
             let (e, r) = ([b[0] - a[0], b[1] - a[1]], [x[0] - a[0], x[1] - a[1]]);

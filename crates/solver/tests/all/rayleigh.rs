@@ -1,4 +1,5 @@
-//! Damping in proportion to mass and stiffness: decay of modes, its work in the books, its stable step, and what it does not touch.
+//! Damping in proportion to mass and stiffness: decay of modes, its work in the books, its stable step, and
+//! what it does not touch.
 
 use crate::bodies::*;
 use crate::patches::{Body, Spread, frequency_squared, material, patch, reference_nodes, stiffness};
@@ -24,7 +25,8 @@ fn hold(model: &mut Model, on: &str, held: [bool; 2]) {
     model.constraints.push(Constraint { on: on.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
 }
 
-/// Elements of these lengths, each held on the left and free to swing along x on the right: ω² = 2 c²/L². The last one is a bar.
+/// Elements of these lengths, each held on the left and free to swing along x on the right: ω² = 2 c²/L². The
+/// last one is a bar.
 fn oscillators(lengths: &[f64], end: f64) -> Model {
     let mut model = slender(end, 1e9, 1e3);
     for (k, &length) in lengths.iter().enumerate() {
@@ -160,7 +162,8 @@ fn the_step_is_stable_up_to_its_bound_and_the_bound_of_a_bar_is_sharp() {
             assert!(energy(&velocities) <= start * 1.01, "{element} {beta}: {} of {start}", energy(&velocities));
         }
     }
-    // One free bar has the one frequency 2c/L: just below the bound it comes to rest, just above it flies apart.
+    // One free bar has the one frequency 2c/L: just below the bound it comes to rest, just above it flies
+    // apart.
     let material = material("elastic", 0.3);
     let nodes = [[0.0, 0.0], [1.0, 0.0]];
     for (factor, lives) in [(0.99, true), (1.01, false)] {

@@ -1,6 +1,8 @@
-//! A run that is stopped and goes on with its kept state is the run that was never stopped, to the last bit: for every entry of every registry, on any number of threads and instruction set.
+//! A run that is stopped and goes on with its kept state is the run that was never stopped, to the last bit:
+//! for every entry of every registry, on any number of threads and instruction set.
 //!
-//! With the environment variable `EMBATE_STOPS` every run of every other test here that goes through `bodies` is stopped and goes on several times, too (`bodies::run`).
+//! With the environment variable `EMBATE_STOPS` every run of every other test here that goes through `bodies`
+//! is stopped and goes on several times, too (`bodies::run`).
 
 use crate::bodies::*;
 use crate::contact::scenes;
@@ -111,7 +113,8 @@ fn other(number: usize) -> Options {
     Options { threads: 1 + number % 3, simd: Some(levels[number % levels.len()].name().to_string()) }
 }
 
-/// Holds runs that go on against one that was never stopped: `steps` steps of the model, stopped at some of them.
+/// Holds runs that go on against one that was never stopped: `steps` steps of the model, stopped at some of
+/// them.
 fn goes_on(what: &str, model: &Model, steps: u64) {
     let mut model = model.clone();
     model.run.max_steps = Some(steps);
@@ -144,7 +147,8 @@ fn goes_on(what: &str, model: &Model, steps: u64) {
     }
 }
 
-/// A block of some element and law that is driven and turns while it is squeezed between an obstacle and its inertia.
+/// A block of some element and law that is driven and turns while it is squeezed between an obstacle and its
+/// inertia.
 fn block(element: &str, material: Material, state: &str) -> Model {
     let mut model = model(1.0);
     let speed = (YOUNG / 2.0_f64).sqrt();

@@ -1,4 +1,5 @@
-//! Contact of bodies of revolution against closed forms: areas are those of the whole circumference, the axis included.
+//! Contact of bodies of revolution against closed forms: areas are those of the whole circumference, the axis
+//! included.
 //!
 //! Two equal rods end on, ν = 0: force ½ ρ c v π R² for 2L/c, with the same pressure on every node.
 
@@ -29,7 +30,8 @@ fn rods(formulation: Formulation, interface: Interface, across: [usize; 2], end:
     model
 }
 
-/// Contact force over the area of the end face on each of its nodes, first of the rod below, with `across` elements; Pa.
+/// Contact force over the area of the end face on each of its nodes, first of the rod below, with `across`
+/// elements; Pa.
 fn pressures(simulation: &Simulation, across: &[usize]) -> Vec<f64> {
     let frame = simulation.frame();
     let field = |name: &str| &frame.fields.iter().find(|field| field.kind.name == name).unwrap().values;
@@ -63,7 +65,8 @@ fn is_uniform(pressures: &[f64], what: &str) {
     assert!(pressures.iter().all(|p| (p / mean - 1.0).abs() < 1e-9), "{what}: {pressures:?}");
 }
 
-/// Laws with which a uniform gap is a uniform pressure: not a stiffness per node, which a node at the rim has whole.
+/// Laws with which a uniform gap is a uniform pressure: not a stiffness per node, which a node at the rim has
+/// whole.
 fn interfaces() -> Vec<(&'static str, Interface)> {
     let table = ContactLaw::PressureGap { gaps: vec![-1e-4, 0.0], pressures: vec![1e8, 0.0] };
     vec![
@@ -106,7 +109,8 @@ fn every_node_of_equal_meshes_has_the_same_pressure_and_the_axis_too() {
             is_uniform(&pressures(&simulation, &[4, 4]), &format!("{formulation:?} {name}"));
         }
     }
-    // At a plane a node at the rim has the length of the side wall as well: only a multiplier does not feel it.
+    // At a plane a node at the rim has the length of the side wall as well: only a multiplier does not feel
+    // it.
     for (name, interface) in interfaces().into_iter().filter(|(name, _)| *name == "multiplier") {
         let mut model = rods(Formulation::DoublePass, Interface::default(), [4, 4], 1.0);
         model.contacts.clear();

@@ -249,7 +249,8 @@ fn a_wheel_slides_down_a_slope_that_is_too_steep_for_its_friction() {
 
 #[test]
 fn a_wheel_that_slides_ends_up_rolling() {
-    // v0 / (1 + I/(M R²)): two thirds of a disk, one half of a thin ring; friction takes the fraction k / (1 + k) of the energy, a third or a half.
+    // v0 / (1 + I/(M R²)): two thirds of a disk, one half of a thin ring; friction takes the fraction k /
+    // (1 + k) of the energy, a third or a half.
     for inner in [0.02, 0.095] {
         let (v0, friction) = (1.0, 0.25);
         let (model, k) = wheel(inner, v0, 0.0, friction, 0.35);

@@ -1,4 +1,5 @@
-//! Which room of the library imports which: one that stands above in `lib.rs` imports none that stands below it, but for those that are listed here.
+//! Which room of the library imports which: one that stands above in `lib.rs` imports none that stands below
+//! it, but for those that are listed here.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -37,7 +38,8 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// What a text imports from the library by `crate::name` and `crate::{name, ...}`, without its comments and its tests.
+/// What a text imports from the library by `crate::name` and `crate::{name, ...}`, without its comments and
+/// its tests.
 fn imports(text: &str) -> BTreeSet<String> {
     let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
     let lines: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();

@@ -1,4 +1,5 @@
-//! Rubbers against closed forms: shear, biaxial tension of a sheet, known special cases, and parameters that are refused.
+//! Rubbers against closed forms: shear, biaxial tension of a sheet, known special cases, and parameters that
+//! are refused.
 
 use crate::patches::{Body, Spread, material, patch};
 use embate_solver::block::BlockInput;
@@ -82,7 +83,8 @@ fn mooney_rivlin_in_simple_shear_has_the_normal_stresses_of_rivlin() {
 
 #[test]
 fn ogden_in_pure_shear_has_the_stress_of_its_powers() {
-    // λ along x, 1/λ along y, nothing along z: σ_x − σ_y = Σ µ (λ^α − λ^−α), σ_x − σ_z = Σ µ (λ^α − 1); Treloar's rubber of Ogden 1972.
+    // λ along x, 1/λ along y, nothing along z: σ_x − σ_y = Σ µ (λ^α − λ^−α), σ_x − σ_z = Σ µ (λ^α − 1);
+    // Treloar's rubber of Ogden 1972.
     let (mu, alpha) = ([0.63e6, 0.0012e6, -0.01e6], [1.3, 5.0, -2.0]);
     let rubber = ogden(&mu, &alpha, 1e9);
     let sum = |f: &dyn Fn(f64) -> f64| mu.iter().zip(alpha).map(|(mu, alpha)| mu * f(alpha)).sum::<f64>();
@@ -113,7 +115,8 @@ fn yeoh_in_shear_stiffens_with_its_cubic() {
 
 #[test]
 fn arruda_boyce_stiffens_as_the_inverse_langevin_function_says() {
-    // σ_xy / γ = µ √N / 3 / λ_c · L⁻¹(λ_c / √N) with the chain stretch λ_c = √(Ī₁/3), √N = λ_m and µ = n k Θ; cut after five terms it is right up to half of λ_m.
+    // σ_xy / γ = µ √N / 3 / λ_c · L⁻¹(λ_c / √N) with the chain stretch λ_c = √(Ī₁/3), √N = λ_m and µ = n k Θ;
+    // cut after five terms it is right up to half of λ_m.
     let (shear, locking) = (0.8, 4.0f64);
     let rubber: ArrudaBoyce = law(&[("shear", shear), ("locking_stretch", locking), ("bulk", 100.0)], &[]);
     let langevin_inverse = |y: f64| {

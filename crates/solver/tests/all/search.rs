@@ -1,7 +1,9 @@
-//! What every global search promises, for whatever the registry holds, in the plane and in space: a superset of the true pairs and a subset of brute
-//! force's, sorted, each pair once, no facet with its own node, and the same result from a fresh object as from a used one.
+//! What every global search promises, for whatever the registry holds, in the plane and in space: a superset
+//! of the true pairs and a subset of brute force's, sorted, each pair once, no facet with its own node, and
+//! the same result from a fresh object as from a used one.
 //!
-//! True pairs come from distances of points and simplices at many times of the step, the ends and the times of coplanarity among them.
+//! True pairs come from distances of points and simplices at many times of the step, the ends and the times
+//! of coplanarity among them.
 
 use embate_solver::contact::search::{Pair, Query, registry};
 use proptest::prelude::*;
@@ -229,7 +231,8 @@ fn a_node_never_meets_its_own_facet_but_meets_its_neighbours() {
     check(&touching_squares(5));
     let wide = Scene { reach: 0.6, ..touching_squares(5) };
     check(&wide);
-    // The upper tip of the second square: not its own facets 4 and 5, but the two opposite and the near one of either neighbour.
+    // The upper tip of the second square: not its own facets 4 and 5, but the two opposite and the near one
+    // of either neighbour.
     let of_tip: Vec<_> = wide.pairs("spheres").iter().filter(|p| p.slave == 4).map(|p| p.facet).collect();
     assert_eq!(of_tip, [1, 6, 7, 8]);
 }
@@ -401,8 +404,8 @@ fn a_node_lost_in_space_makes_the_grid_neither_large_nor_slow() {
     let expected = scene.pairs("grid").len();
     scene.old[5] = [1e15, -1e14];
     scene.new[5] = [1e15, -1e14];
-    // The two long facets to the lost node, where coordinates round by metres, may meet every slave; the rest is as before. A quadratic search
-    // would not end here.
+    // The two long facets to the lost node, where coordinates round by metres, may meet every slave; the rest
+    // is as before. A quadratic search would not end here.
     let found = scene.pairs("grid").len();
     assert!(found.abs_diff(expected) <= 2 * scene.slaves.len(), "{found} {expected}");
 }
@@ -441,7 +444,8 @@ fn long_surfaces_that_wind_through_a_large_plane_are_found() {
 
 #[test]
 fn slanted_layers_meet_their_neighbours_only() {
-    // Ten layers at 1 in 4, a fifth of a segment apart, so that a box along the axes around a segment would reach through five or six.
+    // Ten layers at 1 in 4, a fifth of a segment apart, so that a box along the axes around a segment would
+    // reach through five or six.
     let (wide, layers) = (50_u32, 10_u32);
     let (sin, cos) = 0.25_f64.atan().sin_cos();
     let at = |i: u32| {

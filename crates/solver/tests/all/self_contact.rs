@@ -1,4 +1,5 @@
-//! Surfaces that meet themselves, and many bodies in one contact: nothing is felt where nothing touches, and nothing passes where something does.
+//! Surfaces that meet themselves, and many bodies in one contact: nothing is felt where nothing touches, and
+//! nothing passes where something does.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
@@ -303,7 +304,8 @@ fn a_half_ring_meets_its_image_as_the_whole_ring_meets_itself() {
         let ((whole, of_whole), (half, of_half)) = (run(&thick(&whole, thickness)), run(&thick(&half, thickness)));
         let top = |history: &History| history.column("top.y").into_iter().fold(f64::INFINITY, f64::min);
         let what = format!("{thickness}: {} {}; {} {}", top(&of_whole), top(&of_half), of_whole.last("above.vy"), of_half.last("above.vy"));
-        // Both stop where the inside meets, 1.2e-4 deep without a thickness (40 % more with half of the stiffness), and throw the plate back.
+        // Both stop where the inside meets, 1.2e-4 deep without a thickness (40 % more with half of the
+        // stiffness), and throw the plate back.
         assert!((top(&of_half) - top(&of_whole)).abs() < 1e-5 && (top(&of_half) - 0.5 * thickness).abs() < 2e-4, "{what}");
         // The whole ring does not stay quite symmetric.
         assert!((of_half.last("above.vy") / of_whole.last("above.vy") - 1.0).abs() < 0.03, "{what}");

@@ -1,4 +1,5 @@
-//! Shocks in gases and metals against Rankine and Hugoniot; bulk viscosity: no ringing, its work in the books, its stable step.
+//! Shocks in gases and metals against Rankine and Hugoniot; bulk viscosity: no ringing, its work in the
+//! books, its stable step.
 
 use crate::bodies::{add, faults, model, rectangle};
 use embate_solver::bench;
@@ -62,7 +63,8 @@ fn a_piston_drives_a_shock_into_a_gas_without_ringing() {
     let model = piston(gas(), [1.0, 0.005], 200, speed, 0.25);
     let simulation = run(&model);
     let (found, dense) = (field(&simulation, "pressure"), field(&simulation, "density"));
-    // The front is at 0.72 of the tube; next to the piston the gas is too hot ("wall heating"), at the right pressure.
+    // The front is at 0.72 of the tube; next to the piston the gas is too hot ("wall heating"), at the right
+    // pressure.
     let behind = &found[4..125];
     let mean = behind.iter().sum::<f64>() / behind.len() as f64;
     let largest = behind.iter().fold(0.0f64, |most, p| most.max((p / pressure - 1.0).abs()));
@@ -91,7 +93,8 @@ fn without_viscosity_the_same_shock_rings() {
 
 #[test]
 fn tall_elements_have_a_stable_step_under_viscosity() {
-    // The length in the viscosity is √area, three times the thickness: so much more damping does the fastest mode feel.
+    // The length in the viscosity is √area, three times the thickness: so much more damping does the fastest
+    // mode feel.
     let mut model = piston(gas(), [1.0, 0.05], 200, 2.0, 0.2);
     // The wall starts with a jerk.
     model.run.energy_limit = 0.5;
@@ -144,7 +147,8 @@ fn a_shock_in_copper_has_the_speed_and_pressure_of_the_hugoniot() {
 
 #[test]
 fn the_viscosity_of_a_fluid_takes_the_power_of_its_shear() {
-    // Couette: the upper wall moves; after the start the shear is v/h, and what the walls give is µ (v/h)² per volume.
+    // Couette: the upper wall moves; after the start the shear is v/h, and what the walls give is µ (v/h)²
+    // per volume.
     let (viscosity, speed, end) = (0.05, 0.1, 14.0);
     let water = fluid("linear", &[("density", 1.0), ("bulk_modulus", 10.0), ("viscosity", viscosity)]);
     let mut model = model(end);
@@ -194,7 +198,8 @@ fn what_does_not_go_together_is_told() {
 
 #[test]
 fn water_that_is_pulled_off_a_wall_pulls_back_with_its_limit_and_no_more() {
-    // Without a limit the wall would feel ρ c v = 15 bar; with one the rest of the water is held back by 1 bar, until the wave has run through.
+    // Without a limit the wall would feel ρ c v = 15 bar; with one the rest of the water is held back by 1
+    // bar, until the wave has run through.
     let (speed_of_sound, length, limit, wall) = (f64::sqrt(2.2e9 / 1e3), 1.0, 1e5, 1.0);
     let water = fluid("linear", &[("density", 1e3), ("bulk_modulus", 2.2e9), ("tension", limit)]);
     let end = 0.9 * length / speed_of_sound;

@@ -1,4 +1,5 @@
-//! Flow stress that falls: closed forms, the return with every curve up to the steepest that is accepted, what is refused, and what the user is told.
+//! Flow stress that falls: closed forms, the return with every curve up to the steepest that is accepted,
+//! what is refused, and what the user is told.
 
 use crate::bodies::*;
 use crate::patches::{Spread, YOUNG};
@@ -183,7 +184,8 @@ fn cyclic_softening_takes_from_the_yield_stress_what_it_says() {
         bar.pull_by(0.05, 20);
         bar.pull_by(-0.05, 20);
     }
-    // Half of the range of stresses, with the backstress saturated at its cycle: α = C/γ tanh of the path; what is left of σ_y is a quarter.
+    // Half of the range of stresses, with the backstress saturated at its cycle: α = C/γ tanh of the path;
+    // what is left of σ_y is a quarter.
     bar.pull_by(0.5, 100);
     let (p, tension) = (bar.state.0[0], bar.stress[0]);
     assert!(p > 3.0 && (tension - (0.5 + 2.0)).abs() < 1e-3, "{tension} at {p}");
@@ -217,7 +219,8 @@ fn only_a_fall_without_a_sound_answer_is_refused() {
     assert_eq!(voce, (vec![], Some(-4.0)));
     let cyclic = |gain: f64, lists: &[(&str, &[f64])]| told("chaboche", &[("yield", 2.0), ("isotropic_stress", gain)], lists);
     assert!(cyclic(-2.0, &[("backstress_modulus", &[100.0])]).0[0].contains("leaves nothing"));
-    // 10 · 1.5 Pa of fall: a backstress that stays makes up for it, one that fades does not, a smaller one never.
+    // 10 · 1.5 Pa of fall: a backstress that stays makes up for it, one that fades does not, a smaller one
+    // never.
     assert_eq!(cyclic(-1.5, &[("backstress_modulus", &[100.0])]), (vec![], None));
     let (found, slope) = cyclic(-1.5, &[("backstress_modulus", &[100.0]), ("backstress_recall", &[50.0])]);
     assert!(found.is_empty() && slope.is_some_and(|slope| (-15.0..0.0).contains(&slope)), "{slope:?}");

@@ -59,7 +59,8 @@ pub(crate) fn faces(nodes: usize) -> &'static [&'static [usize]] {
     }
 }
 
-/// ∫ f(x) x·n dA / 3 over a face, by Gauss's points: of triangles (three) and bilinear quadrilaterals (3 × 3).
+/// ∫ f(x) x·n dA / 3 over a face, by Gauss's points: of triangles (three) and bilinear quadrilaterals (3 ×
+/// 3).
 fn over_face(x: &[Vector], f: &dyn Fn(Vector) -> f64) -> f64 {
     if let &[a, b, c] = x {
         let normal = cross(plus(b, -1.0, a), plus(c, -1.0, a)).map(|n| 0.5 * n);
@@ -141,7 +142,8 @@ fn soundness(x: &[Vector]) -> f64 {
     (0..x.len()).map(corner).fold(with_element(name, Ask(x)).unwrap(), f64::min) / volume(x).abs()
 }
 
-/// A random sound element: corners moved by up to `roughness` of its half size, stretched by up to `aspect`, sheared, turned.
+/// A random sound element: corners moved by up to `roughness` of its half size, stretched by up to `aspect`,
+/// sheared, turned.
 pub(crate) fn distorted(element: &str, roughness: f64, aspect: f64, numbers: &mut Spread) -> Vec<Vector> {
     let reference = reference_nodes(element);
     loop {

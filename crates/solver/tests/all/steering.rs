@@ -1,4 +1,5 @@
-//! Velocities and forces that are changed while a simulation stands between two steps: what moves is what was asked for, and the books close.
+//! Velocities and forces that are changed while a simulation stands between two steps: what moves is what was
+//! asked for, and the books close.
 
 use crate::bodies::*;
 use embate_solver::model::{Model, in_space};
@@ -90,7 +91,8 @@ fn the_books_close_when_a_body_that_rings_in_contact_is_thrown_again_and_again()
     simulation.advance(f64::INFINITY, u64::MAX).unwrap();
     let summary = simulation.summary();
     assert!(summary.ledger_residual < 1e-12, "{}", summary.ledger_residual);
-    // What the central differences leave open grows with the waves that such throws make; it is no step in the books.
+    // What the central differences leave open grows with the waves that such throws make; it is no step in
+    // the books.
     assert!(summary.energy_drift < 10.0 * calm.energy_drift.max(1e-4), "{} {}", summary.energy_drift, calm.energy_drift);
 }
 

@@ -1,9 +1,11 @@
-//! The swept check against an exact oracle: no way into a body is missed, and none is reported that is not there.
+//! The swept check against an exact oracle: no way into a body is missed, and none is reported that is not
+//! there.
 //!
-//! Bodies, their motions and the nodes' paths lie on a small lattice, so degenerate ones are common: through vertices, along sides, grazing, sides
-//! that collapse. The oracle decides in whole numbers, roots of quadratics as p + q √D. Maps that keep orientation then make thin, sheared and turned bodies
-//! of them; they keep what is a crossing. Powers of two keep every bit as well, so there the oracle is exact; other maps round, and a path that
-//! touches may then be seen on either side.
+//! Bodies, their motions and the nodes' paths lie on a small lattice, so degenerate ones are common: through
+//! vertices, along sides, grazing, sides that collapse. The oracle decides in whole numbers, roots of
+//! quadratics as p + q √D. Maps that keep orientation then make thin, sheared and turned bodies of them; they
+//! keep what is a crossing. Powers of two keep every bit as well, so there the oracle is exact; other maps
+//! round, and a path that touches may then be seen on either side.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_solver::bench::Random;
@@ -19,7 +21,8 @@ enum Verdict {
     Enters,
     /// The same, from a place on the segment at the beginning of the step.
     EntersFromOn,
-    /// It meets the segment but does not change sides, or ends on it, or meets it while it has no length, or passes its end by rounding.
+    /// It meets the segment but does not change sides, or ends on it, or meets it while it has no length, or
+    /// passes its end by rounding.
     Touches,
     /// None of these.
     Free,
@@ -78,7 +81,8 @@ fn product(of: fn(Point, Point) -> i128, [a0, da]: [Point; 2], [b0, db]: [Point;
 /// Ends are passed by rounding within 1 / `END` of the segment's length.
 const END: i128 = 500_000;
 
-/// Exact answer for a node and a segment a → b, each with its positions at the beginning and at the end; and the time at which the side falls.
+/// Exact answer for a node and a segment a → b, each with its positions at the beginning and at the end; and
+/// the time at which the side falls.
 fn verdict(node: [Point; 2], a: [Point; 2], b: [Point; 2]) -> (Verdict, f64) {
     let motion = |from: [Point; 2], to: [Point; 2]| {
         let (begin, end) = (minus(to[0], from[0]), minus(to[1], from[1]));
@@ -297,7 +301,8 @@ impl Tally {
     }
 }
 
-/// Compares segment `s` of `target` with the oracle, a node and the segment's ends given as they are and mapped; whether a crossing is reported.
+/// Compares segment `s` of `target` with the oracle, a node and the segment's ends given as they are and
+/// mapped; whether a crossing is reported.
 fn compare(target: &Target, s: u32, [node, a, b]: [[Point; 2]; 3], points: [&[Vector]; 2], map: &Map, tally: &mut Tally) -> bool {
     let x = node.map(|x| map.of(x));
     let found = target.crossing(x[0], x[1], s, points[0], points[1]);
@@ -339,7 +344,8 @@ fn compare_body(old: &[Point], new: &[Point], node: [Point; 2], map: &Map, tally
         let pair = [node, [old[s], new[s]], [old[next], new[next]]];
         reported |= compare(&target, s as u32, pair, [&points_old, &points_new], map, tally);
     }
-    // Whoever has the body around at some time and had not at the beginning came in, however degenerate the way.
+    // Whoever has the body around at some time and had not at the beginning came in, however degenerate the
+    // way.
     const TIMES: i128 = 12;
     let at = |time: i128, [begin, end]: [Point; 2]| [0, 1].map(|d| (TIMES - time) * begin[d] + time * end[d]);
     let around = |time: i128| {
@@ -383,7 +389,8 @@ fn bodies_in_motion_are_entered_where_whole_numbers_say() {
 
 #[test]
 fn lone_segments_that_do_anything_are_entered_where_whole_numbers_say() {
-    // Segments without length at an end of the step too, nodes that begin or end on segments, everything on few places.
+    // Segments without length at an end of the step too, nodes that begin or end on segments, everything on
+    // few places.
     let mut random = Lattice::new(4);
     let mut tally = Tally::default();
     let target = alone();
@@ -398,7 +405,8 @@ fn lone_segments_that_do_anything_are_entered_where_whole_numbers_say() {
     assert!(tally.enters > 20_000 && tally.enters_from_on > 5000 && tally.touches > 10_000 && tally.free > 100_000);
 }
 
-/// A lattice point, the unit a tenth and off by a few last bits, and the same in whole multiples of 2⁻⁵⁶: exactly what the numbers are.
+/// A lattice point, the unit a tenth and off by a few last bits, and the same in whole multiples of 2⁻⁵⁶:
+/// exactly what the numbers are.
 fn shaken_bits(random: &mut Lattice, p: Point) -> (Vector, Point) {
     let x = p.map(|c| c as f64 * 0.1 + (random.below(7) as f64 - 3.0) * f64::EPSILON / 2.0);
     (x, x.map(|c| (c * 2.0_f64.powi(56)) as i128))
@@ -424,7 +432,8 @@ fn rounding_hides_no_way_in() {
         let target = closed(corners);
         let all: Vec<u32> = (0..corners as u32).collect();
         if !all.iter().any(|&s| target.crossing(from.0, to.0, s, &old, &new).is_some()) {
-            // The local search sees it inside from the beginning, or still outside at the end, by the last bits.
+            // The local search sees it inside from the beginning, or still outside at the end, by the last
+            // bits.
             let gap = |x: Vector, points: &[Vector]| target.nearest(x, &all, points).unwrap().gap;
             let (before, after) = (gap(from.0, &old), gap(to.0, &new));
             let rounds = |gap: f64| gap.abs() < 4.0 * f64::EPSILON;
@@ -540,8 +549,9 @@ fn a_node_that_comes_from_far_away_meets_a_tiny_segment_between_its_ends_only() 
 
 #[test]
 fn who_dips_by_a_last_bit_or_between_last_bits_is_found() {
-    // Slides on a segment that moves: whether in front or behind, rounding decides, and the next step must not find an intruder that nobody saw come.
-    // On the other segment, which turns, the node goes far behind in between, and ends on it.
+    // Slides on a segment that moves: whether in front or behind, rounding decides, and the next step must
+    // not find an intruder that nobody saw come. On the other segment, which turns, the node goes far behind
+    // in between, and ends on it.
     let slides = ([[0.1, -0.3], [0.8, 0.1]], [[0.1, -0.29], [0.8, 0.09]], false);
     let turns = ([[0.1, -0.3], [0.5, 0.5]], [[0.1, -0.3], [0.9, -0.7]], true);
     let mut random = Lattice::new(6);

@@ -28,7 +28,8 @@ fn ring_on_strip(interface: Interface) -> Model {
     contact.interface = interface;
     Model {
         name: "ring".into(),
-        // Until something is deeper than a twentieth of the strip: from then on space has a net, which the plane has not.
+        // Until something is deeper than a twentieth of the strip: from then on space has a net, which the
+        // plane has not.
         run: Run { end: 0.055, time_step: Some(1e-3), ..Run::default() },
         materials: [("m".to_string(), material("j2", 0.3))].into(),
         parts: vec![part("ring", Shape::Ring(ring), -2.0), part("strip", Shape::Rectangle(strip), 1.0)],
@@ -86,7 +87,8 @@ fn a_slice_of_an_impact_on_a_symmetry_plane_does_what_the_plane_does() {
 
 #[test]
 fn a_stiffness_for_each_node_belongs_to_the_model_as_far_as_the_node_does() {
-    // In a slice of two layers the nodes in the middle carry a half, those on both faces a quarter of what a node of the plane does.
+    // In a slice of two layers the nodes in the middle carry a half, those on both faces a quarter of what a
+    // node of the plane does.
     let plane = ring_on_strip(Penalty::PerNode(4e3).into());
     let mut space = extruded(plane.clone(), 2);
     space.contacts[0].interface = Penalty::PerNode(4e3 * DEPTH / 2.0).into();
@@ -97,7 +99,8 @@ fn a_stiffness_for_each_node_belongs_to_the_model_as_far_as_the_node_does() {
     }
 }
 
-/// The upper half of a ring that a plate crushes, on a symmetry line; its steps are short enough for solids, too.
+/// The upper half of a ring that a plate crushes, on a symmetry line; its steps are short enough for solids,
+/// too.
 fn half_of_crushed_ring() -> Model {
     let mut half = crushed_ring();
     half.parts.truncate(2);
@@ -115,13 +118,15 @@ fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_the_plane_
     let half = half_of_crushed_ring();
     for thickness in [0.0, 1e-3] {
         let mut plane = half.clone();
-        // How flat an element is, is not the same in the plane and in space: the same stiffness for both. The plate begins nearer than the thickness.
+        // How flat an element is, is not the same in the plane and in space: the same stiffness for both. The
+        // plate begins nearer than the thickness.
         let law = Interface { thickness, initial_penetration: InitialPenetration::Ignore, ..Penalty::Pressure(5e12).into() };
         plane.contacts[0].interface = law;
         let space = extruded_by(depth, plane.clone(), 1);
         let [in_plane, in_space] =
             [&plane, &space].map(|model| every_step(model).column("top.y").into_iter().fold(f64::INFINITY, f64::min));
-        // The inside meets its image, and goes no deeper than the springs give. What the ring does before, bent by the plate, differs from the first touch on by 1e-8 and grows.
+        // The inside meets its image, and goes no deeper than the springs give. What the ring does before,
+        // bent by the plate, differs from the first touch on by 1e-8 and grows.
         assert!((in_plane - 0.5 * thickness).abs() < 2e-4 && (in_space - in_plane).abs() < 1e-5, "{in_space} of {in_plane}");
         let summary = to_end(&space).summary();
         assert!(summary.energy_drift < 0.01 && summary.ledger_residual < 1e-12 && summary.contact.unverified == 0, "{summary:?}");

@@ -1,4 +1,5 @@
-//! Ties between solids: they hold what touches at the start, whatever the meshes and the motion, up to their strength.
+//! Ties between solids: they hold what touches at the start, whatever the meshes and the motion, up to their
+//! strength.
 
 use crate::bodies::*;
 use embate_solver::error::Error;
@@ -13,7 +14,8 @@ fn block(model: &mut Model, name: &str, corner: [f64; 3], size: [f64; 3], elemen
     model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
 }
 
-/// Two tied bars that fly apart at 2 v: the tie is pulled with ρ c v. Turned as a whole by an angle (rad) about an axis.
+/// Two tied bars that fly apart at 2 v: the tie is pulled with ρ c v. Turned as a whole by an angle (rad)
+/// about an axis.
 fn tied_bars(strength: f64, law: ContactLaw, angle: f64) -> Model {
     let mut model = slender(1.5e-4, 1e9, 1000.0);
     // Meshes that don't match, and a little apart: that stays so.
@@ -62,7 +64,8 @@ fn ties_between_solids_hold_up_to_their_strength_and_break_beyond_it() {
                 let speed = ["vx", "vy", "vz"].map(|v| history.last(&format!("right.{v}")).powi(2)).iter().sum::<f64>().sqrt();
                 (speed, simulation.summary().warnings)
             };
-            // Before the wave is back from the free ends (2 L / c = 0.2 ms) the bars have lost the part of their momentum that the tie pulls.
+            // Before the wave is back from the free ends (2 L / c = 0.2 ms) the bars have lost the part of
+            // their momentum that the tie pulls.
             let (speed, warnings) = held(f64::INFINITY);
             assert!((speed - 5.0).abs() < 0.4 && warnings.is_empty(), "{speed} {warnings:?}");
             let (speed, warnings) = held(0.5 * traction);
@@ -90,7 +93,8 @@ fn a_spinning_body_of_tied_halves_turns_as_one_and_keeps_both_momenta_and_its_en
         is_sound(&simulation, &format!("{formulation:?}"));
         let ties = simulation.frame();
         assert!(!ties.positions::<3>().is_empty());
-        // Their middles stay as far from each other as they were, to what the spin stretches; they have turned by 2 rad.
+        // Their middles stay as far from each other as they were, to what the spin stretches; they have
+        // turned by 2 rad.
         let apart = ["x", "y", "z"].map(|x| history.last(&format!("right.{x}")) - history.last(&format!("left.{x}")));
         let size = apart.iter().map(|a| a * a).sum::<f64>().sqrt();
         let turned = apart[1].atan2(apart[0]) - (-0.01f64).atan2(0.1);

@@ -1,5 +1,6 @@
-//! What bodies do in rigid obstacles is held or told: what lies between nodes, what is pressed too softly, what goes through within a step; and contacts whose springs know
-//! nothing of overlaps, pinballs and single passes, are looked at too.
+//! What bodies do in rigid obstacles is held or told: what lies between nodes, what is pressed too softly,
+//! what goes through within a step; and contacts whose springs know nothing of overlaps, pinballs and single
+//! passes, are looked at too.
 
 use crate::bodies::{add, model, rectangle, simulation, touch};
 use embate_solver::model::{
@@ -77,8 +78,8 @@ fn a_ball_and_a_cylinder_that_come_in_between_nodes_are_held() {
             let (mut most, nodes) = (f64::NEG_INFINITY, lower_side(&model));
             let (summary, is_cut) = watch(&model, |simulation| most = most.max(deepest(simulation, &nodes, distance)));
             assert!(!is_cut && summary.contact.unverified == 0 && summary.ledger_residual < 1e-11, "{shape:?} {speed}: {summary:?}");
-            // It is met, and no deeper than a fifth of the obstacle's 6 mm; from a twentieth on the run knows how deep, but for what a facet is
-            // bent and what comes between two looks.
+            // It is met, and no deeper than a fifth of the obstacle's 6 mm; from a twentieth on the run knows
+            // how deep, but for what a facet is bent and what comes between two looks.
             assert!(most > 2e-5 && most < 1.2e-3, "{shape:?} {speed}: {most}");
             let share = summary.penetration_max / most;
             assert!(most < 3e-4 || (0.7..1.05).contains(&share), "{shape:?} {speed}: {most} {share}");

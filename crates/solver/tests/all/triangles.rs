@@ -1,4 +1,5 @@
-//! Obstacles of triangles against the obstacles whose surfaces they are, over edges and corners, with friction, moved and free, at the start, kept and resumed.
+//! Obstacles of triangles against the obstacles whose surfaces they are, over edges and corners, with
+//! friction, moved and free, at the start, kept and resumed.
 
 use crate::bodies::{faults, goes_on_to, hash_of_equal_bits, model, simulation, to_end, value};
 use embate_solver::model::{
@@ -115,7 +116,8 @@ fn finer_and_finer_triangles_come_to_the_sphere() {
         model.parts.push(body("block", brick([-0.05, -0.04, 0.0], [0.1, 0.08, 0.04], [20, 16, 8]), [0.0, 0.0, -8.0]));
         with(model, Obstacle::fixed("ball", obstacle))
     };
-    // The centre is beside the symmetry of the mesh. The last are finer than the block: then both press on each other, half in each pass.
+    // The centre is beside the symmetry of the mesh. The last are finer than the block: then both press on
+    // each other, half in each pass.
     let (centre, radius) = ([0.003, -0.002, -0.0402], 0.04);
     let exact = block(ObstacleShape::Sphere { centre, radius, hollow: false });
     let force = |simulation: &Simulation| value(simulation, "obstacle.force_z[ball]");
@@ -142,7 +144,8 @@ fn upward(side: f64, edges: usize) -> TriangleSurface {
 
 #[test]
 fn edges_and_corners_hold_a_coarse_block_and_give_its_energy_back() {
-    // The corner comes up between the nodes of a side; the ridge meets the edges of a block, and the edge of one that stands on it.
+    // The corner comes up between the nodes of a side; the ridge meets the edges of a block, and the edge of
+    // one that stands on it.
     let flat = brick([-0.047, -0.043, 2e-4], [0.1, 0.09, 0.05], [1, 1, 1]);
     let upright = brick([0.0, -0.053, 0.0], [0.04, 0.1, 0.04], [1, 1, 1]);
     let cases: [(&str, TriangleSurface, Shape, f64); 3] = [

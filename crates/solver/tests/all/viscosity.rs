@@ -1,4 +1,5 @@
-//! Viscoelasticity against closed forms: relaxation, creep, loss in a cycle, a swinging bar that loses what the loss factor says.
+//! Viscoelasticity against closed forms: relaxation, creep, loss in a cycle, a swinging bar that loses what
+//! the loss factor says.
 
 use crate::patches::{Body, DENSITY, Spread, YOUNG, patch};
 use embate_solver::material::{self, Kinematics, Law, Parameters, Response, State, Tensors, Viscoelastic};
@@ -131,7 +132,8 @@ fn the_loss_of_a_cycle_is_that_of_the_loss_modulus_at_every_frequency() {
         let lost: f64 = (0..2).map(|k| RATIOS[k] * at(k) / (1.0 + at(k) * at(k))).sum();
         let time_step = std::f64::consts::TAU / omega / f64::from(STEPS);
         let mut point = Point::new(&RATIOS, &TIMES);
-        // The stationary state at γ = 0 and rising: h_k is the imaginary part of µ g iωτ/(1 + iωτ) γ e^{iωt}, so its start is µ g ωτ/(1 + (ωτ)²) γ.
+        // The stationary state at γ = 0 and rising: h_k is the imaginary part of µ g iωτ/(1 + iωτ) γ e^{iωt},
+        // so its start is µ g ωτ/(1 + (ωτ)²) γ.
         for k in 0..2 {
             point.state.0[k] = Plane([0.0, 0.0, 0.0, amplitude * SHEAR * RATIOS[k] * at(k) / (1.0 + at(k) * at(k))]);
             point.stress = point.stress.plus(point.state.0[k]);
@@ -184,7 +186,8 @@ fn what_is_not_dissipated_is_the_energy_of_the_springs() {
 
 #[test]
 fn internal_stresses_turn_with_the_body() {
-    // Two points, one of them turned by 0.3 rad in each step of a random history: the same energies, the stress turned by the sum.
+    // Two points, one of them turned by 0.3 rad in each step of a random history: the same energies, the
+    // stress turned by the sum.
     let (mut still, mut turned) = (Point::new(&RATIOS, &TIMES), Point::new(&RATIOS, &TIMES));
     let mut numbers = Spread::new(41);
     for step in 1..=100 {

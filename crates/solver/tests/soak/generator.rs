@@ -1,4 +1,5 @@
-//! Random models: bodies of any shape, element and law that fly at each other, with any contact between them; the same seed gives the same model.
+//! Random models: bodies of any shape, element and law that fly at each other, with any contact between them;
+//! the same seed gives the same model.
 
 use embate_solver::bench::{self, Random};
 use embate_solver::block::stress_state::STRESS_STATES;

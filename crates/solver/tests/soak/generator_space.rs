@@ -1,6 +1,6 @@
-//! Random models in space: bodies of any shape, element and law in cells, and scenes in which contact is hard: crossed bars, wires, sheets
-//! of one element, chains of
-//! rings, coils, tetrahedra, thin bodies under thick ones. The same seed gives the same model.
+//! Random models in space: bodies of any shape, element and law in cells, and scenes in which contact is
+//! hard: crossed bars, wires, sheets of one element, chains of rings, coils, tetrahedra, thin bodies under
+//! thick ones. The same seed gives the same model.
 
 use crate::generator::{Dice, contact_of_all, elements_of, interface, material_of, softened};
 use embate_solver::contact::search;
@@ -116,8 +116,8 @@ struct Solid {
 }
 
 impl Solid {
-    /// A grid of so many cells, its node at the parts (u, v, w) of its edges at `place(u, v, w)`; with `closed` its last axis is a ring.
-    /// `place` keeps the hand.
+    /// A grid of so many cells, its node at the parts (u, v, w) of its edges at `place(u, v, w)`; with
+    /// `closed` its last axis is a ring. `place` keeps the hand.
     fn grid(dice: &mut Dice, counts: [usize; 3], closed: bool, place: impl Fn(Vector) -> Vector) -> Self {
         let kind = dice.choice(&KINDS);
         let [nx, ny, nz] = counts;
@@ -147,7 +147,8 @@ impl Solid {
         Self::grid(dice, counts, false, |at| [0, 1, 2].map(|d| (at[d] - 0.5) * size[d]))
     }
 
-    /// A square wire with a frame (centre, two directions across, so that the third points along) at each part of its length.
+    /// A square wire with a frame (centre, two directions across, so that the third points along) at each
+    /// part of its length.
     fn wire(dice: &mut Dice, width: f64, counts: [usize; 3], closed: bool, frame: impl Fn(f64) -> [Vector; 3]) -> Self {
         let (sin, cos) = dice.choice(&[0.0, FRAC_PI_4, 0.3]).sin_cos();
         Self::grid(dice, counts, closed, |[u, v, w]| {
@@ -165,7 +166,8 @@ impl Solid {
         if dice.chance(0.5) {
             return Self { positions: corners.to_vec(), cells: vec![vec![0, 1, 2, 3]] };
         }
-        // Corners are nodes 0 to 3, middles of edges 4 to 9, of faces 10 to 13 (without corner k), the middle is 14.
+        // Corners are nodes 0 to 3, middles of edges 4 to 9, of faces 10 to 13 (without corner k), the middle
+        // is 14.
         const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
         let mean = |of: &[usize]| [0, 1, 2].map(|d| of.iter().map(|&k| corners[k][d]).sum::<f64>() / of.len() as f64);
         let edge =
@@ -234,7 +236,8 @@ fn unit(a: Vector) -> Vector {
 const X: Vector = [1.0, 0.0, 0.0];
 const Z: Vector = [0.0, 0.0, 1.0];
 
-/// Bodies of any shape, element and law in some of eight cells, that fly at each other; any obstacles and contacts.
+/// Bodies of any shape, element and law in some of eight cells, that fly at each other; any obstacles and
+/// contacts.
 fn any_bodies(scene: &mut Scene, dice: &mut Dice) {
     let cells = [dice.whole(1, 2), dice.whole(1, 2), dice.whole(1, 2)];
     let middle = cells.map(|n| 0.5 * CELL * n as f64);
@@ -324,7 +327,8 @@ fn shape(dice: &mut Dice, centre: Vector) -> (Shape, Option<Sweep>) {
     }
 }
 
-/// Contacts pair by pair in some models, so that all formulations meet; the others get one of all bodies later.
+/// Contacts pair by pair in some models, so that all formulations meet; the others get one of all bodies
+/// later.
 fn contacts(scene: &mut Scene, dice: &mut Dice) {
     let names: Vec<String> = scene.model.parts.iter().map(|part| part.name.clone()).collect();
     if names.len() < 2 || dice.chance(0.6) {

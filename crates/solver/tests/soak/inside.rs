@@ -1,10 +1,12 @@
-//! Whether nodes of one body are inside another one, from elements alone: a check of contact in space that shares nothing with it.
+//! Whether nodes of one body are inside another one, from elements alone: a check of contact in space that
+//! shares nothing with it.
 //!
-//! A node is inside an element where the element's shape functions say so. Its depth is its distance from the nearest facet of that body;
-//! the local thickness is the way from there through the node to where the body ends, or from the node through its own body to the other
-//! side, if that is less. That is little near every edge, so the depth must be much against 2 V / S of both bodies, too: the thickness of a
-//! plate, half the width of a rod, a third of that of a ball. Surfaces are the faces that one element alone has, quadrilaterals as four
-//! triangles around their mean: of two the choice decides where the face is bent.
+//! A node is inside an element where the element's shape functions say so. Its depth is its distance from the
+//! nearest facet of that body; the local thickness is the way from there through the node to where the body
+//! ends, or from the node through its own body to the other side, if that is less. That is little near every
+//! edge, so the depth must be much against 2 V / S of both bodies, too: the thickness of a plate, half the
+//! width of a rod, a third of that of a ball. Surfaces are the faces that one element alone has,
+//! quadrilaterals as four triangles around their mean: of two the choice decides where the face is bent.
 
 use crate::generator_space::{Vector, cross, difference as minus, dot};
 use embate_solver::output::{CellKind, Cells};
@@ -133,7 +135,8 @@ impl Surfaces {
     }
 }
 
-/// A bar of 0.5 x 0.2 x 0.2 whose end is 0.25 deep in a unit cube is so by half of its length, of whatever elements; beside it it is not.
+/// A bar of 0.5 x 0.2 x 0.2 whose end is 0.25 deep in a unit cube is so by half of its length, of whatever
+/// elements; beside it it is not.
 pub(crate) fn checks_itself() {
     let corners: [Vector; 8] =
         [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]].map(|c| c.map(f64::from));

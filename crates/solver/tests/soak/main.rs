@@ -1,15 +1,18 @@
-//! Soak: random models one after the other, without a panic, a leak, or a drift of energy or momentum that nothing explains.
+//! Soak: random models one after the other, without a panic, a leak, or a drift of energy or momentum that
+//! nothing explains.
 //!
-//! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (a minute from model 1 if nothing is said;
-//! `--count 1 --first N` for one model). Odd numbers are models of
-//! the plane, even ones of space; `--dimension 2` or `3` for one of them alone. Two of sixteen models run again with scalar lanes and two
-//! threads and must end with the same state hash. `hashes.txt` has that of the first models as it was: a change of the code that should
-//! change no result leaves it so, one that changes results makes it anew (`EMBATE_BLESS=1`, `--count 400`).
-//! What is found is told with the number of the model. In space, where all bodies meet in `double_pass`, elements tell whether nodes of one body
-//! are deep in another one (`inside.rs`): a run that does not say so is a finding.
+//! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (a minute from
+//! model 1 if nothing is said; `--count 1 --first N` for one model). Odd numbers are models of the plane,
+//! even ones of space; `--dimension 2` or `3` for one of them alone. Two of sixteen models run again with
+//! scalar lanes and two threads and must end with the same state hash. `hashes.txt` has that of the first
+//! models as it was: a change of the code that should change no result leaves it so, one that changes results
+//! makes it anew (`EMBATE_BLESS=1`, `--count 400`). What is found is told with the number of the model. In
+//! space, where all bodies meet in `double_pass`, elements tell whether nodes of one body are deep in another
+//! one (`inside.rs`): a run that does not say so is a finding.
 //!
-//! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of springs that are stiff against theirs, or of elements that collapse within a few. Those are counted.
-//! The others are told, and more than [`DRIFTING`] of all is a finding.
+//! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of
+//! springs that are stiff against theirs, or of elements that collapse within a few. Those are counted. The
+//! others are told, and more than [`DRIFTING`] of all is a finding.
 
 mod generator;
 mod generator_space;
@@ -192,7 +195,8 @@ fn run(seed: u64, steps: &mut u64, hashes: &mut BTreeMap<u64, String>) -> (End, 
     (result.err().map_or(End::Done, |error| End::Failed(error.kind())), drift, faults)
 }
 
-/// Runs a model to its end; in space, where contact is that of all bodies, the deepest node of a body in another one.
+/// Runs a model to its end; in space, where contact is that of all bodies, the deepest node of a body in
+/// another one.
 fn looked_at(model: &Model, simulation: &mut Simulation) -> (Result<(), Error>, Option<inside::Deepest>) {
     let is_of_all = |contact: &embate_solver::model::Contact| {
         contact.formulation == Formulation::DoublePass && matches!(&contact.partners, Partners::Bodies(parts) if parts.is_empty())
@@ -234,7 +238,8 @@ fn finer(model: &Model, coarse: &Simulation) -> f64 {
     fine.summary().energy_drift.max(-fine.ledger().stores.hourglass / fine.ledger().largest)
 }
 
-/// Energy that hourglass control has given without having taken it: the books close, and yet it comes from nowhere.
+/// Energy that hourglass control has given without having taken it: the books close, and yet it comes from
+/// nowhere.
 fn borrowed(simulation: &Simulation) -> Option<(f64, String)> {
     let ledger = simulation.ledger();
     let share = ledger.stores.hourglass / ledger.largest;

@@ -1,7 +1,7 @@
-// Colour maps: tables of 256 colours in sRGB, for the picture (as a texture) and for the page's legend (as CSS colours).
-// Each is kept as 33 colours at equal distances, between them straight. Sources: viridis by S. van der Walt and N. Smith
-// (CC0), turbo by A. Mikhailov (Apache 2.0), coolwarm after K. Moreland (2009); grey leaves out the ends, which would be
-// lost on the paper.
+// Colour maps: tables of 256 colours in sRGB, for the picture (as a texture) and for the page's legend (as
+// CSS colours). Each is kept as 33 colours at equal distances, between them straight. Sources: viridis by S.
+// van der Walt and N. Smith (CC0), turbo by A. Mikhailov (Apache 2.0), coolwarm after K. Moreland (2009);
+// grey leaves out the ends, which would be lost on the paper.
 
 export type MapName = "viridis" | "turbo" | "grey" | "coolwarm";
 export const MAP_NAMES: readonly MapName[] = ["viridis", "turbo", "coolwarm", "grey"];

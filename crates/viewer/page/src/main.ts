@@ -1,4 +1,5 @@
-// The page of embate's viewer: asks what there is to show, and puts its parts together, or explains what is wrong.
+// The page of embate's viewer: asks what there is to show, and puts its parts together, or explains what is
+// wrong.
 
 import "uplot/dist/uPlot.min.css";
 import "./app/theme.css";

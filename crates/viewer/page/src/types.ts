@@ -1,5 +1,5 @@
-// Types of the contract between the server and the page: what `api/...` answers in JSON, what the heads of the binary
-// containers hold, and what `wire.ts` makes of the containers. Data only; nothing here computes.
+// Types of the contract between the server and the page: what `api/...` answers in JSON, what the heads of
+// the binary containers hold, and what `wire.ts` makes of the containers. Data only; nothing here computes.
 
 export type Vector = [number, number, number];
 

@@ -1,6 +1,7 @@
-// Decodes the binary container of topologies and frames: "EMB1", the head's length, the head in JSON, then arrays in
-// little-endian order. The arrays are views into the received buffer: nothing is copied. What does not fit (a wrong
-// mark, an array outside the buffer, indices outside their table) is refused with a text for people.
+// Decodes the binary container of topologies and frames: "EMB1", the head's length, the head in JSON, then
+// arrays in little-endian order. The arrays are views into the received buffer: nothing is copied. What does
+// not fit (a wrong mark, an array outside the buffer, indices outside their table) is refused with a text for
+// people.
 
 import type { Frame, Level, Obstacles, Topology, Vector } from "./types";
 

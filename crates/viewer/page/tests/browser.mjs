@@ -1,5 +1,5 @@
-// A headless Chromium for tests. CHROMIUM names it; otherwise /usr/bin/chromium. A page keeps what its console says, so
-// that a test can demand that it says nothing.
+// A headless Chromium for tests. CHROMIUM names it; otherwise /usr/bin/chromium. A page keeps what its
+// console says, so that a test can demand that it says nothing.
 
 import assert from "node:assert/strict";
 import { basename, join } from "node:path";

@@ -22,7 +22,8 @@ test("two runs stand side by side with one time, one camera and one range", asyn
   await until(async () => (await marks()).length === 1, "one legend for both");
   await page.getByLabel("One range for both runs").uncheck();
   await until(async () => { const [a, b] = await marks(); return b !== undefined && a !== b; }, "each its own legend and range");
-  // of runs that are the same until then the pictures are the same, also when one camera moves, but for the width of a pixel; a camera that had not moved would show half as much
+  // of runs that are the same until then the pictures are the same, also when one camera moves, but for the
+  // width of a pixel; a camera that had not moved would show half as much
   await page.getByLabel("One range for both runs").check();
   await page.locator(".pane canvas").first().focus();
   for (let i = 0; i < 3; i++) await key(page, "+");

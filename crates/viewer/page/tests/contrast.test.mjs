@@ -1,4 +1,5 @@
-// Contrast of the page's colours, computed from theme.css by the formula of WCAG 2: 4.5 for text, 3 for what is only seen.
+// Contrast of the page's colours, computed from theme.css by the formula of WCAG 2: 4.5 for text, 3 for what
+// is only seen.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";

@@ -1,4 +1,5 @@
-// What the page says of folders that are no results, of broken frames and failed runs, to strangers, and without WebGL.
+// What the page says of folders that are no results, of broken frames and failed runs, to strangers, and
+// without WebGL.
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";

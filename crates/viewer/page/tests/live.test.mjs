@@ -1,4 +1,5 @@
-// The page on a run that is watched while it goes: to its end, pause, kept state, stop, lost and found servers.
+// The page on a run that is watched while it goes: to its end, pause, kept state, stop, lost and found
+// servers.
 
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";

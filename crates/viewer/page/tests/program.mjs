@@ -1,5 +1,5 @@
-// The real program for tests: runs of examples, servers on results and on running simulations. EMBATE names the program;
-// otherwise it is the release build of this repository.
+// The real program for tests: runs of examples, servers on results and on running simulations. EMBATE names
+// the program; otherwise it is the release build of this repository.
 
 import { spawn, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";

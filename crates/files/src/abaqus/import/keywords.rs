@@ -1,6 +1,8 @@
-//! The keywords that the import knows, one line each: what becomes of it, the parameters it understands, and who reads it.
+//! The keywords that the import knows, one line each: what becomes of it, the parameters it understands, and
+//! who reads it.
 //!
-//! The table of `docs/import.md` is made from here. Keywords that are not here are ignored, and the report says so.
+//! The table of `docs/import.md` is made from here. Keywords that are not here are ignored, and the report
+//! says so.
 
 use super::report::Outcome::{self, Approximated, Ignored, Used};
 use super::{Importer, condition, contact, material, step};

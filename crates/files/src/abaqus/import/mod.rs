@@ -1,8 +1,8 @@
 //! From a deck to a model: a model file, the mesh that it names, and a report of what became of each keyword.
 //!
-//! `keywords.rs` is the table of what is known; `material.rs`, `condition.rs`, `contact.rs` and `step.rs` read blocks into the `Importer`;
-//! `write.rs` makes the model file of it, `report.rs` the report. The mesh is the deck itself in one text, with sets added for what names
-//! single nodes or edges.
+//! `keywords.rs` is the table of what is known; `material.rs`, `condition.rs`, `contact.rs` and `step.rs`
+//! read blocks into the `Importer`; `write.rs` makes the model file of it, `report.rs` the report. The mesh
+//! is the deck itself in one text, with sets added for what names single nodes or edges.
 
 mod condition;
 mod contact;
@@ -44,8 +44,8 @@ pub struct Imported {
 /// Makes a model of a deck whose numbers are in `units`. `reach`: from where files are read that it includes.
 ///
 /// # Errors
-/// Faults of the text or the mesh, with their places; what can't be left out without making another model (equations, several
-/// materials on one element, no step).
+/// Faults of the text or the mesh, with their places; what can't be left out without making another model
+/// (equations, several materials on one element, no step).
 pub fn import(path: &Path, units: &Units, reach: Reach) -> Result<Imported, Vec<Fault>> {
     let shown = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
     let text =
@@ -173,7 +173,8 @@ impl<'a> Importer<'a> {
         self.dimension() == 3
     }
 
-    /// What is done with penetrations at the start: in the plane bodies are pushed apart without stress, as the deck means it; of solids they count as zero.
+    /// What is done with penetrations at the start: in the plane bodies are pushed apart without stress, as
+    /// the deck means it; of solids they count as zero.
     fn initial_penetration(&self) -> &'static str {
         if self.is_solid() { "initial_penetration = \"ignore\"\n" } else { "initial_penetration = \"push_out\"\n" }
     }

@@ -1,4 +1,5 @@
-//! The units of a deck, which has none of its own: lengths, masses and times as the user names them, and quantities written with them.
+//! The units of a deck, which has none of its own: lengths, masses and times as the user names them, and
+//! quantities written with them.
 //!
 //! A quantity keeps the digits of the deck: `"210000 t/mm/s^2"`; the model file's reader rounds it once.
 

@@ -1,4 +1,5 @@
-//! Makes the model file of what an import has read: run, materials, parts, and the text itself. What acts on parts is in `write_conditions.rs`.
+//! Makes the model file of what an import has read: run, materials, parts, and the text itself. What acts on
+//! parts is in `write_conditions.rs`.
 
 use super::material::{Material, Section};
 use super::report::Outcome::{Ignored, Used};
@@ -190,7 +191,8 @@ impl Importer<'_> {
         Ok(Part { element, ..part })
     }
 
-    /// The element of the quadrilaterals or hexahedra of a part, if it is not the usual one; what differs is noted. Triangles, wedges and tetrahedra are the usual ones.
+    /// The element of the quadrilaterals or hexahedra of a part, if it is not the usual one; what differs is
+    /// noted. Triangles, wedges and tetrahedra are the usual ones.
     fn element(&mut self, part: &Part, kinds: &BTreeMap<&str, &'static ElementKind>) -> Option<&'static str> {
         let (largest, usual, of) = if self.is_solid() { (CellKind::Hexahedron, "hex8", 3) } else { (CellKind::Quadrilateral, "quad4", 2) };
         let known = |name: &str| embate_solver::element::elements_of(of).iter().any(|kind| kind.name == name);

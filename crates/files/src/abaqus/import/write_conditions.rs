@@ -1,4 +1,5 @@
-//! Makes the sections of the model file that act on parts: contacts, obstacles, constraints, loads, and the curves that they follow.
+//! Makes the sections of the model file that act on parts: contacts, obstacles, constraints, loads, and the
+//! curves that they follow.
 
 use super::Importer;
 use super::condition::{Boundary, Load, Prescribed};
@@ -14,7 +15,8 @@ use std::fmt::Write;
 const FORCE: Dimension = Dimension::FORCE;
 
 impl Importer<'_> {
-    /// The name of the curve that is an amplitude times a factor; `None` (and a note) if there is no such amplitude.
+    /// The name of the curve that is an amplitude times a factor; `None` (and a note) if there is no such
+    /// amplitude.
     fn curve(&mut self, at: usize, amplitude: &str, factor: f64, dimension: Dimension, w: &mut Writing) -> Option<String> {
         let Some(it) = self.amplitudes.get(amplitude) else {
             self.note(at, Ignored, &format!("there is no amplitude {amplitude} that is read, so what follows it does not act"));
@@ -160,8 +162,8 @@ impl Importer<'_> {
         })
     }
 
-    /// What the boundary conditions of a reference node say, by x, y, z and rotation; `None`: free. The one rotation that a model names is that about z: with it those of solids about other axes
-    /// are none.
+    /// What the boundary conditions of a reference node say, by x, y, z and rotation; `None`: free. The one
+    /// rotation that a model names is that about z: with it those of solids about other axes are none.
     pub(super) fn motion_of(&mut self, reference: u32, w: &mut Writing) -> [Option<String>; 4] {
         let mut motion = [None, None, None, None];
         let mut turns: BTreeMap<usize, usize> = BTreeMap::new();
@@ -292,7 +294,8 @@ impl Importer<'_> {
                         if self.is_solid() {
                             self.units.write(value, FORCE)
                         } else if round {
-                            // In newtons, whatever the unit of the key: the force is that on the whole circumference.
+                            // In newtons, whatever the unit of the key: the force is that on the whole
+                            // circumference.
                             self.units.write_si(value, FORCE)
                         } else {
                             self.units.write(value / thickness, Dimension::FORCE_PER_LENGTH)

@@ -1,4 +1,5 @@
-//! What acts on bodies from outside, from the records of a file: loads, boundaries that reflect nothing, joins.
+//! What acts on bodies from outside, from the records of a file: loads, boundaries that reflect nothing,
+//! joins.
 
 use super::motion;
 use crate::model_file::diagnostics::Faults;

@@ -1,7 +1,9 @@
-//! Makes a [`Model`] from the records of a file: names that were left out, contradictions between keys, mesh files.
+//! Makes a [`Model`] from the records of a file: names that were left out, contradictions between keys, mesh
+//! files.
 //!
-//! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, the largest count, a mesh that is not there): its fault is
-//! noted already, and faults that only follow from it are not shown. Contacts and obstacles are in `contact.rs`, what moves in `motion.rs`, loads in `load.rs`.
+//! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, the
+//! largest count, a mesh that is not there): its fault is noted already, and faults that only follow from it
+//! are not shown. Contacts and obstacles are in `contact.rs`, what moves in `motion.rs`, loads in `load.rs`.
 
 mod contact;
 mod discrete;
@@ -280,7 +282,8 @@ fn camera(record: &Record) -> Camera {
     }
 }
 
-/// Names for contacts and obstacles that have none: the names of the surfaces or bodies, `all`, or `obstacle`, `obstacle2`, ...
+/// Names for contacts and obstacles that have none: the names of the surfaces or bodies, `all`, or
+/// `obstacle`, `obstacle2`, ...
 fn name_the_nameless(model: &mut Model) {
     let plain =
         |name: &str| -> String { name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect() };

@@ -1,4 +1,5 @@
-//! What moves bodies from outside, from the records of a file: rigid parts and obstacles, constraints, curves.
+//! What moves bodies from outside, from the records of a file: rigid parts and obstacles, constraints,
+//! curves.
 
 use crate::model_file::diagnostics::Faults;
 use crate::model_file::messages::UNIT;

@@ -1,6 +1,7 @@
-//! The film of a run: collects frames, then writes `animation.gif` with one camera for all of them, and `final.png`, which shows the last frame
-//! alone and as large as it fits; the colour range is that of the whole run in both.
-//! Frames come from the observer of a run; `scene` draws them, `animation` and the PNG writer take the pictures.
+//! The film of a run: collects frames, then writes `animation.gif` with one camera for all of them, and
+//! `final.png`, which shows the last frame alone and as large as it fits; the colour range is that of the
+//! whole run in both. Frames come from the observer of a run; `scene` draws them, `animation` and the PNG
+//! writer take the pictures.
 
 mod settings;
 mod show;
@@ -28,7 +29,8 @@ use stored::{Space, Stored, on_skin};
 const BYTES_MAX: usize = 256 << 20;
 /// More stored frames than this show nothing more.
 const STORED_MAX: usize = 400;
-/// Frames of the animation: more make the file large and, at the shortest delay that browsers respect, the film long.
+/// Frames of the animation: more make the file large and, at the shortest delay that browsers respect, the
+/// film long.
 const SHOWN_MAX: usize = 160;
 /// Width of the animation, pixels.
 const ANIMATION_WIDTH: u32 = 640;
@@ -99,7 +101,8 @@ impl Film {
         }
     }
 
-    /// What was kept of a film, with this `frame` as the present one; an empty film where that was another one.
+    /// What was kept of a film, with this `frame` as the present one; an empty film where that was another
+    /// one.
     pub(crate) fn recalled(cells: Cells, settings: FilmSettings, kept: &[Section], frame: &Frame) -> Self {
         let mut film = Self::new(cells, settings);
         film.choose_scalars(frame);
@@ -161,7 +164,8 @@ impl Film {
         self.origin.unwrap_or_default()
     }
 
-    /// Adds a frame. Keeps positions and the shown scalar in single precision; drops every second kept frame when they get too many.
+    /// Adds a frame. Keeps positions and the shown scalar in single precision; drops every second kept frame
+    /// when they get too many.
     pub fn add(&mut self, frame: &Frame) {
         if self.added == 0 {
             self.choose_scalars(frame);
@@ -220,7 +224,8 @@ impl Film {
         values
     }
 
-    /// Positions of the nodes that have a cell; not a number for those whose cells are all `gone`, which fly anywhere.
+    /// Positions of the nodes that have a cell; not a number for those whose cells are all `gone`, which fly
+    /// anywhere.
     fn shown<'a>(&self, frame: &'a Frame, gone: &[u32]) -> impl Iterator<Item = [f64; 2]> + use<'a> {
         let mut has_cell = vec![gone.is_empty(); frame.positions::<2>().len()];
         if !gone.is_empty() {
@@ -248,12 +253,12 @@ impl Film {
         self.stored.retain(|frame| frame.number % stride == 0 || frame.number == last);
     }
 
-    /// Writes `animation.gif` (some seven seconds, repeated, the last frame held) and `final.png` (the last frame) into `folder`; `threads` draw several frames at
-    /// once.
+    /// Writes `animation.gif` (some seven seconds, repeated, the last frame held) and `final.png` (the last
+    /// frame) into `folder`; `threads` draw several frames at once.
     ///
     /// # Errors
-    /// [`PictureError::Empty`] without a frame, [`PictureError::Field`] if the wanted field is in no frame, [`PictureError::Io`] and
-    /// [`PictureError::Encode`] if a file can't be written.
+    /// [`PictureError::Empty`] without a frame, [`PictureError::Field`] if the wanted field is in no frame,
+    /// [`PictureError::Io`] and [`PictureError::Encode`] if a file can't be written.
     pub fn finish(&self, folder: &Path, threads: &Threads) -> Result<(), PictureError> {
         let Some(last) = self.stored.last() else { return Err(PictureError::Empty) };
         if let Some(available) = &self.missing {

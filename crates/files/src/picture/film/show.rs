@@ -1,5 +1,5 @@
-//! What is decided for a whole film: the field that is shown, its colour range, how much is seen, the time labels.
-//! Read from all stored frames; `film` draws with it.
+//! What is decided for a whole film: the field that is shown, its colour range, how much is seen, the time
+//! labels. Read from all stored frames; `film` draws with it.
 
 use super::Film;
 use super::stored::Stored;
@@ -27,7 +27,8 @@ impl Film {
     /// Field, colour range and view for all stored frames.
     pub(super) fn show(&self) -> Show {
         let all = |k: usize| self.stored.iter().flat_map(move |frame| frame.values[k].iter().copied()).filter(|v| v.is_finite());
-        // The first scalar that is not zero throughout; if all are, the last (equivalent stress before plastic strain).
+        // The first scalar that is not zero throughout; if all are, the last (equivalent stress before
+        // plastic strain).
         let scalar = (0..self.scalars.len()).find(|k| all(*k).any(|v| v != 0.0)).or(self.scalars.len().checked_sub(1));
         let (sides, bodies, view) = if self.is_in_space() { self.view_in_space() } else { self.view_in_plane() };
         let view = self.settings.view.unwrap_or(view);
@@ -49,7 +50,8 @@ impl Film {
         (sides, nothing(), mirrored(self.view(sides), self.mirror_lines()))
     }
 
-    /// Nothing, the box around bodies and mirror images, and what is seen of them and of the obstacles near them.
+    /// Nothing, the box around bodies and mirror images, and what is seen of them and of the obstacles near
+    /// them.
     fn view_in_space(&self) -> ([f64; 2], Extent<3>, Extent) {
         let (own, sight) = (self.bodies(), self.sight());
         let bodies = mirrored(own, self.settings.mirror);
@@ -92,7 +94,8 @@ impl Film {
         view::obstacles(&frame.obstacles, self.nodes(frame), bodies, view::room(bodies, self.mirror_lines(), sides))
     }
 
-    /// Box of all finite positions, m. If single nodes have been thrown far away (a run that failed), they don't count.
+    /// Box of all finite positions, m. If single nodes have been thrown far away (a run that failed), they
+    /// don't count.
     fn bodies<const D: usize>(&self) -> Extent<D> {
         let boxes: Vec<Extent<D>> = self.stored.iter().map(|frame| extent(frame.places::<D>().iter(), 0.0)).collect();
         let union = boxes.iter().copied().reduce(joined).unwrap_or(nothing());
@@ -113,8 +116,9 @@ impl Film {
         self.stored.iter().map(|frame| self.obstacles(frame, bodies, sides)).fold(bodies, joined)
     }
 
-    /// What is decided for one frame alone: the box of its bodies and of the obstacles near them, m, within the film's view, as a still picture needs no room
-    /// for where they were. A view that was asked for stays.
+    /// What is decided for one frame alone: the box of its bodies and of the obstacles near them, m, within
+    /// the film's view, as a still picture needs no room for where they were. A view that was asked for
+    /// stays.
     pub(super) fn show_of(&self, frame: &Stored, show: &Show) -> Show {
         let Show { scalar, range, key, view: whole, sides, mut bodies } = show.clone();
         let mut view = whole;
@@ -155,7 +159,8 @@ impl Film {
     }
 }
 
-/// Range of the colour map, and whether values lie below or above it. Single peaks far above everything else don't set the range.
+/// Range of the colour map, and whether values lie below or above it. Single peaks far above everything else
+/// don't set the range.
 fn colour_range(values: impl Iterator<Item = f32> + Clone, from_zero: bool) -> ([f64; 2], [bool; 2]) {
     const SAMPLES: usize = 400_000;
     let count = values.clone().count();

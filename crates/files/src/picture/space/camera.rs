@@ -1,5 +1,6 @@
-//! From places in space to places in a picture: the directions in which a camera looks, and the mirror images of a model.
-//! Comes from `output.camera`; `film` and `mesh` choose with it how much is shown, `scene` turns metres into pixels.
+//! From places in space to places in a picture: the directions in which a camera looks, and the mirror images
+//! of a model. Comes from `output.camera`; `film` and `mesh` choose with it how much is shown, `scene` turns
+//! metres into pixels.
 
 use crate::outline::{Extent, cross, dot, unit};
 use embate_solver::model::Camera;
@@ -13,7 +14,8 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    /// Those of a camera. Where its directions can't be told (a zero vector, or upwards where it looks from), others take their place.
+    /// Those of a camera. Where its directions can't be told (a zero vector, or upwards where it looks from),
+    /// others take their place.
     pub(super) fn of(camera: &Camera) -> Self {
         let usual = Camera::default();
         let towards = unit(camera.from).or(unit(usual.from)).unwrap_or([0.0, 0.0, 1.0]);
@@ -75,7 +77,8 @@ impl Sight {
         view
     }
 
-    /// What the camera shows where a picture of everything would show `view`: around the place that it looks at, and as much larger as was asked for.
+    /// What the camera shows where a picture of everything would show `view`: around the place that it looks
+    /// at, and as much larger as was asked for.
     pub(in crate::picture) fn aimed(&self, view: Extent) -> Extent {
         let at = self.camera.at.map(|at| self.directions.seen(at));
         let zoom = if self.camera.zoom > 0.0 { self.camera.zoom } else { 1.0 };

@@ -1,5 +1,6 @@
-//! Facets, their edges and bars, handed to the rasteriser: colours by field, light, thin lines that fade out where the mesh is dense, firm lines at creases.
-//! A skin and its places in the picture come from `scene`; nearest samples stay in [`Samples`].
+//! Facets, their edges and bars, handed to the rasteriser: colours by field, light, thin lines that fade out
+//! where the mesh is dense, firm lines at creases. A skin and its places in the picture come from `scene`;
+//! nearest samples stay in [`Samples`].
 
 use super::raster::{Corner, FINE, Paint, Samples};
 use super::shade::{SMOOTH, dot, lights, normals};
@@ -26,7 +27,8 @@ pub(super) struct Style {
 /// A skin in the picture.
 pub(super) struct Drawing<'a> {
     pub(super) skin: &'a Skin,
-    /// Places of its nodes, samples: to the right, downwards, towards the viewer. Not a number where there is nothing.
+    /// Places of its nodes, samples: to the right, downwards, towards the viewer. Not a number where there is
+    /// nothing.
     pub(super) points: &'a [[f32; 3]],
     /// For each node on which mirror planes it lies, a bit for each axis; empty: on none.
     pub(super) planes: &'a [u8],

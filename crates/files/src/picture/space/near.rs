@@ -1,6 +1,8 @@
-//! The neighbourhood of a culprit of space at a few times: shaded elements with their numbers, what veils the culprit cut away.
+//! The neighbourhood of a culprit of space at a few times: shaded elements with their numbers, what veils the
+//! culprit cut away.
 //!
-//! Elements and times come from a trace, as in the plane, whose layout and legend this takes; `outlook` chooses the direction, `shot` draws the bodies.
+//! Elements and times come from a trace, as in the plane, whose layout and legend this takes; `outlook`
+//! chooses the direction, `shot` draws the bodies.
 
 use super::camera::Directions;
 use super::drawing::{Colour, Style};
@@ -31,7 +33,8 @@ const CULPRIT_LINE: f64 = 1.9;
 /// Numbers and forces are shown where nothing is nearer by more than this, pixels.
 const LIFT: f64 = 4.0;
 
-/// The picture as the text of an SVG file; `mark` is what the culprit is called in it, `depth` the unit of forces. `frame`: the model where it failed.
+/// The picture as the text of an SVG file; `mark` is what the culprit is called in it, `depth` the unit of
+/// forces. `frame`: the model where it failed.
 pub(crate) fn neighbourhood(
     title: &str,
     near: &Neighbourhood,
@@ -210,7 +213,8 @@ impl<'a> Scene<'a> {
         edges
     }
 
-    /// The number of each element that hangs together with the culprit on that of its facets which is seen best.
+    /// The number of each element that hangs together with the culprit on that of its facets which is seen
+    /// best.
     fn labels(&self, out: &mut String, shot: &Shot, moment: &Moment, spot: &impl Fn([f64; 3]) -> [f64; 2]) {
         let mut best: Vec<Option<(f64, usize)>> = vec![None; self.near.cells.len()];
         for (index, facet) in self.skin.facets.iter().enumerate() {

@@ -1,5 +1,6 @@
-//! Obstacles of space in pictures: facets as they are; of a plane without end a finite piece around the bodies, with a grid on it.
-//! Surfaces come from `outline`, boxes around bodies from `film` and `mesh`; drawings go to `scene`.
+//! Obstacles of space in pictures: facets as they are; of a plane without end a finite piece around the
+//! bodies, with a grid on it. Surfaces come from `outline`, boxes around bodies from `film` and `mesh`;
+//! drawings go to `scene`.
 
 use super::skin::Skin;
 use crate::outline::{Extent, Surface, dot};
@@ -10,7 +11,8 @@ use std::sync::Arc;
 const NEAR: f64 = 0.5;
 /// Other obstacles as far as this fraction of the bodies' size beside them.
 const ROOM: f64 = 0.5;
-/// Obstacles that are more than so many times as large as the bodies don't make the picture larger than this fraction beside them.
+/// Obstacles that are more than so many times as large as the bodies don't make the picture larger than this
+/// fraction beside them.
 const LARGE: (f64, f64) = (2.5, 0.1);
 /// Lines of a grid across the longer side.
 const GRID: usize = 12;
@@ -42,7 +44,8 @@ impl Shape {
         Self { facets: surface.facets.clone(), is_endless: surface.is_endless, skin: Arc::new(Skin::of_obstacle(facets, points)) }
     }
 
-    /// The obstacle with its points at these places, m, beside these bodies; none for a plane without end that they are far from.
+    /// The obstacle with its points at these places, m, beside these bodies; none for a plane without end
+    /// that they are far from.
     pub(in crate::picture) fn solid(&self, points: &[[f64; 3]], bodies: Extent<3>) -> Option<Solid> {
         let skin = Arc::clone(&self.skin);
         if !self.is_endless {

@@ -1,7 +1,9 @@
-//! From where a place in a model of space is seen best, and what must be cut away where it is seen from nowhere: for the pictures of a post-mortem.
+//! From where a place in a model of space is seen best, and what must be cut away where it is seen from
+//! nowhere: for the pictures of a post-mortem.
 //!
-//! Cells and places come from `near` and `spot`. Of the model's own camera and the eight corners of a box that is taken from which least veils the place;
-//! where something does, a crater is cut, and the mesh shows its inside around it.
+//! Cells and places come from `near` and `spot`. Of the model's own camera and the eight corners of a box
+//! that is taken from which least veils the place; where something does, a crater is cut, and the mesh shows
+//! its inside around it.
 
 use super::camera::Directions;
 use super::sides::{corners, is_sound, sides_of};
@@ -20,7 +22,8 @@ const UNUSUAL: f64 = 0.5;
 pub(super) struct Target {
     /// Its middle, m.
     pub(super) centre: [f64; 3],
-    /// Points of it that shall be seen, with the direction in which its surface faces there; none: seen from anywhere.
+    /// Points of it that shall be seen, with the direction in which its surface faces there; none: seen from
+    /// anywhere.
     pub(super) points: Vec<([f64; 3], Option<[f64; 3]>)>,
     /// Cells that are it.
     pub(super) own: Vec<u32>,
@@ -137,7 +140,8 @@ impl Sights<'_> {
     }
 }
 
-/// Whether a point is behind a triangle, to who looks at it, by more than a distance, m. The border of the triangle does not hide.
+/// Whether a point is behind a triangle, to who looks at it, by more than a distance, m. The border of the
+/// triangle does not hide.
 fn is_behind(triangle: &[[f64; 3]; 3], x: [f64; 3], directions: &Directions, least: f64) -> bool {
     let place = directions.seen(x);
     let p = triangle.map(|corner| {

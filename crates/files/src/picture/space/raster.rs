@@ -1,5 +1,6 @@
-//! Triangles, rods and lines with hidden surfaces: in each pixel nine samples keep what is nearest to the viewer.
-//! Corners come from `scene` in samples, with the depth in the same measure (larger: nearer); the mean of the samples goes to the [`Canvas`].
+//! Triangles, rods and lines with hidden surfaces: in each pixel nine samples keep what is nearest to the
+//! viewer. Corners come from `scene` in samples, with the depth in the same measure (larger: nearer); the
+//! mean of the samples goes to the [`Canvas`].
 //!
 //! Only + − × ÷, square roots and comparisons in a fixed order: the same picture on every machine.
 
@@ -10,7 +11,8 @@ use crate::picture::raster::Canvas;
 pub(super) const FINE: usize = 3;
 /// Nothing is farther away.
 const FAR: f32 = f32::NEG_INFINITY;
-/// By so much, in samples, a triangle reaches beyond its sides: what rounds to neither of two neighbours belongs to both.
+/// By so much, in samples, a triangle reaches beyond its sides: what rounds to neither of two neighbours
+/// belongs to both.
 const REACH: f32 = 0.02;
 /// Longest piece in which a line is drawn, samples.
 const PIECE: f32 = 48.0;
@@ -50,7 +52,8 @@ pub(super) struct Paint<'a> {
     pub(super) half: f32,
 }
 
-/// A number that changes linearly over the picture: at the origin, per sample to the right, per sample downwards; and its least and largest value.
+/// A number that changes linearly over the picture: at the origin, per sample to the right, per sample
+/// downwards; and its least and largest value.
 #[derive(Clone, Copy, Debug)]
 struct Linear {
     at: f32,
@@ -155,7 +158,8 @@ impl Samples {
         }
     }
 
-    /// A line between two places with a colour of its own, `half` as thick to either side; it is hidden by what is nearer and hides what is farther.
+    /// A line between two places with a colour of its own, `half` as thick to either side; it is hidden by
+    /// what is nearer and hides what is farther.
     pub(super) fn rod(&mut self, ends: [[f32; 3]; 2], half: f32, colour: Rgb) {
         self.along(ends, half, |sample, distance, depth| {
             if distance <= half && depth > sample.depth {
@@ -174,7 +178,8 @@ impl Samples {
         });
     }
 
-    /// Visits all samples near a line: their distance from it, and its depth there. Long lines are cut into pieces, or their boxes would be large.
+    /// Visits all samples near a line: their distance from it, and its depth there. Long lines are cut into
+    /// pieces, or their boxes would be large.
     fn along(&mut self, [a, b]: [[f32; 3]; 2], half: f32, mut visit: impl FnMut(&mut Sample, f32, f32)) {
         if !a.iter().chain(&b).all(|v| v.abs() < 1e6) {
             return;
@@ -209,7 +214,8 @@ impl Samples {
         }
     }
 
-    /// Whether what is at a place is not hidden by anything that is nearer by more than `lift`, samples; beyond the picture nothing is seen.
+    /// Whether what is at a place is not hidden by anything that is nearer by more than `lift`, samples;
+    /// beyond the picture nothing is seen.
     pub(super) fn is_seen(&self, [x, y, depth]: [f32; 3], lift: f32) -> bool {
         let is_inside = x >= 0.0 && y >= 0.0 && x < self.width as f32 && y < self.height as f32;
         is_inside && depth + lift >= self.samples[y as usize * self.width + x as usize].depth
@@ -221,7 +227,8 @@ impl Samples {
         *touched = [touched[0].min(from as u32), touched[1].max(to as u32)];
     }
 
-    /// Lays the means over `canvas` with the upper left corner at (`left`, `top`); obstacles are a veil before bodies that they hide.
+    /// Lays the means over `canvas` with the upper left corner at (`left`, `top`); obstacles are a veil
+    /// before bodies that they hide.
     pub(super) fn compose(&self, obstacles: Option<&Self>, canvas: &mut Canvas, left: usize, top: usize) {
         for y in 0..self.height / FINE {
             let rows = FINE * y..FINE * (y + 1);
@@ -301,7 +308,8 @@ fn span(sides: &[Linear; 3], starts: [f32; 3], [left, right]: [usize; 2]) -> Opt
     (from < to).then_some((from, to))
 }
 
-/// From where to where (0 to 1) a line lies in the picture, `reach` beyond its border included (Liang and Barsky 1984).
+/// From where to where (0 to 1) a line lies in the picture, `reach` beyond its border included (Liang and
+/// Barsky 1984).
 fn within(a: [f32; 3], b: [f32; 3], size: [f32; 2], reach: f32) -> Option<[f32; 2]> {
     let (mut from, mut to) = (0.0f32, 1.0f32);
     for k in 0..2 {

@@ -1,5 +1,6 @@
-//! Layout of a picture of space: the plot on its sheet, below it a cross of the axes and a scale; then one moment after the other on a copy.
-//! `film` and `mesh` say what there is to show; `drawing` draws bodies and obstacles, the canvas goes to `animation` or to a PNG.
+//! Layout of a picture of space: the plot on its sheet, below it a cross of the axes and a scale; then one
+//! moment after the other on a copy. `film` and `mesh` say what there is to show; `drawing` draws bodies and
+//! obstacles, the canvas goes to `animation` or to a PNG.
 
 use super::camera::{Directions, Sight};
 use super::drawing::{Colour, Drawing, Room, Style};
@@ -13,7 +14,8 @@ use crate::picture::scale::{number, ticks, unit};
 use crate::picture::sheet::{Plan, Sheet, key_width, measures, padded};
 use crate::picture::text::{self, Align, Pen, Weight};
 
-/// Lines of bodies and of obstacles at the usual font: thickness, pixels, and strength, of edges of elements and of outlines.
+/// Lines of bodies and of obstacles at the usual font: thickness, pixels, and strength, of edges of elements
+/// and of outlines.
 const BODY: Style = Style { edge: [0.9, 0.34], outline: [1.25, 0.8] };
 const OBSTACLE: Style = Style { edge: [0.9, 0.0], outline: [1.1, 0.5] };
 /// Thickness and strength of a grid on an obstacle.
@@ -54,7 +56,8 @@ pub(in crate::picture) struct Moment<'a> {
 }
 
 impl Scene {
-    /// Lays out and draws what does not change. The picture has the wanted width; it is as high as the bodies need, at most the wanted height.
+    /// Lays out and draws what does not change. The picture has the wanted width; it is as high as the bodies
+    /// need, at most the wanted height.
     pub(in crate::picture) fn new(plan: &Plan<'_>, sight: &Sight) -> Self {
         let (width, height_max, font) = measures(plan.size);
         let view = padded(plan.view);
@@ -142,7 +145,8 @@ impl Scene {
         Style { edge: [unit * style.edge[0], style.edge[1]], outline: [unit * style.outline[0], style.outline[1]] }
     }
 
-    /// Turns places from `origin` (m) into samples from the plot's corner, and tells on which mirror planes they lie.
+    /// Turns places from `origin` (m) into samples from the plot's corner, and tells on which mirror planes
+    /// they lie.
     fn place(&mut self, origin: [f64; 3], places: impl Iterator<Item = [f64; 3]>, sign: [f64; 3]) {
         let directions = self.sight.directions.mirrored(sign);
         let [x0, y0, z0] = directions.seen(origin);

@@ -1,17 +1,20 @@
-//! Light on facets: normals in the picture, smooth where facets meet at a small angle, and how bright a normal is.
-//! Points come from `scene` (to the right, downwards, towards the viewer, one measure); a light per corner goes to `raster`.
+//! Light on facets: normals in the picture, smooth where facets meet at a small angle, and how bright a
+//! normal is. Points come from `scene` (to the right, downwards, towards the viewer, one measure); a light
+//! per corner goes to `raster`.
 
 use super::skin::Skin;
 
 /// Cosine of the angle, 30°, from which on neighbours have an edge between them.
 pub(super) const SMOOTH: f32 = 0.866;
-/// Where light comes from, in the picture: from above, a little from the left, and from who looks at it. Length one.
+/// Where light comes from, in the picture: from above, a little from the left, and from who looks at it.
+/// Length one.
 const LIGHT: [f32; 3] = [-0.25, 0.5, 0.829_156_2];
 /// Brightness without light, and what light adds.
 const AMBIENT: f32 = 0.56;
 const DIRECT: f32 = 0.46;
 
-/// Unit normals of all facets: to the right, upwards, towards the viewer. Not a number where a corner is not, or where there is no area.
+/// Unit normals of all facets: to the right, upwards, towards the viewer. Not a number where a corner is not,
+/// or where there is no area.
 pub(super) fn normals(skin: &Skin, points: &[[f32; 3]], normals: &mut Vec<[f32; 3]>) {
     normals.clear();
     normals.extend(skin.facets.iter().map(|facet| {
@@ -23,7 +26,8 @@ pub(super) fn normals(skin: &Skin, points: &[[f32; 3]], normals: &mut Vec<[f32; 
     }));
 }
 
-/// Brightness at the corners of a facet. `halved`: axes, as unit vectors of the picture, on whose mirror planes a node lies; there the surface goes on in its mirror image.
+/// Brightness at the corners of a facet. `halved`: axes, as unit vectors of the picture, on whose mirror
+/// planes a node lies; there the surface goes on in its mirror image.
 pub(super) fn lights(skin: &Skin, normals: &[[f32; 3]], facet: usize, halved: &dyn Fn(u32) -> [Option<[f32; 3]>; 3]) -> [f32; 4] {
     let own = normals[facet];
     // What is seen from behind, as through a hole, has light too.
@@ -67,7 +71,8 @@ fn unit(v: [f32; 3]) -> [f32; 3] {
 mod tests {
     use super::*;
 
-    /// Two squares that meet at x = 1: the first flat before the viewer, the second turned away by this slope.
+    /// Two squares that meet at x = 1: the first flat before the viewer, the second turned away by this
+    /// slope.
     fn lit(slope: f32) -> ([f32; 4], [f32; 4]) {
         let skin = Skin::of_obstacle(&[[0, 1, 4, 3], [1, 2, 5, 4]], 6);
         // Downwards is positive.

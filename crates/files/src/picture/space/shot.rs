@@ -1,6 +1,8 @@
-//! One look at bodies and obstacles of space, as an image within an SVG: what `near` and `spot` write their lines and names on.
+//! One look at bodies and obstacles of space, as an image within an SVG: what `near` and `spot` write their
+//! lines and names on.
 //!
-//! Bodies are drawn as in all pictures of space; the image is a PNG in the text of the SVG itself, so that a picture stays one file.
+//! Bodies are drawn as in all pictures of space; the image is a PNG in the text of the SVG itself, so that a
+//! picture stays one file.
 
 use super::camera::Directions;
 use super::drawing::{Colour, Drawing, Room, Style};
@@ -29,7 +31,8 @@ pub(super) struct Shot {
     /// Samples for a metre, and for a pixel of the SVG.
     scale: f64,
     fine: f64,
-    /// Place that the picture is laid out from, m, and where it lies in the panel, pixels of the SVG from its upper left corner.
+    /// Place that the picture is laid out from, m, and where it lies in the panel, pixels of the SVG from its
+    /// upper left corner.
     origin: [f64; 3],
     at: [f64; 2],
     bodies: Samples,
@@ -52,7 +55,8 @@ impl Shot {
         [self.fine * self.at[0] + self.scale * right, self.fine * self.at[1] - self.scale * up, self.scale * towards].map(|v| v as f32)
     }
 
-    /// Where a place is in the panel, pixels of the SVG from its upper left corner; what is far away is held back.
+    /// Where a place is in the panel, pixels of the SVG from its upper left corner; what is far away is held
+    /// back.
     pub(super) fn spot(&self, place: [f64; 3]) -> [f64; 2] {
         let [x, y, _] = self.sample(place);
         [x, y].map(|v| (f64::from(v) / self.fine).clamp(-9e4, 9e4))

@@ -80,7 +80,8 @@ fn key(mut corners: [u32; 4]) -> [u32; 4] {
     corners
 }
 
-/// For each key the place of the other one that is equal: sides are laid out by their first node, where few remain to be compared.
+/// For each key the place of the other one that is equal: sides are laid out by their first node, where few
+/// remain to be compared.
 fn paired(keys: &[[u32; 4]]) -> Vec<u32> {
     let nodes = keys.iter().map(|key| key[0] as usize + 1).max().unwrap_or(0);
     let mut places = vec![0u32; nodes + 1];
@@ -157,7 +158,8 @@ pub(in crate::picture) mod tests {
 
     #[test]
     fn a_wedge_meets_a_hexahedron_a_tetrahedron_and_no_other_tetrahedron_twice() {
-        // A hexahedron 0..8, a wedge on its side x = 1, a tetrahedron on the wedge's upper triangle, and one without the nodes that it needs.
+        // A hexahedron 0..8, a wedge on its side x = 1, a tetrahedron on the wedge's upper triangle, and one
+        // without the nodes that it needs.
         let cells = Cells {
             nodes: vec![0, 1, 2, 3, 4, 5, 6, 7, 1, 8, 2, 5, 9, 6, 5, 9, 6, 10, 1, 2, 3],
             offsets: vec![0, 8, 14, 18, 21],

@@ -1,5 +1,6 @@
-//! The skin of solid cells: the sides that nothing lies against, their edges, and the facets around each node.
-//! Made of the cells of a film, and again when cells have gone; obstacles of space are skins too. Positions come with each frame; `scene` draws.
+//! The skin of solid cells: the sides that nothing lies against, their edges, and the facets around each
+//! node. Made of the cells of a film, and again when cells have gone; obstacles of space are skins too.
+//! Positions come with each frame; `scene` draws.
 
 use super::sides::{NONE, Sides, corners, is_sound, sides_of};
 use crate::outline::{cross, dot};
@@ -32,7 +33,8 @@ pub(super) struct Edge {
     pub(super) nodes: [u32; 2],
     /// Two of its facets; [`NONE`] for the second where there is one.
     pub(super) facets: [u32; 2],
-    /// Whether it is seen whatever the shape: it has another number of facets than two, or facets of two parts.
+    /// Whether it is seen whatever the shape: it has another number of facets than two, or facets of two
+    /// parts.
     pub(super) is_border: bool,
 }
 
@@ -72,8 +74,8 @@ pub(crate) struct Skinner {
 const TOLD_BY: usize = 100;
 
 impl Skinner {
-    /// Looks for the sides that lie against each other: the work that grows with the number of cells. Places of the nodes, m, tell which side of a facet is
-    /// outside.
+    /// Looks for the sides that lie against each other: the work that grows with the number of cells. Places
+    /// of the nodes, m, tell which side of a facet is outside.
     pub(crate) fn new(cells: &Cells, place: &dyn Fn(u32) -> [f64; 3]) -> Self {
         let sides = Sides::new(cells);
         let outer = (0..sides.len() as u32).filter(|&side| sides.partner(side).is_none()).collect();
@@ -90,7 +92,8 @@ impl Skinner {
         Skin::of(facets, bars)
     }
 
-    /// What can be seen of them, of cells of the plane too: facets and bars by the nodes of the frame, each by its cell, ascending.
+    /// What can be seen of them, of cells of the plane too: facets and bars by the nodes of the frame, each
+    /// by its cell, ascending.
     pub(crate) fn seen(&self, cells: &Cells, gone: &[u32]) -> (Vec<Facet>, Vec<Bar>) {
         let is_there = |cell: usize| gone.binary_search(&(cell as u32)).is_err();
         let mut seen: Vec<u32> = self.outer.iter().copied().filter(|&side| is_there(self.sides.cell(side).0)).collect();
@@ -116,7 +119,8 @@ impl Skinner {
     }
 }
 
-/// Whether the sides of most cells of a shape are inward: what they enclose has a negative volume (divergence theorem).
+/// Whether the sides of most cells of a shape are inward: what they enclose has a negative volume (divergence
+/// theorem).
 fn is_turned(cells: &Cells, kind: CellKind, place: &dyn Fn(u32) -> [f64; 3]) -> bool {
     let volume = |cell: usize| -> f64 {
         let origin = place(cells.cell(cell)[0]);
@@ -136,7 +140,8 @@ fn is_turned(cells: &Cells, kind: CellKind, place: &dyn Fn(u32) -> [f64; 3]) -> 
 }
 
 impl Skin {
-    /// The facets of an obstacle, corners as places in its points; those that name a point that is not there are left out.
+    /// The facets of an obstacle, corners as places in its points; those that name a point that is not there
+    /// are left out.
     pub(in crate::picture) fn of_obstacle(facets: &[[u32; 4]], points: usize) -> Self {
         let is_sound = |corners: &&[u32; 4]| corners.iter().all(|&corner| (corner as usize) < points);
         Self::of(facets.iter().filter(is_sound).map(|&corners| Facet { corners, part: 0, cell: 0 }).collect(), Vec::new())
@@ -256,7 +261,8 @@ mod tests {
         let size = [3, 3, 3];
         let cells = block(size);
         let skinner = Skinner::new(&cells, &place(size));
-        // The middle: a hole that is not seen from outside; then a corner; then two neighbours on the outside.
+        // The middle: a hole that is not seen from outside; then a corner; then two neighbours on the
+        // outside.
         for (gone, facets) in [(vec![13], 54 + 6), (vec![0], 54), (vec![0, 1], 54 + 2 - 2), (vec![4, 13], 54 - 1 + 5 + 4)] {
             let skin = skinner.skin(&cells, &gone);
             assert_eq!(skin.facets.len(), facets, "without {gone:?}");

@@ -1,4 +1,5 @@
-//! Malformed decks, made from a good one by one change each: every one gets its message at its line. And damage at random: no panic.
+//! Malformed decks, made from a good one by one change each: every one gets its message at its line. And
+//! damage at random: no panic.
 
 use super::{FLAT, read};
 use embate_files::abaqus::parse;

@@ -1,4 +1,5 @@
-//! Decks of Abaqus and CalculiX: what is read, what is refused and with which words, and that no text makes the reader panic.
+//! Decks of Abaqus and CalculiX: what is read, what is refused and with which words, and that no text makes
+//! the reader panic.
 
 mod import;
 mod malformed;

@@ -56,7 +56,8 @@ fn hexahedra_wedges_and_tetrahedra_become_solids_and_faces_their_surfaces() {
     assert_eq!(group(&mesh, "body").cells.len(), 2);
     assert_eq!((group(&mesh, "bottom").dimension, &group(&mesh, "bottom").cells), (2, &vec![vec![0, 1, 2, 3], vec![1, 8, 2]]));
     assert!(positions(&mesh, &group(&mesh, "top").cells[0]).iter().all(|x| x[2] == 1.0));
-    // Six and five faces but for the two where cube and wedge meet, and four of the tetrahedron, which shares no whole face.
+    // Six and five faces but for the two where cube and wedge meet, and four of the tetrahedron, which shares
+    // no whole face.
     assert_eq!(group(&mesh, "outside").cells.len(), 6 + 5 - 2 + 4);
     assert_eq!(group(&mesh, "edge").dimension, 0);
 }
@@ -114,7 +115,8 @@ fn instances_of_solids_are_turned_about_any_axis() {
         let found = mesh.positions.iter().flatten().zip(expected.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-15);
         assert!(found, "{axis}: {:?}", mesh.positions);
     };
-    // Shifted by 1 along x, then by the right hand about x, about y through (1, 0, 0), and a third of a turn about the diagonal.
+    // Shifted by 1 along x, then by the right hand about x, about y through (1, 0, 0), and a third of a turn
+    // about the diagonal.
     near("0,0,0, 5,0,0, 90", [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 2.0], [1.0, -3.0, 0.0]]);
     near("1,0,0, 1,1,0, -90", [[1.0, 0.0, 0.0], [1.0, 0.0, 1.0], [1.0, 2.0, 0.0], [-2.0, 0.0, 0.0]]);
     near("0,0,0, 1,1,1, 120", [[0.0, 1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 1.0, 2.0], [3.0, 1.0, 0.0]]);

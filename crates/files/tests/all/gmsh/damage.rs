@@ -21,7 +21,8 @@ const FILES: [&str; 14] = [
     "cube",
 ];
 
-/// A mesh that came out of a damaged file still refers to its own nodes only; a file with faults has at most twenty of a kind.
+/// A mesh that came out of a damaged file still refers to its own nodes only; a file with faults has at most
+/// twenty of a kind.
 fn check(bytes: &[u8]) {
     match parse(bytes, "m.msh", 1.0) {
         Ok(mesh) => {

@@ -11,7 +11,8 @@ fn changed(name: &str, from: &str, to: &str) -> Vec<u8> {
     [&bytes[..places[0]], to.as_bytes(), &bytes[places[0] + from.len()..]].concat()
 }
 
-/// One wrong file: fixture, what is changed to what, and the fault that is expected: its place and how message and cure begin.
+/// One wrong file: fixture, what is changed to what, and the fault that is expected: its place and how
+/// message and cure begin.
 type Case = (&'static str, &'static str, &'static str, &'static str, &'static str, &'static str);
 
 #[rustfmt::skip]
@@ -121,7 +122,8 @@ fn every_malformed_file_gets_its_message_at_its_place() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A square of `n` × `n` cells of side 1 as a version 2 text file; `cell` gives an element's line from its number and corners.
+/// A square of `n` × `n` cells of side 1 as a version 2 text file; `cell` gives an element's line from its
+/// number and corners.
 fn square(n: usize, tag: impl Fn(usize) -> usize, cell: impl Fn(usize, [usize; 4]) -> String) -> String {
     let row = n + 1;
     let mut text = format!("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", row * row);

@@ -1,4 +1,5 @@
-//! Meshes of Gmsh. The files in tests/gmsh were written by the real Gmsh through make.py there; the malformed ones are made from them here.
+//! Meshes of Gmsh. The files in tests/gmsh were written by the real Gmsh through make.py there; the malformed
+//! ones are made from them here.
 
 mod damage;
 mod malformed;

@@ -1,4 +1,5 @@
-//! Meshes of space: volumes are bodies, surfaces their sides; every form and every fault that the plane doesn't have.
+//! Meshes of space: volumes are bodies, surfaces their sides; every form and every fault that the plane
+//! doesn't have.
 
 use super::{faults, group, mesh};
 use embate_files::gmsh::parse;
@@ -14,7 +15,8 @@ type Element = (i32, i32, Vec<usize>);
 const NAMES: [(u8, i32, &str); 6] =
     [(0, 1, "corner"), (1, 2, "edge"), (2, 3, "left"), (2, 4, "upper"), (3, 5, "block"), (3, 6, "tetrahedra")];
 
-/// Nodes of two unit cubes side by side along x (1 to 12, x first, then y, then z), and of a third one 5 m above them (13 to 20).
+/// Nodes of two unit cubes side by side along x (1 to 12, x first, then y, then z), and of a third one 5 m
+/// above them (13 to 20).
 fn nodes() -> Vec<[f64; 3]> {
     let of = |nx: usize, z0: f64| {
         (0..4 * nx).map(move |k| [(k % nx) as f64, (k / nx % 2) as f64, z0 + (k / nx / 2) as f64]).collect::<Vec<[f64; 3]>>()
@@ -22,7 +24,8 @@ fn nodes() -> Vec<[f64; 3]> {
     [of(3, 0.0), of(2, 5.0)].concat()
 }
 
-/// A hexahedron and two prisms as one body, six tetrahedra as another, two groups of surfaces, one of a curve, one of a point.
+/// A hexahedron and two prisms as one body, six tetrahedra as another, two groups of surfaces, one of a
+/// curve, one of a point.
 fn elements() -> Vec<Element> {
     let mut all = vec![
         (15, 1, vec![1]),
@@ -300,7 +303,8 @@ fn groups_of_a_file_of_solids_are_parts_surfaces_and_nodes_of_a_model() {
     assert_eq!((mesh.positions.len(), mesh.elements_of(0), mesh.elements_of(1)), (20, 3, 6));
     assert_eq!(mesh.nodes("edge").map(|nodes| nodes.len()), Some(3));
     assert_eq!(mesh.nodes("corner").map(|nodes| nodes.len()), Some(1));
-    // Whichever way the file has them, surfaces look out of the body: the left one along -x, the upper one along z.
+    // Whichever way the file has them, surfaces look out of the body: the left one along -x, the upper one
+    // along z.
     let normals = |name: &str| -> Vec<[f64; 3]> {
         let surface = mesh.surface(name, |_| false).unwrap();
         let of = |facet: &[u32; 4]| {

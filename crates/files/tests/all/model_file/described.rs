@@ -1,4 +1,5 @@
-//! Every key that is described gets bad values: NaN, infinity, negative, zero, a wrong unit, a wrong type. New keys are tested without a line here.
+//! Every key that is described gets bad values: NaN, infinity, negative, zero, a wrong unit, a wrong type.
+//! New keys are tested without a line here.
 
 use super::{MORE, SOUND};
 use embate_files::model_file::load_text;
@@ -7,7 +8,8 @@ use embate_solver::model::describe::{Form, Key, Kind, Need, SECTIONS, Section};
 use embate_solver::quantity::{Dimension, Range};
 use std::path::Path;
 
-/// A sound model that uses every section, and a part of each shape that it lacks (polygons need an element with three nodes).
+/// A sound model that uses every section, and a part of each shape that it lacks (polygons need an element
+/// with three nodes).
 fn all_sections() -> String {
     format!(
         r#"{SOUND}{MORE}
@@ -237,7 +239,8 @@ fn every_key_refuses_every_bad_value_at_its_place() {
                     }
                     continue;
                 }
-                // Shapes are in the parts of the sound model in this order; those that are not take the place of the first.
+                // Shapes are in the parts of the sound model in this order; those that are not take the place
+                // of the first.
                 let own = ["ring", "rectangle", "disk", "trapezoid", "quadrilateral", "path"];
                 let own = own.iter().position(|name| *name == inner.name);
                 let index = own.or(["plane", "circle", "polyline"].iter().position(|name| *name == inner.name)).unwrap_or(0);

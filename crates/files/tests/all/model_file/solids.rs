@@ -1,4 +1,5 @@
-//! Units between solids: masses, forces and stiffness are whole ones there, and not those of a metre of depth.
+//! Units between solids: masses, forces and stiffness are whole ones there, and not those of a metre of
+//! depth.
 
 use super::{faults, read};
 use embate_solver::model::{Camera, ContactLaw, Model, Penalty, PointMass, Spring};

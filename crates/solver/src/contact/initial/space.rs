@@ -1,7 +1,9 @@
-//! Penetrations of solids at the start: nodes behind facets and edges that cross, and how they are moved out before anything is strained.
+//! Penetrations of solids at the start: nodes behind facets and edges that cross, and how they are moved out
+//! before anything is strained.
 //!
-//! What follows nodes and edges comes from the builder and knows nothing of the past. The nodes of a touch, on both sides, share the way so that the sum of squares is least, each along the
-//! directions in which it is not held; again and again until none is inside, as in the plane.
+//! What follows nodes and edges comes from the builder and knows nothing of the past. The nodes of a touch,
+//! on both sides, share the way so that the sum of squares is least, each along the directions in which it is
+//! not held; again and again until none is inside, as in the plane.
 
 use super::super::Sweep;
 use super::super::edge_edge::EdgeTouch;
@@ -85,8 +87,8 @@ pub struct Movable<'a> {
 }
 
 impl Movable<'_> {
-    /// Moves nodes until nothing of a contact is inside another body, or nearer than its thickness, by more than the tolerance, or until that has been tried often enough. Whether something
-    /// was moved.
+    /// Moves nodes until nothing of a contact is inside another body, or nearer than its thickness, by more
+    /// than the tolerance, or until that has been tried often enough. Whether something was moved.
     pub fn push_out(&mut self, look: &Look<'_>) -> bool {
         for round in 0..ROUNDS {
             let Some(found) = look.inside(self.positions, self.tolerance) else { return round > 0 };
@@ -106,7 +108,8 @@ impl Movable<'_> {
         true
     }
 
-    /// Moves `nodes` out of an obstacle of which `distance` tells how far they are from its surface (m, negative inside) and the normal. Whether something was moved.
+    /// Moves `nodes` out of an obstacle of which `distance` tells how far they are from its surface (m,
+    /// negative inside) and the normal. Whether something was moved.
     pub fn push_off(&mut self, nodes: &[u32], distance: impl Fn(Vector) -> (f64, Vector)) -> bool {
         let mut is_moved = false;
         for &node in nodes {

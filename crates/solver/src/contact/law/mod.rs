@@ -1,6 +1,7 @@
 //! Contact laws: from gap to normal force. One law a file, one line in [`LAWS`].
 //!
-//! Laws come from the model, springs from the contacts; [`super::springs`] asks a law for the force of each spring, again in every sweep.
+//! Laws come from the model, springs from the contacts; [`super::springs`] asks a law for the force of each
+//! spring, again in every sweep.
 
 pub mod multiplier;
 pub mod penalty;
@@ -13,13 +14,15 @@ use crate::quantity::Parameter;
 
 /// A law of the normal force in a spring.
 pub trait Law: Send + Sync {
-    /// Force F ≥ 0 (of ties: any), N/m, over an update with the steps dt^{n−1}, dt^n. Of an elastic law F (g₊ − g₋) = V(g₋) − V(g₊) with g₊ = free + compliance F.
+    /// Force F ≥ 0 (of ties: any), N/m, over an update with the steps dt^{n−1}, dt^n. Of an elastic law F (g₊
+    /// − g₋) = V(g₋) − V(g₊) with g₊ = free + compliance F.
     fn force(&self, closing: &Closing<'_>, time_steps: [f64; 2]) -> f64;
     /// Energy V of a spring at a gap, J/m.
     fn stored(&self, spring: &Patch, gap: f64) -> f64;
     /// Stiffness −dF/dg of a spring at a gap, N/m per metre of depth.
     fn stiffness(&self, spring: &Patch, gap: f64) -> f64;
-    /// Mean force between two gaps, [V(old) − V(new)] / (new − old), N/m: without the difference of energies, which is round-off where they are near each other.
+    /// Mean force between two gaps, [V(old) − V(new)] / (new − old), N/m: without the difference of energies,
+    /// which is round-off where they are near each other.
     fn mean_force(&self, spring: &Patch, old: f64, new: f64) -> f64;
     /// Stiffness of the elastic slip, N/m per metre of depth.
     fn slip_stiffness(&self, spring: &Patch) -> f64 {
@@ -55,17 +58,20 @@ pub struct Node {
     pub own: Tributary,
     /// Pressure stiffness κ of the elements behind the target, Pa/m.
     pub other: f64,
-    /// Part of the node that belongs to the model: one half on a symmetry line, where the mirror image holds the other.
+    /// Part of the node that belongs to the model: one half on a symmetry line, where the mirror image holds
+    /// the other.
     pub share: f64,
 }
 
 /// Every contact law.
 pub const LAWS: &[ContactLawKind] = &[penalty::KIND, pressure_gap::KIND, multiplier::KIND];
 
-/// Force of an elastic law with a dashpot in parallel: F = max(0, F_elastic − c φ ½ (ġ⁻ + ġ⁺)) with c = 2 ξ √(k m).
+/// Force of an elastic law with a dashpot in parallel: F = max(0, F_elastic − c φ ½ (ġ⁻ + ġ⁺)) with c = 2 ξ
+/// √(k m).
 ///
-/// `fraction` ξ of critical, m the mass that the spring feels, k its stiffness at the deeper end, φ the part of the update in which the gap is closed.
-/// The rate is the mean of both half steps, so the dashpot takes energy for any c and step.
+/// `fraction` ξ of critical, m the mass that the spring feels, k its stiffness at the deeper end, φ the part
+/// of the update in which the gap is closed. The rate is the mean of both half steps, so the dashpot takes
+/// energy for any c and step.
 #[must_use]
 pub fn damped(law: &dyn Law, closing: &Closing<'_>, fraction: f64, rate_old: f64, time_steps: [f64; 2]) -> f64 {
     let Closing { spring, old, free, compliance } = *closing;

@@ -1,8 +1,10 @@
-//! Multiplier: whatever force it takes that there is no penetration at the end of the step, g^{n+1} = g^n + dt^n ġ^{n+½} ≥ 0, F ≥ 0, F g^{n+1} = 0.
+//! Multiplier: whatever force it takes that there is no penetration at the end of the step, g^{n+1} = g^n +
+//! dt^n ġ^{n+½} ≥ 0, F ≥ 0, F g^{n+1} = 0.
 //!
-//! Forward increment Lagrange multipliers: the constraint is that of the step's end, so no system is solved but that of the springs,
-//! and the stable step stays. The gap is held to round-off where surfaces stay together. Impacts lose the kinetic energy of the nodes that are stopped (which
-//! vanishes with the size of the elements); it is booked as lost by damping.
+//! Forward increment Lagrange multipliers: the constraint is that of the step's end, so no system is solved
+//! but that of the springs, and the stable step stays. The gap is held to round-off where surfaces stay
+//! together. Impacts lose the kinetic energy of the nodes that are stopped (which vanishes with the size of
+//! the elements); it is booked as lost by damping.
 
 use super::{ContactLawKind, Law};
 use crate::contact::springs::{Closing, Patch};

@@ -1,20 +1,26 @@
-//! Penalty: a spring that only pushes. F = k_n |G| where the gap G is negative, eq. (11) of the paper; energy ½ k_n G².
+//! Penalty: a spring that only pushes. F = k_n |G| where the gap G is negative, eq. (11) of the paper; energy
+//! ½ k_n G².
 //!
-//! Beyond the depth ℓ, a twentieth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S (d − ℓ)³ / 6ℓ with d = −G up to
-//! 2ℓ, and goes on with the stiffness k (1 + S) that it has there: twice continuously differentiable and convex.
-//! A linear spring as stiff as the elements lets a heavy body through a soft one. S is 100, or α m / (k dt²) with the mass m of the lighter
-//! side's nodes, α = 0.1 and the first step dt, where that is more:
-//! so stiff a spring stops a node within a few steps whatever the elements are. Where the stiffness is given S is 100, and a
-//! `penalty_scale` below 1 scales that by mass, too. At obstacles S is 10, less with a `penalty_scale`
-//! above 1. In sound contact d stays below ℓ.
+//! Beyond the depth ℓ, a twentieth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S
+//! (d − ℓ)³ / 6ℓ with d = −G up to 2ℓ, and goes on with the stiffness k (1 + S) that it has there: twice
+//! continuously differentiable and convex. A linear spring as stiff as the elements lets a heavy body through
+//! a soft one. S is 100, or α m / (k dt²) with the mass m of the lighter side's nodes, α = 0.1 and the first
+//! step dt, where that is more: so stiff a spring stops a node within a few steps whatever the elements are.
+//! Where the stiffness is given S is 100, and a `penalty_scale` below 1 scales that by mass, too. At
+//! obstacles S is 10, less with a `penalty_scale` above 1. In sound contact d stays below ℓ.
 //!
-//! Stiffness of a slave node: given (the paper's k_n), a pressure per depth times the node's tributary length, or automatic: the stiffness
-//! κ of the elements under the surface times the tributary length, the softer of both bodies; half of it in a double pass, where both passes act. What κ is:
+//! Stiffness of a slave node: given (the paper's k_n), a pressure per depth times the node's tributary
+//! length, or automatic: the stiffness κ of the elements under the surface times the tributary length, the
+//! softer of both bodies; half of it in a double pass, where both passes act. What κ is:
 //!
-//! - `wave_modulus`: (K + 4µ/3) L / A, the modulus of plane waves over the height of the element; as stiff as the element itself.
-//! - `bulk_modulus`: K L / A, as in Hallquist, Goudreau and Benson, Comput. Meth. Appl. Mech. Engng 51 (1985) 107-137 (K A² / V in space): softer for metals, nearly the same for rubber.
-//! - `time_step`: α m / (dt² A) with the node's mass m, its tributary length A, the first step dt and α = 0.1: a spring with k = α m / dt², for bodies whose moduli differ by
-//!   orders, or say nothing (the "soft constraint" of explicit codes, LS-DYNA Theory Manual, chapter on contact). With m ~ ρ A h / 2 and dt ~ 0.9 h / c it is about 0.06 (K + 4µ/3) A / h.
+//! - `wave_modulus`: (K + 4µ/3) L / A, the modulus of plane waves over the height of the element; as stiff as
+//!   the element itself.
+//! - `bulk_modulus`: K L / A, as in Hallquist, Goudreau and Benson, Comput. Meth. Appl. Mech. Engng 51 (1985)
+//!   107-137 (K A² / V in space): softer for metals, nearly the same for rubber.
+//! - `time_step`: α m / (dt² A) with the node's mass m, its tributary length A, the first step dt and
+//!   α = 0.1: a spring with k = α m / dt², for bodies whose moduli differ by orders, or say nothing (the
+//!   "soft constraint" of explicit codes, LS-DYNA Theory Manual, chapter on contact). With m ~ ρ A h / 2 and
+//!   dt ~ 0.9 h / c it is about 0.06 (K + 4µ/3) A / h.
 
 use super::{ContactLawKind, Law, Node, fixed_point};
 use crate::contact::springs::{Closing, Patch, Stiffening};
@@ -40,8 +46,9 @@ pub const KIND: ContactLawKind = ContactLawKind {
 
 /// How much stiffer it is at least between bodies, at twice the limit than below it.
 const STIFFENING: f64 = 100.0;
-/// How much stiffer it is there at obstacles, which do not give way: of 52 scenes in which bodies are pressed against planes 5 did not end
-/// with 10, 7 with 0 and 3, and 9 with 100, which throws nodes back within a step.
+/// How much stiffer it is there at obstacles, which do not give way: of 52 scenes in which bodies are pressed
+/// against planes 5 did not end with 10, 7 with 0 and 3, and 9 with 100, which throws nodes back within a
+/// step.
 const AT_OBSTACLES: f64 = 10.0;
 /// Fraction of the local thickness beyond which it stiffens.
 pub const LIMIT: f64 = 0.05;
@@ -49,7 +56,8 @@ pub const LIMIT: f64 = 0.05;
 /// Fraction α of m / dt² that `penalty_from = "time_step"` takes.
 const OF_TIME_STEP: f64 = 0.1;
 
-/// κ of a node from its mass m (kg/m), the first step dt (s) and its tributary length A (m), of a body of revolution from mass and area all around: α m / (dt² A), Pa/m.
+/// κ of a node from its mass m (kg/m), the first step dt (s) and its tributary length A (m), of a body of
+/// revolution from mass and area all around: α m / (dt² A), Pa/m.
 #[must_use]
 pub fn of_time_step(mass: f64, time_step: f64, area: f64) -> f64 {
     OF_TIME_STEP * mass / (time_step * time_step * area)
@@ -61,7 +69,8 @@ pub fn stiffening(thickness: f64, factor: f64) -> Stiffening {
     Stiffening::new(LIMIT * thickness, factor)
 }
 
-/// By what factor a spring of a stiffness stiffens between bodies, so that it is as stiff as `of_mass` (the unit of the stiffness) then.
+/// By what factor a spring of a stiffness stiffens between bodies, so that it is as stiff as `of_mass` (the
+/// unit of the stiffness) then.
 #[must_use]
 pub fn factor(stiffness: f64, of_mass: f64) -> f64 {
     if stiffness > 0.0 { STIFFENING.max(of_mass / stiffness) } else { STIFFENING }
@@ -82,7 +91,8 @@ pub fn penalty_of(interface: &model::Interface) -> model::Penalty {
     if let model::ContactLaw::Penalty(penalty) = interface.law { penalty } else { model::Penalty::default() }
 }
 
-/// Share of the stiffness by mass that springs may stiffen to: none where a stiffness is given, and less where the automatic one is made softer.
+/// Share of the stiffness by mass that springs may stiffen to: none where a stiffness is given, and less
+/// where the automatic one is made softer.
 #[must_use]
 pub fn share_of_mass(penalty: model::Penalty) -> f64 {
     match penalty {
@@ -154,7 +164,8 @@ impl Law for Penalty {
     }
 }
 
-/// Mean of what stiffening adds to the depth between `most` and `least` beyond the limit ℓ, m: b² / 2ℓ up to ℓ, then b − ℓ/2.
+/// Mean of what stiffening adds to the depth between `most` and `least` beyond the limit ℓ, m: b² / 2ℓ up to
+/// ℓ, then b − ℓ/2.
 fn mean_depth(most: f64, least: f64, limit: f64) -> f64 {
     // Of differences of cubes and squares by the way.
     let curved = |most: f64, least: f64| (most * most + most * least + least * least) / (6.0 * limit);

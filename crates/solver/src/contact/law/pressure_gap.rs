@@ -1,7 +1,9 @@
-//! Pressure as a function of the gap: a table, linear between its points. F = A p(g), energy A ∫ p dg from the gap on.
+//! Pressure as a function of the gap: a table, linear between its points. F = A p(g), energy A ∫ p dg from
+//! the gap on.
 //!
-//! Below the deepest gap the pressure goes on with the last slope. Positive gaps with a pressure are allowed: a soft layer that is
-//! not modelled. Edges that cross press on half of what their four nodes stand for, and nodes that come in while they hold press on nothing, so that nothing is counted twice.
+//! Below the deepest gap the pressure goes on with the last slope. Positive gaps with a pressure are allowed:
+//! a soft layer that is not modelled. Edges that cross press on half of what their four nodes stand for, and
+//! nodes that come in while they hold press on nothing, so that nothing is counted twice.
 
 use super::{ContactLawKind, Law, fixed_point};
 use crate::contact::springs::{Closing, Patch};
@@ -22,7 +24,8 @@ pub struct PressureGap {
 }
 
 impl PressureGap {
-    /// From gaps (m, strictly ascending, at least two) and pressures (Pa, descending to zero at the last gap).
+    /// From gaps (m, strictly ascending, at least two) and pressures (Pa, descending to zero at the last
+    /// gap).
     #[must_use]
     pub fn new(gaps: &[f64], pressures: &[f64]) -> Self {
         let mut points: Vec<[f64; 3]> = gaps.iter().zip(pressures).map(|(&gap, &pressure)| [gap, pressure, 0.0]).collect();

@@ -1,4 +1,5 @@
-//! Tie: a spring that pulls as well as it pushes, F = −k g, or with a multiplier the force that brings the gap to zero at the end of the step.
+//! Tie: a spring that pulls as well as it pushes, F = −k g, or with a multiplier the force that brings the
+//! gap to zero at the end of the step.
 //!
 //! No law that a contact names: tied contacts use it, with the stiffness of their penalty.
 

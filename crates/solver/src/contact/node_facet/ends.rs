@@ -1,10 +1,11 @@
-//! Ends of the springs between nodes and facets: who has which share of the gap, and what makes the slip rate blind to rotations.
+//! Ends of the springs between nodes and facets: who has which share of the gap, and what makes the slip rate
+//! blind to rotations.
 //!
-//! Projections come from the tracker, springs go to the formulation. The slip rate is that of the node against the surface at the node's
-//! own distance, ṡ = t·(v − Σ w v_C − ω × r) with r = x − P
-//! and the spin ω of what is there: ω = N × Ṅ + ½ N (N·∇ × v) is the body's own for every rigid motion, so ṡ does not see rotations of both
-//! together, and its transpose, the friction, keeps the
-//! angular momentum. At an edge or a node no facet is the nearest one, rounding would choose it: ω is the mean over those that meet there.
+//! Projections come from the tracker, springs go to the formulation. The slip rate is that of the node
+//! against the surface at the node's own distance, ṡ = t·(v − Σ w v_C − ω × r) with r = x − P and the spin ω
+//! of what is there: ω = N × Ṅ + ½ N (N·∇ × v) is the body's own for every rigid motion, so ṡ does not see
+//! rotations of both together, and its transpose, the friction, keeps the angular momentum. At an edge or a
+//! node no facet is the nearest one, rounding would choose it: ω is the mean over those that meet there.
 
 use super::first_edge;
 use super::tangent;
@@ -18,7 +19,8 @@ use crate::vector::minus;
 /// Spin ω = Σ a (b·v) by the velocity v of a corner: two pairs [a, b].
 type Spin = [[Vector; 2]; 2];
 
-/// The ends of a spring that does not care for slip, between a node and where it projects, and how many there are: those of corners with a share.
+/// The ends of a spring that does not care for slip, between a node and where it projects, and how many there
+/// are: those of corners with a share.
 pub(super) fn pushed(placed: &Placed<'_>, node: u32, projection: &Projection) -> ([End<3>; 5], usize) {
     let (corners, mut ends, mut count) = (placed.surface.facets[projection.facet as usize], [End::node(node, 1.0); 5], 1);
     for (corner, weight) in corners.into_iter().zip(projection.weights).filter(|(_, weight)| *weight != 0.0) {
@@ -30,7 +32,8 @@ pub(super) fn pushed(placed: &Placed<'_>, node: u32, projection: &Projection) ->
     (ends, count)
 }
 
-/// The ends of a spring between a node and where it projects, and how many there are, with the spin of the projection's triangle.
+/// The ends of a spring between a node and where it projects, and how many there are, with the spin of the
+/// projection's triangle.
 #[must_use]
 pub fn ends(placed: &Placed<'_>, node: u32, projection: &Projection) -> ([End<3>; 5], usize) {
     let Projection { facet, triangle, .. } = *projection;
@@ -49,7 +52,8 @@ pub fn ends(placed: &Placed<'_>, node: u32, projection: &Projection) -> ([End<3>
     (ends, known)
 }
 
-/// The same with the mean spin of the `facets` on which the foot lies, along `tangent` and across it; corners of others than the projection's own go to `more`.
+/// The same with the mean spin of the `facets` on which the foot lies, along `tangent` and across it; corners
+/// of others than the projection's own go to `more`.
 pub(super) fn ends_with(
     placed: &Placed<'_>,
     (node, projection): (u32, &Projection),
@@ -117,7 +121,8 @@ fn turn_with(end: &mut End<3>, spin: &Spin, pulls: &[Vector; 2], share: f64) {
     }
 }
 
-/// How a facet spins with each corner, one of four nodes by its diagonals: none of its triangles counts more than another.
+/// How a facet spins with each corner, one of four nodes by its diagonals: none of its triangles counts more
+/// than another.
 fn facet_spins(placed: &Placed<'_>, facet: u32) -> [Spin; 4] {
     let corners = placed.surface.facets[facet as usize];
     let [a, b, c, d] = corners.map(|node| placed.positions[node as usize]);
@@ -157,8 +162,8 @@ mod tests {
     use crate::mesh::surface::{NONE, SpaceSurface};
     use std::collections::BTreeMap;
 
-    /// An L of three crooked hexahedra with a corner near the origin and the bottom of its fold from node 7 to node 10, as grids of 3 × 2 ×
-    /// 3 nodes number them; then a node.
+    /// An L of three crooked hexahedra with a corner near the origin and the bottom of its fold from node 7
+    /// to node 10, as grids of 3 × 2 × 3 nodes number them; then a node.
     fn fold(x: impl Fn(Vector, Vector) -> Vector) -> (SpaceSurface, Vec<Vector>) {
         let node = |i: u32, j: u32, k: u32| 3 * (2 * k + j) + i;
         let cell = |i: u32, k: u32| {

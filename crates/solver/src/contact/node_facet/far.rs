@@ -1,16 +1,20 @@
-//! What is far is not looked at: lower bounds of the distances between nodes and facets, from when they were measured last.
+//! What is far is not looked at: lower bounds of the distances between nodes and facets, from when they were
+//! measured last.
 //!
-//! The tracker keeps a bound for each candidate and one for each node and body, and asks here. A facet that was d away at the travel T (the way that no node has exceeded since the start)
-//! is at least d − 2 (T' − T) away at T', since its points lie between its corners: kept is d + 2 T, see [`sleep`]. A candidate that can't be nearer than one that has been measured need
-//! not be measured, nor one that can't be reached in the step be looked at for a passage; a node all of whose candidates are beyond what touches sleeps. Bounds are part of the state, so
-//! that a run that is resumed sleeps as the one that went on.
+//! The tracker keeps a bound for each candidate and one for each node and body, and asks here. A facet that
+//! was d away at the travel T (the way that no node has exceeded since the start) is at least d − 2 (T' − T)
+//! away at T', since its points lie between its corners: kept is d + 2 T, see [`sleep`]. A candidate that
+//! can't be nearer than one that has been measured need not be measured, nor one that can't be reached in the
+//! step be looked at for a passage; a node all of whose candidates are beyond what touches sleeps. Bounds are
+//! part of the state, so that a run that is resumed sleeps as the one that went on.
 
 use super::super::projection::node_facet::{Found, Placed, Vector};
 use super::super::tracker::sleep::{self, AWAKE};
 
 /// Bounds are taken as so much smaller, as a fraction of what they are made of: they may round.
 const ROUNDING: f64 = 1e-12;
-/// A node can't go through a facet that is farther than so many times the longest way of a node in the step: twice that, with room for facets that turn.
+/// A node can't go through a facet that is farther than so many times the longest way of a node in the step:
+/// twice that, with room for facets that turn.
 const PASSAGE: f64 = 8.0;
 
 /// Candidates of a node in a body, with what is known of their distances.

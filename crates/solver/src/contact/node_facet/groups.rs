@@ -1,6 +1,8 @@
-//! What nodes of one surface and facets of another one make groups of: candidates of a slave node, body by body.
+//! What nodes of one surface and facets of another one make groups of: candidates of a slave node, body by
+//! body.
 //!
-//! Pairs come from the global search; groups go to the tracker of the nodes ([`super::tracker`]) and to the proof ([`super::super::proof`]), which keep what they know of each.
+//! Pairs come from the global search; groups go to the tracker of the nodes ([`super::tracker`]) and to the
+//! proof ([`super::super::proof`]), which keep what they know of each.
 
 use super::super::projection::node_facet::Vector;
 use super::super::search::{Pair, Query, Search};
@@ -16,9 +18,10 @@ pub(in crate::contact) struct Meeting<'a> {
 }
 
 impl Meeting<'_> {
-    /// The facets that a `search` finds near each slave node and each body, for `take`: [index of the slave, node, body], and each facet with what `counts` says of it (slave node, facet; nothing: it does
-    /// not count). Slaves, bodies and facets ascend. `body` is that of a node; facets of the `query` are halves ([`halves`]); `pairs` is
-    /// room.
+    /// The facets that a `search` finds near each slave node and each body, for `take`: [index of the slave,
+    /// node, body], and each facet with what `counts` says of it (slave node, facet; nothing: it does not
+    /// count). Slaves, bodies and facets ascend. `body` is that of a node; facets of the `query` are halves
+    /// ([`halves`]); `pairs` is room.
     pub(in crate::contact) fn each<T: Copy>(
         &self,
         search: &mut dyn Search<3>,
@@ -74,7 +77,8 @@ pub(in crate::contact) fn mean_edge(surfaces: &[SpaceSurface], positions: &[Vect
     sum / count.max(1) as f64
 }
 
-/// How far the middle of a facet is from that of its diagonal at most, m: by so much it may be outside the boxes of its halves.
+/// How far the middle of a facet is from that of its diagonal at most, m: by so much it may be outside the
+/// boxes of its halves.
 pub(in crate::contact) fn bend(surface: &SpaceSurface, positions: &[Vector]) -> f64 {
     let of = |facet: &[u32; 4]| {
         if facet.corners().len() == 3 {

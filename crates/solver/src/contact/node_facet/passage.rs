@@ -1,8 +1,10 @@
-//! Through which facets of a body a node goes in a step, both ways, and what becomes of it: whether it is inside at the end, and on which side it came in.
+//! Through which facets of a body a node goes in a step, both ways, and what becomes of it: whether it is
+//! inside at the end, and on which side it came in.
 //!
-//! Positions come from the step, candidates from the tracker of the nodes ([`super::tracker`]) or from the proof ([`super::super::proof`]), times from `projection/swept.rs`. A node that comes in is
-//! inside until it goes out by a facet that looks to the side from which it came, or beside: the far side of a thin body is none, and who goes through it in one step is inside. There the face by
-//! which it came in leads it.
+//! Positions come from the step, candidates from the tracker of the nodes ([`super::tracker`]) or from the
+//! proof ([`super::super::proof`]), times from `projection/swept.rs`. A node that comes in is inside until it
+//! goes out by a facet that looks to the side from which it came, or beside: the far side of a thin body is
+//! none, and who goes through it in one step is inside. There the face by which it came in leads it.
 
 use super::super::Sweep;
 use super::super::projection::node_facet::{Placed, Projection, Vector};
@@ -12,7 +14,8 @@ use super::tracker::SAME_SIDE;
 use crate::mesh::surface::Corners;
 use crate::tensor::dot;
 
-/// Cosine of the angle between the side from which a node came in and the normals of facets of the face there.
+/// Cosine of the angle between the side from which a node came in and the normals of facets of the face
+/// there.
 pub(in crate::contact) const ALONG: f64 = 0.5;
 /// Times of one step that differ by less are the same, and who goes in and out at the same time is out.
 const SAME_TIME: f64 = 1e-12;
@@ -99,8 +102,9 @@ impl Passages {
     }
 }
 
-/// Whether a node and a facet stay apart in the step along an axis, by more than a place may be beyond the rim of a facet and count as on it: it goes through none of its triangles, then. Of the
-/// facets around that which a node goes through, most lie in the same plane and beside the way.
+/// Whether a node and a facet stay apart in the step along an axis, by more than a place may be beyond the
+/// rim of a facet and count as on it: it goes through none of its triangles, then. Of the facets around that
+/// which a node goes through, most lie in the same plane and beside the way.
 fn are_apart(placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facet: u32) -> bool {
     let corners = placed.surface.facets[facet as usize];
     let (mut low, mut high) = (sweep.old[corners[0] as usize], sweep.old[corners[0] as usize]);
@@ -115,8 +119,9 @@ fn are_apart(placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facet: u32) ->
     (0..3).any(|d| from[d].max(to[d]) < low[d] - margin || from[d].min(to[d]) > high[d] + margin)
 }
 
-/// The projection of a node on the face by which it came in from a side, and the facet's normal there; unless what was `found` is that face, or holds the node inside and it is not over the face.
-/// `likely` is asked first, of those that `faces` says it can meet.
+/// The projection of a node on the face by which it came in from a side, and the facet's normal there; unless
+/// what was `found` is that face, or holds the node inside and it is not over the face. `likely` is asked
+/// first, of those that `faces` says it can meet.
 pub(super) fn led(
     candidates: &mut Candidates<'_>,
     placed: &Placed<'_>,
@@ -140,7 +145,8 @@ mod tests {
     use crate::mesh::cell::CellKind;
     use crate::mesh::surface::Surface;
 
-    /// What a node does that goes straight from one place to another, with the unit cube that stands still (or a plate of the same width), and was outside.
+    /// What a node does that goes straight from one place to another, with the unit cube that stands still
+    /// (or a plate of the same width), and was outside.
     fn fate_of(from: Vector, to: Vector, height: f64) -> Fate {
         let cells = [CellKind::Hexahedron.cell(&[0, 1, 2, 3, 4, 5, 6, 7])];
         let surface = Surface::<3>::outside(cells).unwrap();
@@ -161,7 +167,8 @@ mod tests {
             let inside = fate_of(above, [0.4, 0.4, 0.5 * height], height);
             assert_eq!(inside, Fate { side: up, enters: true, is_through: false });
             assert_eq!(fate_of(above, [0.4, 0.4, -2.0], height), Fate { is_through: true, ..inside });
-            // Out by the far side and then beyond the rim it has gone through all the same; by a side wall it is out.
+            // Out by the far side and then beyond the rim it has gone through all the same; by a side wall it
+            // is out.
             assert_eq!(fate_of(above, [3.0, 0.4, -2.0], height).is_through, height < 0.5);
             assert_eq!(fate_of([0.9, 0.4, height + 0.1], [1.1, 0.4, 0.9 * height], height), Fate::default());
             // Past a corner, along an edge, and over it.

@@ -233,7 +233,8 @@ fn nodes_that_fly_at_a_box_come_back_from_all_its_faces_edges_and_corners_with_t
         for direction in 0..27i32 {
             let from = [direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1].map(f64::from);
             let faces = from.iter().filter(|c| **c != 0.0).count() == 1;
-            // Springs that turn a node back within a step lose some 7 % of its energy at an edge: what they meet is not resolved.
+            // Springs that turn a node back within a step lose some 7 % of its energy at an edge: what they
+            // meet is not resolved.
             if from == [0.0; 3] || (!faces && ratio > 1.0) {
                 continue;
             }
@@ -252,7 +253,8 @@ fn nodes_that_fly_at_a_box_come_back_from_all_its_faces_edges_and_corners_with_t
             for k in 0..8 {
                 let energy = dot(world.velocities[k], world.velocities[k]) / dot(begin[k], begin[k]);
                 let outside = world.positions[k].iter().any(|c| c.abs() > 1.0);
-                // What meets an edge or a corner turns about it while it is inside, within a step or two: half steps see chords of that.
+                // What meets an edge or a corner turns about it while it is inside, within a step or two:
+                // half steps see chords of that.
                 let allowed = if faces { 1e-9 } else { 0.05 };
                 assert!((energy - 1.0).abs() < allowed && outside, "{ratio} {from:?}: {energy} {:?}", world.positions[k]);
                 assert!(!faces || dot(world.velocities[k], from) > 1.0 - 1e-9, "{ratio} {from:?}: {:?}", world.velocities[k]);
@@ -284,7 +286,8 @@ fn a_node_that_slides_around_a_box_over_edges_and_corners_keeps_its_energy() {
 
 #[test]
 fn nodes_on_a_symmetry_plane_that_fly_through_a_plate_in_one_step_are_seen_at_its_border() {
-    // The plate rises from x = 0, the symmetry plane, so that its border there is nearest from below; y = 0 is another one.
+    // The plate rises from x = 0, the symmetry plane, so that its border there is nearest from below; y = 0
+    // is another one.
     let slope = 0.3;
     for y in [0.0, 0.1, 0.33, 0.5] {
         let mut plate = grid([0.0; 3], [0.5, 0.5, 0.1], [2, 2, 1], |_| true);

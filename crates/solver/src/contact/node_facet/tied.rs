@@ -1,8 +1,11 @@
-//! Tied contact in space: what touches at the start stays together until the traction exceeds a strength, as in the plane ([`crate::contact::tied`]).
+//! Tied contact in space: what touches at the start stays together until the traction exceeds a strength, as
+//! in the plane ([`crate::contact::tied`]).
 //!
-//! Each slave node near the target is bound to the triangle of a facet below it. Its height above the triangle and its place along it, of which the corners keep their shares of the start, are kept
-//! by springs with the rows of a node against a facet ([`super::ends`]) at the node's present foot: objective, and exact in both momenta. One surface is slave. Broken ties are gone for good, what
-//! they stored is told to the ledger; nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
+//! Each slave node near the target is bound to the triangle of a facet below it. Its height above the
+//! triangle and its place along it, of which the corners keep their shares of the start, are kept by springs
+//! with the rows of a node against a facet ([`super::ends`]) at the node's present foot: objective, and exact
+//! in both momenta. One surface is slave. Broken ties are gone for good, what they stored is told to the
+//! ledger; nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
 use super::groups::{bend, halves};
 use super::{NodeFacet, PassInput, ends, first_edge, tangent};
@@ -65,7 +68,8 @@ struct Tie {
 keep_all!(Tie { node, slave, facet, triangle, place, gap, stiffness, area });
 
 impl TiedFacet {
-    /// For the only pass of `loose`, the ordinary contact; ties hold up to `strength` (Pa) and follow `terms`.
+    /// For the only pass of `loose`, the ordinary contact; ties hold up to `strength` (Pa) and follow
+    /// `terms`.
     #[must_use]
     pub fn new(loose: NodeFacet, unborn: Unborn, strength: f64, terms: usize) -> Self {
         let target = loose.tracker().target(0).clone();

@@ -1,20 +1,26 @@
-//! Where slave nodes lie with respect to the bodies of surfaces in space, from step to step: candidates from the global search, the side from which each node came in, and the projection
-//! of the step.
+//! Where slave nodes lie with respect to the bodies of surfaces in space, from step to step: candidates from
+//! the global search, the side from which each node came in, and the projection of the step.
 //!
-//! Positions come from the step; what is found goes to the formulation, which makes springs of it. A slave node and a body make a group with a memory of its own and at most one touch. The
-//! nearest feature of the body decides (`projection/node_facet.rs`), and
+//! Positions come from the step; what is found goes to the formulation, which makes springs of it. A slave
+//! node and a body make a group with a memory of its own and at most one touch. The nearest feature of the
+//! body decides (`projection/node_facet.rs`), and
 //!
-//! - a node that is inside, or has just gone through a facet on its way (checked along the way in the step, so that it may be as fast as it likes, by `passage.rs`), sees only facets that look
-//!   to the side from which it came: through a thin plate the far side may be nearer, but is not where it goes out;
-//! - the face by which it comes in leads it while it is over that face, however near a side wall is, and wherever it is once it went through the far side: until it is before the face, or
-//!   went out by another side, or the face is what is nearest;
-//! - a face holds the nodes that press on it, or come upon it from the front, over its rim and a little beyond: blocks that end flush press on each other with their edges too, whatever
-//!   rounds or spreads. The slave's own surface has to face it and to go back over it; who slides down beside a body has nothing to do with its top;
-//! - in its own body it sees only facets that its own surface looks at, and is inside only if it was seen to come in: its neighbours along the surface are near, and its own far side is
-//!   behind it.
+//! - a node that is inside, or has just gone through a facet on its way (checked along the way in the step,
+//!   so that it may be as fast as it likes, by `passage.rs`), sees only facets that look to the side from
+//!   which it came: through a thin plate the far side may be nearer, but is not where it goes out;
+//! - the face by which it comes in leads it while it is over that face, however near a side wall is, and
+//!   wherever it is once it went through the far side: until it is before the face, or went out by another
+//!   side, or the face is what is nearest;
+//! - a face holds the nodes that press on it, or come upon it from the front, over its rim and a little
+//!   beyond: blocks that end flush press on each other with their edges too, whatever rounds or spreads. The
+//!   slave's own surface has to face it and to go back over it; who slides down beside a body has nothing to
+//!   do with its top;
+//! - in its own body it sees only facets that its own surface looks at, and is inside only if it was seen to
+//!   come in: its neighbours along the surface are near, and its own far side is behind it.
 //!
-//! Everything within the search's radius less the skin is a candidate, until some node has moved by more than half the skin; what is far among them is not looked at (`far.rs`). Order is
-//! fixed: passes, slave nodes, bodies ascending.
+//! Everything within the search's radius less the skin is a candidate, until some node has moved by more than
+//! half the skin; what is far among them is not looked at (`far.rs`). Order is fixed: passes, slave nodes,
+//! bodies ascending.
 
 use super::super::Sweep;
 use super::super::projection::node_facet::{Placed, Projection, Vector};
@@ -29,16 +35,20 @@ use crate::mesh::surface::{NONE, SpaceSurface};
 use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
 
-/// Cosine of the angle between the side from which a node came and those of facets that it sees while it is inside.
+/// Cosine of the angle between the side from which a node came and those of facets that it sees while it is
+/// inside.
 pub(in crate::contact) const SAME_SIDE: f64 = -0.5;
 /// The same between a node's own normal and those of facets of its own body that it can meet.
 pub(in crate::contact) const FACING: f64 = -0.2;
-/// Nodes are seen that may come in with so many times the last motion, and this fraction of the skin for those that are set in motion now.
+/// Nodes are seen that may come in with so many times the last motion, and this fraction of the skin for
+/// those that are set in motion now.
 const LOOK_AHEAD: f64 = 4.0;
 const START: f64 = 0.02;
-/// A node nearer to a side than this fraction of the skin (a millionth of an edge) is on it, as far as one can tell.
+/// A node nearer to a side than this fraction of the skin (a millionth of an edge) is on it, as far as one
+/// can tell.
 const FLUSH: f64 = 4e-6;
-/// How far a face holds nodes beyond its rim, as a fraction of the size of its facets (the root of the sum of the squares of both diagonals).
+/// How far a face holds nodes beyond its rim, as a fraction of the size of its facets (the root of the sum of
+/// the squares of both diagonals).
 const BAND: f64 = 0.02;
 /// Cosine of the angle between the normal that a node felt and that of the face that holds it.
 const SAME_FACE: f64 = 0.9;
@@ -191,8 +201,9 @@ pub struct Tracker {
 }
 
 impl Tracker {
-    /// For the nodes of `surfaces[slave]` against `surfaces[target]` in each pass (slave, target), which may be the same surface; `bodies` of each node of the model (0 for those beyond),
-    /// `positions` the initial ones.
+    /// For the nodes of `surfaces[slave]` against `surfaces[target]` in each pass (slave, target), which may
+    /// be the same surface; `bodies` of each node of the model (0 for those beyond), `positions` the initial
+    /// ones.
     #[must_use]
     pub fn new(
         surfaces: Vec<SpaceSurface>,
@@ -230,7 +241,8 @@ impl Tracker {
         tracker
     }
 
-    /// The same where the lengths of `surface` count alone, however large facets of others are: those of an obstacle may have any size.
+    /// The same where the lengths of `surface` count alone, however large facets of others are: those of an
+    /// obstacle may have any size.
     #[must_use]
     pub fn measured_by(self, surface: usize, positions: &[Vector]) -> Self {
         let edge = mean_edge(&self.surfaces[surface..=surface], positions);
@@ -264,20 +276,22 @@ impl Tracker {
         SearchReport { candidates: self.passes.iter().map(|pass| pass.candidates.len()).sum(), ..self.report }
     }
 
-    /// Everything nearer was found by the last search, and the part of it for what moves until the next one, m.
+    /// Everything nearer was found by the last search, and the part of it for what moves until the next one,
+    /// m.
     #[must_use]
     pub fn reach(&self) -> [f64; 2] {
         [self.radius, self.skin]
     }
 
-    /// Gap (m) up to which springs are there before they are needed, beside what the motion asks for; and how many motions ahead.
+    /// Gap (m) up to which springs are there before they are needed, beside what the motion asks for; and how
+    /// many motions ahead.
     #[must_use]
     pub fn near(&self) -> [f64; 2] {
         [START * self.skin, LOOK_AHEAD]
     }
 
-    /// Fills a list with the nodes whose springs were closed (gap below `open`, m) after the last step: slave surface, node, and each facet
-    /// on which it lay, ascending.
+    /// Fills a list with the nodes whose springs were closed (gap below `open`, m) after the last step: slave
+    /// surface, node, and each facet on which it lay, ascending.
     pub fn note_closed(&self, open: f64, closed: &mut Vec<(usize, u32, u32)>) {
         closed.clear();
         for pass in &self.passes {
@@ -320,7 +334,8 @@ impl Tracker {
         &mut self.passes[touch.pass as usize].groups[touch.group as usize].memory
     }
 
-    /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and body. Nodes farther than `extra` (m) beyond that are not looked at.
+    /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and
+    /// body. Nodes farther than `extra` (m) beyond that are not looked at.
     pub fn track(&mut self, sweep: Sweep<'_, 3>, extra: f64) -> &[Touch] {
         self.report.steps += 1;
         let mut sweep = sweep;
@@ -411,7 +426,8 @@ impl Tracker {
         self.searched.extend(self.nodes.iter().map(|&node| sweep.new[node as usize]));
     }
 
-    /// Where the node of group `index` of pass `number` is with respect to its body; `clear` is what is known of the distances of the pass's candidates.
+    /// Where the node of group `index` of pass `number` is with respect to its body; `clear` is what is known
+    /// of the distances of the pass's candidates.
     fn look_at(&mut self, [number, index]: [usize; 2], sweep: Sweep<'_, 3>, [extra, way, asleep]: [f64; 3], clear: &mut [f64]) {
         let pass = &self.passes[number];
         let group = pass.groups[index];
@@ -494,8 +510,9 @@ impl Tracker {
         if is_near { Place::Touches(found, [0.0; 3], false) } else { Place::Away }
     }
 
-    /// Whether a face holds a node that is over its rim or beyond it, by the projection and the way from the rim: `side` is the one from which it came, `is_flush` tells whether it lies on the
-    /// body's surface as far as one can tell.
+    /// Whether a face holds a node that is over its rim or beyond it, by the projection and the way from the
+    /// rim: `side` is the one from which it came, `is_flush` tells whether it lies on the body's surface as
+    /// far as one can tell.
     fn is_held(
         &self,
         pass: &Pass,
@@ -559,7 +576,8 @@ impl Tracker {
         archive.check(self.searched.is_empty() || self.searched.len() == self.nodes.len(), "a contact was searched at other nodes")
     }
 
-    /// Takes over what another one knew whose surfaces were those before they changed: of nodes that are still there.
+    /// Takes over what another one knew whose surfaces were those before they changed: of nodes that are
+    /// still there.
     pub(super) fn inherit(&mut self, old: &Self) {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
             let slaves = &self.surfaces[pass.slave].nodes;

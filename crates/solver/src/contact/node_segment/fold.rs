@@ -1,5 +1,5 @@
-//! A node of the target as what is nearest, at the bottom of a fold most often: neither segment there is nearer than the other, and
-//! rounding must not choose one.
+//! A node of the target as what is nearest, at the bottom of a fold most often: neither segment there is
+//! nearer than the other, and rounding must not choose one.
 //!
 //! Projections come from the tracker; stiffness and ends go to the formulation.
 
@@ -10,7 +10,8 @@ use crate::contact::springs::End;
 /// A share of a node below this is none: rounding must not tell which segment is the nearest one.
 const SAME_PLACE: f64 = 1e-9;
 
-/// The other segment at a node of the target at which a projection lies, if it goes on there: neither is nearer. None of a node's own.
+/// The other segment at a node of the target at which a projection lies, if it goes on there: neither is
+/// nearer. None of a node's own.
 pub(super) fn other_at_node(node: u32, projection: &Projection, target: &Target) -> Option<u32> {
     let [before, after] = projection.weights.map(|weight| weight.abs() <= SAME_PLACE);
     let links = match (before, after) {
@@ -22,8 +23,8 @@ pub(super) fn other_at_node(node: u32, projection: &Projection, target: &Target)
     target.surface.segments.get(other as usize).filter(|nodes| !nodes.contains(&node)).map(|_| other)
 }
 
-/// Makes the slip rate at a node of the target blind to the mean spin of both segments there, instead of that of the one which the
-/// projection names; the end that the `other` one adds.
+/// Makes the slip rate at a node of the target blind to the mean spin of both segments there, instead of that
+/// of the one which the projection names; the end that the `other` one adds.
 pub(super) fn turn_with_both(ends: &mut [End; 3], projection: &Projection, other: u32, target: &Target, positions: &[Vector]) -> End {
     let [x, a, b] = [0, 1, 2].map(|k| positions[ends[k].at as usize]);
     let k = if projection.weights[0] > projection.weights[1] { 0 } else { 1 };

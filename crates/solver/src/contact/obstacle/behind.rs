@@ -1,9 +1,10 @@
-//! How deep bodies are in a rigid obstacle against their local thickness: nodes in each step, and what lies between them where the obstacle
-//! is round and as small as their facets.
+//! How deep bodies are in a rigid obstacle against their local thickness: nodes in each step, and what lies
+//! between them where the obstacle is round and as small as their facets.
 //!
-//! A node is as deep as its spring says. A facet is as deep in a circle, ball or cylinder as its place nearest to the middle, which is exact: that
-//! is looked at before the bodies may have gone an eighth of their least thickness, after 16 steps at least, and in each step while the
-//! obstacle moves. What is deeper counts as in the plane: than a fifth of the thickness in two steps, or 0.22 in one.
+//! A node is as deep as its spring says. A facet is as deep in a circle, ball or cylinder as its place
+//! nearest to the middle, which is exact: that is looked at before the bodies may have gone an eighth of
+//! their least thickness, after 16 steps at least, and in each step while the obstacle moves. What is deeper
+//! counts as in the plane: than a fifth of the thickness in two steps, or 0.22 in one.
 
 use super::super::Scene;
 use super::super::findings::{BETWEEN_LOOKS, CAST, DEEPEST_IN_PLANE, Findings, MOST_STEPS, Overlap, SEEN, way_until_next};
@@ -59,7 +60,8 @@ pub struct Behind<const D: usize> {
     /// Least thickness at the start, and that of the obstacle, m; infinite: it has no other side.
     least: f64,
     obstacle: f64,
-    /// Half of the way that a deep node went in this step, as the obstacle sees it, m: both sides' ways are as long then.
+    /// Half of the way that a deep node went in this step, as the obstacle sees it, m: both sides' ways are
+    /// as long then.
     way: f64,
     was_deep: bool,
     is_placed: bool,
@@ -71,8 +73,8 @@ pub struct Behind<const D: usize> {
 /// Facets may stretch by this factor while they slide off a round obstacle.
 const STRETCH: f64 = 4.0;
 
-/// Into how many parts the longest edge of a facet has to be divided for what a chord cuts off a circle of this radius (m) to be as deep as
-/// overlaps are that count for nothing where the bodies are so thick, m.
+/// Into how many parts the longest edge of a facet has to be divided for what a chord cuts off a circle of
+/// this radius (m) to be as deep as overlaps are that count for nothing where the bodies are so thick, m.
 pub(super) fn divisions<const D: usize>(corners: &[[f64; D]], radius: f64, thickness: f64) -> f64 {
     let edge = |k: usize| length(minus(corners[(k + 1) % corners.len()], corners[k]));
     let longest = (0..corners.len()).map(edge).fold(0.0, f64::max);
@@ -131,7 +133,8 @@ where
         (self.way, self.is_placed) = (0.0, false);
     }
 
-    /// Takes a node that is so deep, m, where the body was `initial` thick at the start, m; it went so far in the step, m.
+    /// Takes a node that is so deep, m, where the body was `initial` thick at the start, m; it went so far in
+    /// the step, m.
     pub fn see(&mut self, node: u32, depth: f64, initial: f64, way: f64, scene: &Scene<'_, D>) {
         if !(depth > SEEN * initial) {
             return;
@@ -154,7 +157,8 @@ where
         }
     }
 
-    /// Looks at the facets, if it is time: how deep and where each is deepest in the obstacle, in the frame of its `body`.
+    /// Looks at the facets, if it is time: how deep and where each is deepest in the obstacle, in the frame
+    /// of its `body`.
     pub fn see_facets(&mut self, body: &Body<D>, deepest: impl Fn(&[[f64; D]]) -> Option<(f64, [f64; D])>, scene: &Scene<'_, D>) {
         self.steps += 1;
         if body.is_fixed() && !self.was_deep && scene.sweep.travel < self.next && self.steps < MOST_STEPS {

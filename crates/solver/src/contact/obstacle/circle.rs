@@ -1,11 +1,14 @@
 //! A circle, with the bodies outside of it or, hollow, inside.
 //!
-//! Nodes are pushed along the radius. Where their way is too long for that, the radius at one of its ends says nothing about what it meets between: then the straight way counts. The
-//! place at which it enters the circle (exactly: the root of a quadratic) gives the normal along which the node is held, also when it has gone through the
-//! circle or beyond its centre, until it is out again where it came in. The way of the step to come counts ahead, so that the spring is there before it is needed.
-//! A hollow circle has its solid outside: no depth is too deep.
+//! Nodes are pushed along the radius. Where their way is too long for that, the radius at one of its ends
+//! says nothing about what it meets between: then the straight way counts. The place at which it enters the
+//! circle (exactly: the root of a quadratic) gives the normal along which the node is held, also when it has
+//! gone through the circle or beyond its centre, until it is out again where it came in. The way of the step
+//! to come counts ahead, so that the spring is there before it is needed. A hollow circle has its solid
+//! outside: no depth is too deep.
 //!
-//! Nodes do not see a circle that comes in between them. [`RoundSegments`] does: the same circle against segments, for circles smaller than these.
+//! Nodes do not see a circle that comes in between them. [`RoundSegments`] does: the same circle against
+//! segments, for circles smaller than these.
 
 use super::{Manner, Memory, Shape, State, Way};
 use crate::archive::{Archive, Keep, Kept};
@@ -37,7 +40,8 @@ const NEAR: f64 = 0.7;
 const SHORT: f64 = 0.5;
 
 impl Circle {
-    /// Share of the way p → p + m at which it goes through the circle from the free side; `None` where it does not, within this way.
+    /// Share of the way p → p + m at which it goes through the circle from the free side; `None` where it
+    /// does not, within this way.
     fn entry(&self, p: Vector, m: Vector) -> Option<f64> {
         let (a, b, c) = (dot(m, m), dot(p, m), dot(p, p) - self.radius * self.radius);
         let discriminant = b * b - a * c;
@@ -82,7 +86,8 @@ impl Circle {
         };
         if let Some(normal) = held {
             let is_in = dot(normal, to) < self.radius || memory.presses;
-            // A normal of its own is for what came far: else the radius, so that the force goes through the centre and turns nothing.
+            // A normal of its own is for what came far: else the radius, so that the force goes through the
+            // centre and turns nothing.
             if is_in && !((inside(to) || self.is_short(moved)) && dot(normal, radius) > NEAR) {
                 (memory.state, memory.normal) = (State::Held, normal);
                 return normal;
@@ -144,7 +149,8 @@ pub struct RoundSegments {
 }
 
 impl RoundSegments {
-    /// For a circle of this radius (m) whose centre is the only slave of `tracker`; `depths` know how thick the bodies are.
+    /// For a circle of this radius (m) whose centre is the only slave of `tracker`; `depths` know how thick
+    /// the bodies are.
     #[must_use]
     pub fn new(tracker: Tracker, slave: Slave, radius: f64, body: usize, manner: Manner, depths: Depths) -> Self {
         let Manner { reach, factor, ignores_start } = manner;

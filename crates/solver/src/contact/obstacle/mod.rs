@@ -1,7 +1,9 @@
-//! Nodes against a rigid obstacle: a spring for each node that is behind its surface, or soon may be. One shape a file.
+//! Nodes against a rigid obstacle: a spring for each node that is behind its surface, or soon may be. One
+//! shape a file.
 //!
-//! The shape lives in the frame of its rigid body; positions come from the step. Reactions go to the body. What is swept is the way of a node as the body sees it: straight
-//! between where the node was seen before the step and where it is seen after it.
+//! The shape lives in the frame of its rigid body; positions come from the step. Reactions go to the body.
+//! What is swept is the way of a node as the body sees it: straight between where the node was seen before
+//! the step and where it is seen after it.
 
 pub mod behind;
 pub mod circle;
@@ -28,10 +30,12 @@ use std::any::Any;
 
 /// Shape of an obstacle in the frame of its body.
 pub trait Shape: Send + Sync {
-    /// Gap (m, negative inside) and unit normal along which a node is pushed out; `None` where it does not meet the obstacle.
+    /// Gap (m, negative inside) and unit normal along which a node is pushed out; `None` where it does not
+    /// meet the obstacle.
     fn meet(&self, way: Way, memory: &mut Memory) -> Option<(f64, Vector)>;
 
-    /// Depth of the place of a segment that is deepest in it, m (negative outside), and that place, if that may be between its ends.
+    /// Depth of the place of a segment that is deepest in it, m (negative outside), and that place, if that
+    /// may be between its ends.
     fn deepest(&self, _: &[Vector]) -> Option<(f64, Vector)> {
         None
     }
@@ -112,7 +116,8 @@ where
 /// How nodes meet an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Manner {
-    /// What is within this distance gets a spring, m: a fraction of the nodes' spacing and the reach of the law.
+    /// What is within this distance gets a spring, m: a fraction of the nodes' spacing and the reach of the
+    /// law.
     pub reach: f64,
     /// By what factor springs stiffen.
     pub factor: f64,
@@ -142,7 +147,8 @@ pub struct NodeObstacle {
     sees_facets: bool,
 }
 
-/// Nodes that an obstacle has to look at in each step. The others are farther from it than they can come before the next look at all.
+/// Nodes that an obstacle has to look at in each step. The others are farther from it than they can come
+/// before the next look at all.
 #[derive(Default)]
 struct Near {
     /// Their indices.
@@ -156,8 +162,9 @@ struct Near {
 impl Near {
     /// Nodes may go this far between two looks at all, in multiples of the reach.
     const WAY: f64 = 1.0;
-    /// Gap beyond which a node is not near, in multiples of the reach. A gap changes by the way at most, and the reach grows with four times the sum of
-    /// both components of a step, which is less than six times the way.
+    /// Gap beyond which a node is not near, in multiples of the reach. A gap changes by the way at most, and
+    /// the reach grows with four times the sum of both components of a step, which is less than six times the
+    /// way.
     const GAP: f64 = 1.0 + 8.0 * Self::WAY;
 
     /// Whether the far nodes are still far.

@@ -1,8 +1,10 @@
 //! A straight line, infinite or of some length: the paper's rigid contact element.
 //!
-//! A line without end has its solid behind it: no depth is too deep. One with a length is a thin plate that stops what comes through its front: where the
-//! straight way of a node, as seen from the plate, goes through its plane, within its length or beside it, decides whether the node is held or
-//! has passed beside the plate; and so it stays until the node is in front again. Nodes do not see its ends; its ends see segments, as slave nodes.
+//! A line without end has its solid behind it: no depth is too deep. One with a length is a thin plate that
+//! stops what comes through its front: where the straight way of a node, as seen from the plate, goes through
+//! its plane, within its length or beside it, decides whether the node is held or has passed beside the
+//! plate; and so it stays until the node is in front again. Nodes do not see its ends; its ends see segments,
+//! as slave nodes.
 
 use super::{Memory, Shape, State, Way};
 use crate::contact::Vector;
@@ -18,12 +20,14 @@ pub struct Plane {
     pub half: f64,
     /// Distance that nodes keep from it, m.
     pub thickness: f64,
-    /// Nodes that are deeper behind it at the start, m, are behind it and not in it; for a plane of some length.
+    /// Nodes that are deeper behind it at the start, m, are behind it and not in it; for a plane of some
+    /// length.
     pub shallow: f64,
 }
 
 impl Plane {
-    /// Its ends in the frame of the body, m, the solid on the right of the way from the first to the second; `None` of a line without end.
+    /// Its ends in the frame of the body, m, the solid on the right of the way from the first to the second;
+    /// `None` of a line without end.
     #[must_use]
     pub fn ends(&self) -> Option<[Vector; 2]> {
         (self.half < f64::INFINITY).then(|| self.at([-self.half, self.half]))

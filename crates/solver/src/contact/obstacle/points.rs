@@ -1,8 +1,10 @@
-//! Points of a surface in space that meet a round obstacle: the nodes and, where that may come in between them, points on the facets.
+//! Points of a surface in space that meet a round obstacle: the nodes and, where that may come in between
+//! them, points on the facets.
 //!
-//! A facet is divided n times along its edges. A point has fixed shares of its facet's corners, so it has a gap of its own, nothing is handed over where the obstacle slides, and its
-//! spring keeps energy and both momenta as a node's does. What a node stands for goes to the facets at it, equally, and there to the points
-//! by the trapezoidal rule; the node keeps a part of 1 / n².
+//! A facet is divided n times along its edges. A point has fixed shares of its facet's corners, so it has a
+//! gap of its own, nothing is handed over where the obstacle slides, and its spring keeps energy and both
+//! momenta as a node's does. What a node stands for goes to the facets at it, equally, and there to the
+//! points by the trapezoidal rule; the node keeps a part of 1 / n².
 
 use crate::contact::node_facet::Slave;
 use crate::mesh::surface::Corners;
@@ -48,7 +50,8 @@ impl Point {
     }
 }
 
-/// Shares of the corners of the points of a facet that are no corners, and the weight of each; all weights of a facet with the corners' add up to one.
+/// Shares of the corners of the points of a facet that are no corners, and the weight of each; all weights of
+/// a facet with the corners' add up to one.
 fn divided(corners: usize, n: usize) -> Vec<([f64; 4], f64)> {
     let size = n as f64;
     let mut points = Vec::new();
@@ -64,7 +67,8 @@ fn divided(corners: usize, n: usize) -> Vec<([f64; 4], f64)> {
             } else if i + j <= n {
                 let k = n - i - j;
                 let zeros = [i, j, k].into_iter().filter(|count| *count == 0).count();
-                // A point stands for a third of each small triangle at it: six within, three on an edge, one at a corner.
+                // A point stands for a third of each small triangle at it: six within, three on an edge, one
+                // at a corner.
                 if zeros < 2 {
                     let shares = [1.0 - u - v, u, v, 0.0];
                     points.push((shares, if zeros == 1 { 1.0 } else { 2.0 } / (size * size)));
@@ -75,9 +79,10 @@ fn divided(corners: usize, n: usize) -> Vec<([f64; 4], f64)> {
     points
 }
 
-/// Nodes (ascending) and the points on facets, each divided so many times (`divisions`, by its number), with the numbers of the points of each
-/// facet that is divided. Where the obstacle is smaller than a facet few points meet it: they are stiffer by a factor, `gain`, that an area has (m²), so that
-/// they hold what the whole facet would.
+/// Nodes (ascending) and the points on facets, each divided so many times (`divisions`, by its number), with
+/// the numbers of the points of each facet that is divided. Where the obstacle is smaller than a facet few
+/// points meet it: they are stiffer by a factor, `gain`, that an area has (m²), so that they hold what the
+/// whole facet would.
 #[must_use]
 pub fn points(
     nodes: &[(u32, Slave)],
@@ -135,7 +140,8 @@ mod tests {
         for n in 1..=5 {
             let (points, ranges) = points(&nodes, &facets, &[n; 2], |_| 1.0);
             let sum = |of: fn(&Slave) -> f64| points.iter().map(|point| of(&point.slave)).sum::<f64>();
-            // Of stiffness and area nothing is lost where all corners of a facet stand for the same; else by how far they differ.
+            // Of stiffness and area nothing is lost where all corners of a facet stand for the same; else by
+            // how far they differ.
             assert!((sum(|slave| slave.area) - 5.0).abs() < 0.2 && (sum(|slave| slave.stiffness) - 20.0).abs() < 1.5, "{n}");
             let inner: [usize; 2] = [(n + 1) * (n + 1) - 4, (n + 1) * (n + 2) / 2 - 3];
             assert_eq!(ranges.iter().map(ExactSizeIterator::len).collect::<Vec<_>>(), inner[..if n > 1 { 2 } else { 0 }]);

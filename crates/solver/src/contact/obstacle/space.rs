@@ -1,8 +1,11 @@
-//! Nodes against a rigid obstacle in space: a half-space, a ball or a cylinder, whole or hollow, fixed or carried by a rigid body. Where a ball or a cylinder may come in between the
-//! nodes, points on the facets meet it as well ([`super::points`]).
+//! Nodes against a rigid obstacle in space: a half-space, a ball or a cylinder, whole or hollow, fixed or
+//! carried by a rigid body. Where a ball or a cylinder may come in between the nodes, points on the facets
+//! meet it as well ([`super::points`]).
 //!
-//! The shape lives in the frame of its rigid body and says how far a point is from its surface; positions come from the step, reactions go to the body. The distance is continuous and its
-//! gradient the normal, so springs give back what they took; what goes through a whole ball or cylinder within one step is not held but told.
+//! The shape lives in the frame of its rigid body and says how far a point is from its surface; positions
+//! come from the step, reactions go to the body. The distance is continuous and its gradient the normal, so
+//! springs give back what they took; what goes through a whole ball or cylinder within one step is not held
+//! but told.
 
 use super::super::findings::Findings;
 use super::super::initial::kept;
@@ -61,7 +64,8 @@ pub enum Solid {
 }
 
 impl Solid {
-    /// Distance of a point from the surface (m, negative inside) and the direction in which it grows. Of the very middle of a ball or an axis any.
+    /// Distance of a point from the surface (m, negative inside) and the direction in which it grows. Of the
+    /// very middle of a ball or an axis any.
     #[must_use]
     pub fn distance(&self, x: Vector) -> (f64, Vector) {
         let from = |point: Vector| [0, 1, 2].map(|d| x[d] - point[d]);
@@ -81,8 +85,8 @@ impl Solid {
         }
     }
 
-    /// Depth of the place of a triangle that is deepest in a whole ball or cylinder, m (negative outside), and that place.
-    /// In the others corners are deepest.
+    /// Depth of the place of a triangle that is deepest in a whole ball or cylinder, m (negative outside),
+    /// and that place. In the others corners are deepest.
     #[must_use]
     pub fn deepest(&self, triangle: [Vector; 3]) -> Option<(f64, Vector)> {
         let place = match *self {
@@ -93,7 +97,8 @@ impl Solid {
         Some((-self.distance(place).0, place))
     }
 
-    /// How deep a way that is outside at its end is in a whole ball or cylinder, m, and where, if it goes through it.
+    /// How deep a way that is outside at its end is in a whole ball or cylinder, m, and where, if it goes
+    /// through it.
     fn passed(&self, from: Vector, to: Vector) -> Option<(f64, Vector)> {
         let radius = self.radius()?;
         let moved = minus(to, from);

@@ -1,8 +1,9 @@
 //! Where a body lies in itself: parts of its outline that are inside, and how deep.
 //!
-//! A body that comes to lie in itself cuts its own outline. The outline falls into parts between the cuts, and the winding number just outside
-//! of a part says whether the body is there, too. Parts that are inside and follow each other make a chain. Two chains bound an overlap, or
-//! the two flanks of a chain that run against each other, and a place of one is as deep as the other one is far.
+//! A body that comes to lie in itself cuts its own outline. The outline falls into parts between the cuts,
+//! and the winding number just outside of a part says whether the body is there, too. Parts that are inside
+//! and follow each other make a chain. Two chains bound an overlap, or the two flanks of a chain that run
+//! against each other, and a place of one is as deep as the other one is far.
 
 use super::{Outline, Side, between, pieces, square_to};
 use crate::contact::Vector;
@@ -20,8 +21,8 @@ struct Part {
 }
 
 impl Outline {
-    /// Shows places of the outline that are inside the body itself, with their segment, the square of their depth (m²) and the segment that
-    /// is nearest.
+    /// Shows places of the outline that are inside the body itself, with their segment, the square of their
+    /// depth (m²) and the segment that is nearest.
     pub(in crate::contact) fn folds(&self, positions: &[Vector], mut see: impl FnMut(Vector, &Side, f64, &Side)) {
         let sides: Vec<&Side> = self.sides.iter().collect();
         let are_apart = |side: &Side, other: &Side| !other.segment.iter().any(|node| side.segment.contains(node));
@@ -59,7 +60,8 @@ impl Outline {
     /// Whether the body is just outside of a place on one of its segments, by the winding number there.
     fn is_within(&self, x: Vector, own: &Side, positions: &[Vector]) -> bool {
         let [a, b] = own.segment.map(|node| positions[node as usize]);
-        // A ray along x across segments that run along y more than along x, and the other way round: that turns the outline round.
+        // A ray along x across segments that run along y more than along x, and the other way round: that
+        // turns the outline round.
         let is_turned = (b[1] - a[1]).abs() < (b[0] - a[0]).abs();
         let others = self.winding(x, is_turned, |side| side.segment != own.segment, positions);
         // The own segment counts as crossed if what is outside of it is before it.
@@ -106,7 +108,8 @@ fn chained(mut parts: Vec<Part>) -> Vec<Part> {
     parts
 }
 
-/// Whether two pieces run against each other, to 60 degrees: those of one chain that do are the flanks of a notch.
+/// Whether two pieces run against each other, to 60 degrees: those of one chain that do are the flanks of a
+/// notch.
 fn is_facing([a, b]: [Vector; 2], [c, d]: [Vector; 2]) -> bool {
     let (own, other) = (minus(b, a), minus(d, c));
     dot(own, other) < -0.5 * (dot(own, own) * dot(other, other)).sqrt()

@@ -1,8 +1,8 @@
 //! Which regions of a look go on from which of the look before: those that share most of their triangles.
 //!
-//! Two overlaps of the same bodies may lie in one large triangle. That alone makes neither of them part of the other: a region goes on from
-//! that with which it shares most triangles, and if it was the most of several in turn, they have merged. Numbers decide nothing: what is as
-//! much counts as well.
+//! Two overlaps of the same bodies may lie in one large triangle. That alone makes neither of them part of
+//! the other: a region goes on from that with which it shares most triangles, and if it was the most of
+//! several in turn, they have merged. Numbers decide nothing: what is as much counts as well.
 
 use super::{Known, Region};
 

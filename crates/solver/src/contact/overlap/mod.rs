@@ -1,26 +1,29 @@
-//! Where bodies overlap in space, how deep, and whether something pushes them apart there: a judge of contact that shares no reasoning with
-//! the search, the trackers and the springs.
+//! Where bodies overlap in space, how deep, and whether something pushes them apart there: a judge of contact
+//! that shares no reasoning with the search, the trackers and the springs.
 //!
-//! It looks at the bodies as they are, not at pairs and their histories. `piercing` finds which edges pierce which triangles by exact
-//! predicates, `regions` closes the contours and finds what
-//! lies inside, the area vector N and the volume V; `thickness` gives the local thickness of the bodies. A region is *held* if
+//! It looks at the bodies as they are, not at pairs and their histories. `piercing` finds which edges pierce
+//! which triangles by exact predicates, `regions` closes the contours and finds what lies inside, the area
+//! vector N and the volume V; `thickness` gives the local thickness of the bodies. A region is *held* if
 //!
-//! 1. no sampled place in it (vertices, three places on each part of an edge that is inside) is deeper than a sixth of the local thickness τ,
-//!    the lesser of both bodies';
-//! 2. its area vector has not turned by more than a right angle against the one with which it began, turned with the bodies since;
-//! 3. the forces of the springs at its nodes work against its volume, −Σ f·∂V/∂x > 0, or the volume falls, or it is shallower than τ/20.
+//! 1. no sampled place in it (vertices, three places on each part of an edge that is inside) is deeper than a
+//!    sixth of the local thickness τ, the lesser of both bodies';
+//! 2. its area vector has not turned by more than a right angle against the one with which it began, turned
+//!    with the bodies since;
+//! 3. the forces of the springs at its nodes work against its volume, −Σ f·∂V/∂x > 0, or the volume falls, or
+//!    it is shallower than τ/20.
 //!
-//! Else it counts as `unverified`. Depth is the distance to the other body's surface; once that exceeds 0.15 τ, to the side of entry:
-//! facets that look against the area vector of the region.
-//! The bodies are looked at before anything can have gone farther than an eighth of the least thickness (both bodies' ways together, by the
-//! travel ∑ dt max |v|). So nothing gets through a body
-//! between two looks, and on its way through it is deeper than that at one of them. What is nearly too deep is looked at more often.
+//! Else it counts as `unverified`. Depth is the distance to the other body's surface; once that exceeds 0.15
+//! τ, to the side of entry: facets that look against the area vector of the region. The bodies are looked at
+//! before anything can have gone farther than an eighth of the least thickness (both bodies' ways together,
+//! by the travel ∑ dt max |v|). So nothing gets through a body between two looks, and on its way through it
+//! is deeper than that at one of them. What is nearly too deep is looked at more often.
 //!
-//! A region that is deeper than τ/20 gets a spring on its volume (`net`): the net under the springs of nodes and edges.
+//! A region that is deeper than τ/20 gets a spring on its volume (`net`): the net under the springs of nodes
+//! and edges.
 //!
-//! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour in one body does not close,
-//! as where it begins between facets that share a node, what is behind pierced triangles and inside by its winding number is as deep as it
-//! is far from them.
+//! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour
+//! in one body does not close, as where it begins between facets that share a node, what is behind pierced
+//! triangles and inside by its winding number is as deep as it is far from them.
 
 mod lineage;
 mod near;
@@ -57,9 +60,11 @@ use tree::Tree;
 
 /// From this fraction on, depth is measured to the side of entry.
 const SIDED: f64 = 0.15;
-/// Nothing inside a body is farther from its surface than this fraction of the thickness there: half of it, but for wedges.
+/// Nothing inside a body is farther from its surface than this fraction of the thickness there: half of it,
+/// but for wedges.
 const INSIDE: f64 = 1.0;
-/// A place of a body in itself that is deeper than this fraction of the thickness is looked at once more, by its winding number.
+/// A place of a body in itself that is deeper than this fraction of the thickness is looked at once more, by
+/// its winding number.
 const CERTAIN: f64 = CAST;
 /// Of so many places, the deepest ones.
 const SIDED_MOST: usize = 16;
@@ -92,7 +97,8 @@ struct Known {
     offset: f64,
     /// Whether the forces do not hold it.
     is_loose: bool,
-    /// Of the net: its depth (negative: it is open), m, area over which it spreads, m² (zero: there is no net), and local thickness when it was cast, m.
+    /// Of the net: its depth (negative: it is open), m, area over which it spreads, m² (zero: there is no
+    /// net), and local thickness when it was cast, m.
     depth: f64,
     area: f64,
     thick: f64,
@@ -129,7 +135,8 @@ pub struct Judge {
     /// The least, and the largest of each body, at the start, m.
     least: f64,
     thickest: Vec<f64>,
-    /// Pressure stiffness at each node of the skin, κ and that by its mass, Pa/m; zero where the contact has none.
+    /// Pressure stiffness at each node of the skin, κ and that by its mass, Pa/m; zero where the contact has
+    /// none.
     moduli: Vec<[f64; 2]>,
     /// Whether overlaps at the start count as none.
     ignores_start: bool,
@@ -225,7 +232,8 @@ impl Judge {
         }
     }
 
-    /// Least thickness of the body at each node, in the order of `nodes` (ascending), m, at the places of the last look; infinite for nodes that are not on the surface.
+    /// Least thickness of the body at each node, in the order of `nodes` (ascending), m, at the places of the
+    /// last look; infinite for nodes that are not on the surface.
     #[must_use]
     pub fn thickness_at(&self, nodes: &[u32]) -> Vec<f64> {
         let at = |node: &u32| {
@@ -235,7 +243,8 @@ impl Judge {
         nodes.iter().map(at).collect()
     }
 
-    /// Looks at the step, if it is time. In between, regions that have nets are found anew where these can't go on with their nodes.
+    /// Looks at the step, if it is time. In between, regions that have nets are found anew where these can't
+    /// go on with their nodes.
     pub fn look(&mut self, sweep: Sweep<'_, 3>, time: f64) {
         self.steps += 1;
         self.has_looked = !(sweep.travel < self.next && self.steps < MOST_STEPS);
@@ -306,7 +315,8 @@ impl Judge {
             if let Some(parent) = largest {
                 known.offset = parent.offset;
                 (known.ratio, known.thickness) = (parent.ratio, parent.thickness);
-                // What slides around a corner turns its area vector by less than a right angle from look to look; what goes through turns it over.
+                // What slides around a corner turns its area vector by less than a right angle from look to
+                // look; what goes through turns it over.
                 let carried = spin::turned(parent.began, self.turn(region));
                 if parent.began != [0.0; 3] && !(dot(carried, direction) > 0.0) {
                     known.began = carried;
@@ -372,7 +382,8 @@ impl Judge {
         found.iter().take(SIDED_MOST).fold(most, deepest)
     }
 
-    /// Vertices of what of a triangle is nearest to a place, of itself, an edge or a corner, and how many: facets that share these are as near.
+    /// Vertices of what of a triangle is nearest to a place, of itself, an edge or a corner, and how many:
+    /// facets that share these are as near.
     fn below(&self, x: Vector, triangle: u32) -> ([u32; 3], usize) {
         let (mut found, mut count) = ([NONE; 3], 0);
         let vertices = self.skin.triangles[triangle as usize].into_iter().zip(corners_below(x, self.skin.corners(triangle)));
@@ -383,8 +394,9 @@ impl Judge {
         (found, count)
     }
 
-    /// Depth of a place of a triangle's side (whether it is the second) of a region, by those triangles of the other side that count, and
-    /// the nearest one; nothing where all are farther than the root of `square`, m². The guess is as in [`Tree::nearest`].
+    /// Depth of a place of a triangle's side (whether it is the second) of a region, by those triangles of
+    /// the other side that count, and the nearest one; nothing where all are farther than the root of
+    /// `square`, m². The guess is as in [`Tree::nearest`].
     fn depth(
         &self,
         region: &Region,
@@ -430,7 +442,8 @@ impl Judge {
             let (below, count) = self.below(place, foot);
             let there = self.thickness.sharing(&self.skin, &below[..count]);
             let thickness = behind.min(there);
-            // Farther than that it is not inside: an element of the other body is inverted, and the flood went astray.
+            // Farther than that it is not inside: an element of the other body is inverted, and the flood
+            // went astray.
             if depth > INSIDE * if is_own { thickness } else { there } {
                 return None;
             }

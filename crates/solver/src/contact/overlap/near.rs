@@ -1,8 +1,9 @@
 //! Pairs of facets that may meet: found by the tree, and kept until things have gone too far.
 //!
-//! All pairs whose boxes are nearer than a margin are kept; until both sides' ways together exceed it no other one can meet. A pair whose
-//! boxes are d apart along an axis, or whose corners are along the normal of one of both facets, sleeps until these ways exceed d: of the
-//! facets around each facet and across a wall all but those that fold or touch sleep on.
+//! All pairs whose boxes are nearer than a margin are kept; until both sides' ways together exceed it no
+//! other one can meet. A pair whose boxes are d apart along an axis, or whose corners are along the normal of
+//! one of both facets, sleeps until these ways exceed d: of the facets around each facet and across a wall
+//! all but those that fold or touch sleep on.
 
 use super::skin::Skin;
 use super::tree::Tree;
@@ -34,7 +35,8 @@ pub(super) struct Near {
 }
 
 impl Near {
-    /// Shows all pairs of facets whose boxes meet, with their boxes, at the places of the skin and the travel there, m.
+    /// Shows all pairs of facets whose boxes meet, with their boxes, at the places of the skin and the travel
+    /// there, m.
     pub(super) fn meeting(&mut self, skin: &Skin, tree: &mut Tree, travel: f64, mut meet: impl FnMut([u32; 2], [&Aabb<3>; 2])) {
         if !(self.found..self.holds).contains(&travel) {
             self.find(skin, tree, travel);
@@ -73,7 +75,8 @@ impl Near {
     }
 }
 
-/// How far the corners of facets are apart along the normal of one of both, m, less what rounds; not positive: they may meet.
+/// How far the corners of facets are apart along the normal of one of both, m, less what rounds; not
+/// positive: they may meet.
 fn between(skin: &Skin, facets: [u32; 2]) -> f64 {
     let corners = facets.map(|facet| {
         let facet = &skin.facets[facet as usize];

@@ -1,15 +1,16 @@
 //! The net under the springs of nodes and edges: a spring on the volume of an overlap.
 //!
-//! Its depth grows by dV/A from zero, with the area A = |N| at which the net was cast; k = κ A with the pressure stiffness κ of the softer
-//! side. V is once continuously differentiable through all changes
-//! of nodes, edges and faces that touch, and its rows −(∂V/∂x)/A add up to nothing, so the net has no hand-over, needs no normal, and keeps
-//! both momenta. It begins without force, so it brings no
-//! energy, and resists whatever makes the overlap larger, combs of edges and folded nodes included. Regions that merge or part share A by
-//! their volumes, and the depth is the mean. From step to step a net goes on where it ended, as other springs do: its rows are those of
-//! the volume at a step, which bends in between.
+//! Its depth grows by dV/A from zero, with the area A = |N| at which the net was cast; k = κ A with the
+//! pressure stiffness κ of the softer side. V is once continuously differentiable through all changes of
+//! nodes, edges and faces that touch, and its rows −(∂V/∂x)/A add up to nothing, so the net has no hand-over,
+//! needs no normal, and keeps both momenta. It begins without force, so it brings no energy, and resists
+//! whatever makes the overlap larger, combs of edges and folded nodes included. Regions that merge or part
+//! share A by their volumes, and the depth is the mean. From step to step a net goes on where it ended, as
+//! other springs do: its rows are those of the volume at a step, which bends in between.
 //!
-//! For a few steps a net goes on with the nodes that it has: V grows by its rows times their ways, and the rows r lose what would turn the
-//! bodies, ω × d with (Σ d² 1 − d ⊗ d) ω = Σ d × r and d from the mean of the nodes, so both momenta are kept. Then V is measured again.
+//! For a few steps a net goes on with the nodes that it has: V grows by its rows times their ways, and the
+//! rows r lose what would turn the bodies, ω × d with (Σ d² 1 − d ⊗ d) ω = Σ d × r and d from the mean of the
+//! nodes, so both momenta are kept. Then V is measured again.
 
 use super::super::law::penalty::{factor, stiffening};
 use super::super::projection::node_facet::unit;
@@ -24,12 +25,14 @@ use crate::vector::{length, minus};
 const TAKEN_IN: f64 = 0.02;
 /// Least area of a net, as a fraction of that of the region.
 const SPREAD: f64 = 0.5;
-/// Regions with nets are found anew at every so many steps, and where a body may have gone farther than this fraction of the least thickness.
+/// Regions with nets are found anew at every so many steps, and where a body may have gone farther than this
+/// fraction of the least thickness.
 const EVERY: u32 = 8;
 const WAY: f64 = 1.0 / 64.0;
 /// How much of the rows of a net what would turn the bodies may be before its region is found anew.
 const TURNED: f64 = 0.1;
-/// Moment of the rows that is left, as a fraction of that of their sizes: more than rounding, and the region is found anew.
+/// Moment of the rows that is left, as a fraction of that of their sizes: more than rounding, and the region
+/// is found anew.
 const LEFT: f64 = 1e-12;
 
 /// The net of a region.
@@ -100,7 +103,8 @@ impl Known {
         }
     }
 
-    /// Casts, spreads or takes in the net, whose region was found anew; no node has gone farther than `way` since it was found before, m.
+    /// Casts, spreads or takes in the net, whose region was found anew; no node has gone farther than `way`
+    /// since it was found before, m.
     fn cast(&mut self, region: &Region, way: f64) {
         // A volume grows by what its sides go. If by more, it is another one, and the net keeps its force.
         let (grown, since) = (self.volume - self.before, std::mem::take(&mut self.since));
@@ -148,7 +152,8 @@ impl Judge {
         self.nets.is_empty() || (!is_due && self.nets.iter_mut().all(|net| net.follow(&mut self.known[net.region as usize], sweep)))
     }
 
-    /// Adds the springs of the nets in this step, each where it ended in the step before; `found` gets the energy that each had there, J.
+    /// Adds the springs of the nets in this step, each where it ended in the step before; `found` gets the
+    /// energy that each had there, J.
     pub(in crate::contact) fn push_nets(&self, springs: &mut Springs<3>, mut found: impl FnMut(f64)) {
         let mut ends = Vec::new();
         for net in &self.nets {
@@ -170,7 +175,8 @@ impl Judge {
         }
     }
 
-    /// Pressure stiffness of the softer side of a region, of its elements and by its mass, the mean of its nodes there, Pa/m.
+    /// Pressure stiffness of the softer side of a region, of its elements and by its mass, the mean of its
+    /// nodes there, Pa/m.
     fn modulus(&self, region: &Region) -> Option<[f64; 2]> {
         let (mut sums, mut counts) = ([[0.0; 2]; 2], [0.0; 2]);
         for &(triangle, is_second) in &region.triangles {

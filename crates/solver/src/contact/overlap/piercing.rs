@@ -1,8 +1,8 @@
 //! Which edges pierce which triangles, and the contours along which the surfaces cut each other.
 //!
-//! Signs come from [`super::predicates`], so the set of piercings is exact for the places as they are. A pair of triangles meets along one
-//! straight piece with a piercing at either end: whatever
-//! has not two ends is a border of a surface, or an error, and is reported.
+//! Signs come from [`super::predicates`], so the set of piercings is exact for the places as they are. A pair
+//! of triangles meets along one straight piece with a piercing at either end: whatever has not two ends is a
+//! border of a surface, or an error, and is reported.
 
 use super::near::Near;
 use super::predicates::{Point, volume};
@@ -25,11 +25,13 @@ pub(super) struct Piercing {
     pub(super) enters: bool,
     /// Where, m.
     pub(super) place: Vector,
-    /// Whether the edge lies in the triangle's plane: that it goes through follows from ties alone, and it does so anywhere there.
+    /// Whether the edge lies in the triangle's plane: that it goes through follows from ties alone, and it
+    /// does so anywhere there.
     pub(super) is_flat: bool,
 }
 
-/// A straight piece of the rim of what of a triangle lies inside the other body, which is on its left seen from before the triangle.
+/// A straight piece of the rim of what of a triangle lies inside the other body, which is on its left seen
+/// from before the triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) triangle: u32,
@@ -70,14 +72,16 @@ impl<'a> PlacedFacet<'a> {
     }
 }
 
-/// Rounding of a height over a plane, as a multiple of the product of the largest components of what it comes from: some forty products of
-/// up to four differences, each with at most twelve roundings.
+/// Rounding of a height over a plane, as a multiple of the product of the largest components of what it comes
+/// from: some forty products of up to four differences, each with at most twelve roundings.
 const ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
-/// Whether points lie all on one side of a triangle's plane, or all beyond one of its edges, whatever rounds: then nothing between them meets it.
+/// Whether points lie all on one side of a triangle's plane, or all beyond one of its edges, whatever rounds:
+/// then nothing between them meets it.
 fn are_beside([a, b, c]: [Point; 3], points: &[Point]) -> bool {
     let size = |v: Vector| v[0].abs().max(v[1].abs()).max(v[2].abs());
-    // Whether all are farther along a direction from a place than what may round, where the direction is that of a product of this size.
+    // Whether all are farther along a direction from a place than what may round, where the direction is that
+    // of a product of this size.
     let are_along = |direction: Vector, from: Point, product: f64| {
         points.iter().all(|point| {
             let away = minus(point.1, from.1);
@@ -148,13 +152,14 @@ struct End {
     place: Vector,
 }
 
-/// The pieces of the contours of some piercings, for the first and the second triangle of each pair, which are told too; pieces without two
-/// ends are those of triangles in `loose`.
+/// The pieces of the contours of some piercings, for the first and the second triangle of each pair, which
+/// are told too; pieces without two ends are those of triangles in `loose`.
 pub(super) fn contours(skin: &Skin, piercings: &[Piercing], pieces: &mut Vec<Piece>, pairs: &mut Vec<[u32; 2]>, loose: &mut Vec<u32>) {
     let mut ends: Vec<End> = Vec::with_capacity(2 * piercings.len());
     for &Piercing { edge, triangle, enters, place, .. } in piercings {
         for own in skin.edges[edge as usize].triangles.into_iter().filter(|&own| own != NONE) {
-            // Along the rim of its own triangle, what is inside begins where the edge enters: there the contour ends.
+            // Along the rim of its own triangle, what is inside begins where the edge enters: there the
+            // contour ends.
             let starts = enters != runs_with(skin, edge, own);
             let pair = [own.min(triangle), own.max(triangle)];
             ends.push(End { pair, starts: starts == (own < triangle), place });

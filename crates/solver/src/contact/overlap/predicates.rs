@@ -1,10 +1,11 @@
-//! On which side of a plane a point lies, exactly, and never "on it": the signs from which everything else in this folder follows.
+//! On which side of a plane a point lies, exactly, and never "on it": the signs from which everything else in
+//! this folder follows.
 //!
-//! The determinant is Shewchuk's adaptive one (Discrete Comput. Geom. 18 (1997) 305-363, crate `robust`). Where it vanishes, points are
-//! moved by infinitely small amounts that depend on their
-//! numbers alone: simulation of simplicity (Edelsbrunner and Mücke, ACM Trans. Graph. 9 (1990) 66-104). So all answers about the same
-//! points agree with each other, and a closed surface is
-//! never left or entered through a gap between two of its triangles.
+//! The determinant is Shewchuk's adaptive one (Discrete Comput. Geom. 18 (1997) 305-363, crate `robust`).
+//! Where it vanishes, points are moved by infinitely small amounts that depend on their numbers alone:
+//! simulation of simplicity (Edelsbrunner and Mücke, ACM Trans. Graph. 9 (1990) 66-104). So all answers about
+//! the same points agree with each other, and a closed surface is never left or entered through a gap between
+//! two of its triangles.
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
@@ -13,9 +14,9 @@ type Vector = [f64; 3];
 /// A point, and the number by which ties are broken.
 pub(super) type Point = (u32, Vector);
 
-/// Six times the volume of the tetrahedron (a, b, c, d), (b − a) × (c − a)·(d − a), m³, as its sign is exactly; where it is zero the
-/// smallest number with the sign of the perturbed volume.
-/// Positive: d is before the triangle a, b, c, from where that is counter-clockwise. All four numbers differ.
+/// Six times the volume of the tetrahedron (a, b, c, d), (b − a) × (c − a)·(d − a), m³, as its sign is
+/// exactly; where it is zero the smallest number with the sign of the perturbed volume. Positive: d is before
+/// the triangle a, b, c, from where that is counter-clockwise. All four numbers differ.
 pub(super) fn volume([a, b, c, d]: [Point; 4]) -> f64 {
     let of = |(_, [x, y, z]): Point| Coord3D { x, y, z };
     // Theirs is positive where the triangle is clockwise.
@@ -23,7 +24,8 @@ pub(super) fn volume([a, b, c, d]: [Point; 4]) -> f64 {
     if found != 0.0 { found } else { f64::MIN_POSITIVE * perturbed([a, b, c, d]) }
 }
 
-/// The sign of a vanishing volume after the perturbation: coordinate d of the point of rank r grows by ε^(2^(3r + d)).
+/// The sign of a vanishing volume after the perturbation: coordinate d of the point of rank r grows by
+/// ε^(2^(3r + d)).
 fn perturbed(mut points: [Point; 4]) -> f64 {
     let mut sign = 1.0;
     // Rows in the order of the numbers; a swap turns the sign.
@@ -35,8 +37,8 @@ fn perturbed(mut points: [Point; 4]) -> f64 {
             }
         }
     }
-    // The volume is minus the determinant of the rows (x, y, z, 1). Its terms in powers of ε, the largest first: products of perturbations
-    // in rows and columns that all differ.
+    // The volume is minus the determinant of the rows (x, y, z, 1). Its terms in powers of ε, the largest
+    // first: products of perturbations in rows and columns that all differ.
     for mask in 1..1u32 << 12 {
         let columns = [0, 1, 2, 3].map(|row| mask >> (3 * row) & 7);
         let used: u32 = columns.iter().fold(0, |used, column| used | column);
@@ -52,7 +54,8 @@ fn perturbed(mut points: [Point; 4]) -> f64 {
     sign
 }
 
-/// Determinant (its sign) of the rows (x, y, z, 1) of points where those with a perturbed column are its unit vector.
+/// Determinant (its sign) of the rows (x, y, z, 1) of points where those with a perturbed column are its unit
+/// vector.
 fn coefficient(points: &[Point; 4], perturbed: [u32; 4]) -> f64 {
     let (mut rows, mut columns, mut sign) = (vec![0usize, 1, 2, 3], vec![0usize, 1, 2, 3], 1.0);
     for (row, &mask) in perturbed.iter().enumerate().filter(|(_, mask)| **mask != 0) {
@@ -124,7 +127,8 @@ mod tests {
             }
         }
 
-        /// A straight line leaves a closed surface as often as it enters it, through whatever corners and edges it goes: here a cube of lattice points.
+        /// A straight line leaves a closed surface as often as it enters it, through whatever corners and
+        /// edges it goes: here a cube of lattice points.
         #[test]
         fn no_line_gets_lost_in_a_closed_surface(from in prop::array::uniform3(-2..4_i32), to in prop::array::uniform3(-2..4_i32), numbers in Just([0_u32, 1, 2, 3, 4, 5, 6, 7, 8, 9]).prop_shuffle()) {
             let corner = |k: u32| (numbers[k as usize], [f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)]);

@@ -1,15 +1,17 @@
-//! Regions where bodies overlap: what of each surface lies inside the other body, the volume between, and how that changes with each node.
+//! Regions where bodies overlap: what of each surface lies inside the other body, the volume between, and how
+//! that changes with each node.
 //!
-//! Contours come from [`super::piercing`]. On either surface the part beyond a contour is found by flood over edges that nothing pierces,
-//! from the ends that pierced edges have inside. With P_A, P_B
-//! those parts, n their outward normals and φ_a the shape functions of vertices,
+//! Contours come from [`super::piercing`]. On either surface the part beyond a contour is found by flood over
+//! edges that nothing pierces, from the ends that pierced edges have inside. With P_A, P_B those parts, n
+//! their outward normals and φ_a the shape functions of vertices,
 //!
 //! - N = ∫_{P_A} n dA = −∫_{P_B} n dA, the gradient of the volume for a shift of A;
 //! - V = ⅓ (∫_{P_A} x·n dA + ∫_{P_B} x·n dA), the volume of the overlap;
-//! - ∂V/∂x_a = ∫ φ_a n dA: the motion of the contour itself adds nothing, so V is once continuously differentiable whatever features come and go.
+//! - ∂V/∂x_a = ∫ φ_a n dA: the motion of the contour itself adds nothing, so V is once continuously
+//!   differentiable whatever features come and go.
 //!
-//! Integrals over parts of triangles go along their rims (Green): Σ ½ n·((p − o) × (q − o)) over straight pieces from p to q, with any
-//! point o of the triangle's plane.
+//! Integrals over parts of triangles go along their rims (Green): Σ ½ n·((p − o) × (q − o)) over straight
+//! pieces from p to q, with any point o of the triangle's plane.
 
 use super::piercing::{Piece, Piercing, contours, runs_with};
 use super::skin::Skin;
@@ -29,7 +31,8 @@ pub(super) struct Region {
     pub(super) inside: Vec<u32>,
     /// Parts of pierced edges that are inside: the edge, and both ends, m.
     pub(super) chords: Vec<(u32, [Vector; 2])>,
-    /// Of a body in itself, where the contour is not closed: the triangles that are pierced, ascending. Chords are those beside them then.
+    /// Of a body in itself, where the contour is not closed: the triangles that are pierced, ascending.
+    /// Chords are those beside them then.
     pub(super) pierced: Vec<u32>,
     /// N of the first side, m².
     pub(super) area: Vector,
@@ -39,9 +42,11 @@ pub(super) struct Region {
     pub(super) volume: f64,
     /// ∂V/∂x of each node (its vertex, ascending), m².
     pub(super) gradient: Vec<(u32, Vector)>,
-    /// Whether the contour is not closed, or the same place is inside and outside: at borders of surfaces, and where a surface folds onto itself.
+    /// Whether the contour is not closed, or the same place is inside and outside: at borders of surfaces,
+    /// and where a surface folds onto itself.
     pub(super) is_open: bool,
-    /// Whether its surface is: no translation and no rotation changes V. Where a body overlaps itself, what lies in another one has no closed surface.
+    /// Whether its surface is: no translation and no rotation changes V. Where a body overlaps itself, what
+    /// lies in another one has no closed surface.
     pub(super) is_closed: bool,
 }
 
@@ -51,7 +56,8 @@ impl Region {
         self.bodies[0] == self.bodies[1]
     }
 
-    /// Whether it is of a body in itself whose contour is not closed: the flood says nothing, and piercings tell.
+    /// Whether it is of a body in itself whose contour is not closed: the flood says nothing, and piercings
+    /// tell.
     pub(super) fn is_torn(&self) -> bool {
         self.is_own() && self.is_open
     }
@@ -63,8 +69,8 @@ impl Region {
     }
 }
 
-/// What ∂V/∂x of all nodes adds up to at most, force and moment, where the surface is closed, as a fraction of their sizes. What is so
-/// small that it is all rounding is not.
+/// What ∂V/∂x of all nodes adds up to at most, force and moment, where the surface is closed, as a fraction
+/// of their sizes. What is so small that it is all rounding is not.
 const CLOSED: f64 = 1e-9;
 
 /// Piercings of an edge that are nearer to each other than this fraction of its length have no order.
@@ -136,7 +142,8 @@ impl Work {
             self.pierced[here[0].edge as usize] = self.pair;
             let (first, last) = (&here[0], &here[here.len() - 1]);
             let entries = 2 * here.iter().filter(|piercing| piercing.enters).count();
-            // Where it goes in as often as out, the order says how; what lies at one place has none, and other edges tell.
+            // Where it goes in as often as out, the order says how; what lies at one place has none, and
+            // other edges tell.
             let are_apart = here.windows(2).all(|two| two[1].along - two[0].along > SAME_PLACE);
             let is_certain = entries != here.len() || (are_apart && !here.iter().any(|piercing| piercing.is_flat));
             let begins_outside = if entries == here.len() { first.enters } else { entries > here.len() };
@@ -314,7 +321,8 @@ impl Work {
         chords
     }
 
-    /// To which side of its region each triangle of one body belongs: pairs that cut each other are on different ones. `None`: that can't be.
+    /// To which side of its region each triangle of one body belongs: pairs that cut each other are on
+    /// different ones. `None`: that can't be.
     fn colours(&self, sides: &mut Sets, pairs: &[[u32; 2]], count: usize) -> Vec<Option<bool>> {
         let mut links: Vec<[u32; 2]> = pairs.iter().map(|pair| pair.map(|triangle| sides.find(self.slots[triangle as usize]))).collect();
         links.extend(links.clone().iter().map(|[a, b]| [*b, *a]));
@@ -352,7 +360,8 @@ impl Work {
     }
 }
 
-/// The parts of edges behind the triangles that they pierce, as far as the next piercing or the end of the edge, and those triangles.
+/// The parts of edges behind the triangles that they pierce, as far as the next piercing or the end of the
+/// edge, and those triangles.
 fn beside(skin: &Skin, piercings: &[Piercing]) -> Vec<((u32, [Vector; 2]), u32)> {
     let mut parts = Vec::new();
     for here in piercings.chunk_by(|a, b| a.edge == b.edge) {

@@ -1,7 +1,8 @@
-//! The surfaces of a contact as triangles: the flat pieces that contact itself projects on, four around the middle of a facet of four
-//! nodes, with their edges and bodies.
+//! The surfaces of a contact as triangles: the flat pieces that contact itself projects on, four around the
+//! middle of a facet of four nodes, with their edges and bodies.
 //!
-//! Topology is fixed, places are taken anew for each look. Vertices are the surfaces' nodes, ascending, then the middles of facets of four nodes.
+//! Topology is fixed, places are taken anew for each look. Vertices are the surfaces' nodes, ascending, then
+//! the middles of facets of four nodes.
 
 use crate::contact::boxes::{Aabb, around};
 use crate::mesh::surface::{NONE, SpaceSurface};
@@ -203,7 +204,8 @@ impl Skin {
         around(facet.all().iter().map(|&vertex| self.x[vertex as usize]))
     }
 
-    /// Whether facets may meet each other: they are of different sides where there are two, and no neighbours.
+    /// Whether facets may meet each other: they are of different sides where there are two, and no
+    /// neighbours.
     pub(super) fn may_meet(&self, a: &Facet, b: &Facet) -> bool {
         (self.meets_itself || a.side != b.side) && !a.all().iter().any(|vertex| b.all().contains(vertex))
     }

@@ -145,8 +145,8 @@ fn turn(v: Vector, by: Vector) -> Vector {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Blocks of any kind, turned and shifted so that they cut each other, with nodes that are off: contours close, N_A = −N_B, and ∂V/∂x
-    /// is the difference of volumes.
+    /// Blocks of any kind, turned and shifted so that they cut each other, with nodes that are off: contours
+    /// close, N_A = −N_B, and ∂V/∂x is the difference of volumes.
     #[test]
     fn gradients_are_differences_of_volumes(
         by in prop::array::uniform3(-2.0..2.0_f64), shift in prop::array::uniform3(0.2..0.9_f64), noise in 0.0..0.08_f64,
@@ -198,7 +198,8 @@ proptest! {
         }
     }
 
-    /// Bodies of any form, those that overlap themselves included: the springs of nets have no sum and no moment, also where they go on with their nodes.
+    /// Bodies of any form, those that overlap themselves included: the springs of nets have no sum and no
+    /// moment, also where they go on with their nodes.
     #[test]
     fn nets_keep_both_momenta_whatever_bodies_are_like(
         shift in prop::array::uniform3(0.2..0.9_f64), noise in 0.0..1.5_f64, seed in 0..1000_u32, are_tets in prop::array::uniform2(any::<bool>()),
@@ -279,7 +280,8 @@ fn a_net_that_goes_on_with_its_nodes_is_as_deep_in_the_end_as_the_volume_grew() 
 
 #[test]
 fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
-    // Two blocks of facets that shake, one of them on a way through the other; all nodes within the travel that is told.
+    // Two blocks of facets that shake, one of them on a way through the other; all nodes within the travel
+    // that is told.
     let (mut judge, start) = two([1.0; 3], [[0.2, 0.3, 1.02], [0.7, 0.9, 1.6]], [[3, 4, 2], [2, 2, 3]], [false, true]);
     let first = 4 * 5 * 3;
     let mut state = 7_u64;
@@ -330,7 +332,8 @@ fn one(nodes: &[Vector], cells: &[Vec<u32>]) -> Judge {
 
 #[test]
 fn a_body_without_an_opposite_skin_is_as_thick_as_its_inscribed_ball() {
-    // A regular tetrahedron of the edge a has an inscribed ball of the radius a / sqrt(24); a face looks at no other one.
+    // A regular tetrahedron of the edge a has an inscribed ball of the radius a / sqrt(24); a face looks at
+    // no other one.
     let nodes = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     let edge = 8.0_f64.sqrt();
     let expected = 2.0 * edge / 24.0_f64.sqrt();
@@ -349,7 +352,8 @@ fn a_body_without_an_opposite_skin_is_as_thick_as_its_inscribed_ball() {
 
 #[test]
 fn a_region_that_slides_around_an_edge_keeps_its_depth_and_one_that_goes_through_does_not() {
-    // A long bar, and a small block at its upper side that goes around the edge to its flank, 0.16 deep on its way.
+    // A long bar, and a small block at its upper side that goes around the edge to its flank, 0.16 deep on
+    // its way.
     let at = |x: f64, z: f64| [[x - 0.4, 0.8, z - 0.4], [x + 0.4, 1.6, z + 0.9]];
     let begin = at(0.5, 1.24);
     let (mut judge, nodes) = two([1.0, 3.0, 1.0], begin, [[2, 6, 2], [2, 2, 2]], [false; 2]);
@@ -364,7 +368,8 @@ fn a_region_that_slides_around_an_edge_keeps_its_depth_and_one_that_goes_through
         (0..=20).map(|k| [0.5 + 0.037 * f64::from(k), 1.24]).chain((0..=40).map(|k| [1.24, 1.24 - 0.02 * f64::from(k)])).collect();
     let deepest = way.iter().map(|&[x, z]| move_to(&mut judge, x, z)).fold(0.0, f64::max);
     assert!((0.19..0.21).contains(&deepest), "{deepest}");
-    // From the upper side down through the bar it is ever deeper from there, and beyond the thickness it is told.
+    // From the upper side down through the bar it is ever deeper from there, and beyond the thickness it is
+    // told.
     let (mut judge, _) = two([1.0, 3.0, 1.0], begin, [[2, 6, 2], [2, 2, 2]], [false; 2]);
     for k in 0..=66 {
         move_to(&mut judge, 0.5, 1.24 - 0.02 * f64::from(k));

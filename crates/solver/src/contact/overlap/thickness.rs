@@ -1,9 +1,10 @@
 //! Local thickness of bodies: how far the surface opposite is, along the inward normal.
 //!
-//! For each facet the ray from its middle finds the opposite skin once, in the initial places; what lies there is followed as it moves, so
-//! that a crushed body is as thin as it is. What bulges is no thicker than it was. Where the ray leaves the body at less than 30 degrees to
-//! the surface there, as in a wedge, the body is as thick as 6 V / S with its volume V and its surface S: twice the radius of the inscribed
-//! ball of polyhedra that have one, one and a half times the diameter of a long rod.
+//! For each facet the ray from its middle finds the opposite skin once, in the initial places; what lies
+//! there is followed as it moves, so that a crushed body is as thin as it is. What bulges is no thicker than
+//! it was. Where the ray leaves the body at less than 30 degrees to the surface there, as in a wedge, the
+//! body is as thick as 6 V / S with its volume V and its surface S: twice the radius of the inscribed ball of
+//! polyhedra that have one, one and a half times the diameter of a long rod.
 
 use super::skin::{Bodies, Skin};
 use super::tree::Tree;
@@ -18,8 +19,8 @@ const OPPOSITE: f64 = -0.5;
 /// How far beside a triangle a ray may pass and still meet it, as a share.
 const BESIDE: f64 = 1e-9;
 
-/// What is opposite of a facet: a triangle, or [`NONE`], and the shares of its corners; and how thick the body was, m. On a symmetry plane the
-/// body goes on as its image.
+/// What is opposite of a facet: a triangle, or [`NONE`], and the shares of its corners; and how thick the
+/// body was, m. On a symmetry plane the body goes on as its image.
 #[derive(Debug)]
 struct Opposite {
     triangle: u32,
@@ -31,7 +32,8 @@ struct Opposite {
 #[derive(Debug, Default)]
 pub(super) struct Thickness(Vec<Opposite>);
 
-/// 6 V / S of each body, m: of a half on a symmetry plane as of the whole. Infinite where the surface is not closed.
+/// 6 V / S of each body, m: of a half on a symmetry plane as of the whole. Infinite where the surface is not
+/// closed.
 fn stout(skin: &Skin) -> Vec<f64> {
     let mut sums = vec![(None, 0.0, 0.0); skin.bodies as usize];
     for facet in &skin.facets {
@@ -165,7 +167,8 @@ fn middle(skin: &Skin, first: u32) -> (Vector, Vector) {
     (at(4), unit(cross(minus(at(2), at(0)), minus(at(3), at(1)))))
 }
 
-/// Where a ray meets a triangle that it comes to from behind: how far, m, and the shares of the corners there.
+/// Where a ray meets a triangle that it comes to from behind: how far, m, and the shares of the corners
+/// there.
 fn meets(from: Vector, direction: Vector, [a, b, c]: [Vector; 3]) -> Option<(f64, [f64; 3])> {
     let double = cross(minus(b, a), minus(c, a));
     let (square, falls) = (dot(double, double), dot(double, direction));

@@ -1,7 +1,7 @@
 //! Boxes around facets in a binary tree: which facets may meet, and which triangle is nearest to a place.
 //!
-//! The tree is built once, by halves along the longest axis, a subtree for each body; boxes are taken anew for each look. It shares nothing
-//! with the searches of contact.
+//! The tree is built once, by halves along the longest axis, a subtree for each body; boxes are taken anew
+//! for each look. It shares nothing with the searches of contact.
 
 use super::skin::Skin;
 use crate::contact::boxes::{Aabb, around, do_meet, joined, longest, meets_ray, nothing, square_away, widened};
@@ -140,7 +140,8 @@ impl Tree {
         }
     }
 
-    /// Facets whose boxes, as they were taken, are no farther apart than `margin` along any axis, m; each pair once.
+    /// Facets whose boxes, as they were taken, are no farther apart than `margin` along any axis, m; each
+    /// pair once.
     pub(super) fn pairs(&self, skin: &Skin, margin: f64, mut meet: impl FnMut(u32, u32)) {
         if self.nodes.is_empty() {
             return;
@@ -173,8 +174,9 @@ impl Tree {
         }
     }
 
-    /// The triangle of a body that is nearest to a place, the first of equally near ones, and the square of the distance, if that is less than `square` (m²).
-    /// A guess, the triangle that is nearest to another place nearby or [`NONE`], spares work and changes nothing.
+    /// The triangle of a body that is nearest to a place, the first of equally near ones, and the square of
+    /// the distance, if that is less than `square` (m²). A guess, the triangle that is nearest to another
+    /// place nearby or [`NONE`], spares work and changes nothing.
     pub(super) fn nearest(
         &self,
         skin: &Skin,

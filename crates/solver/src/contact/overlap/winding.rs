@@ -1,5 +1,6 @@
-//! How many times the surface of a body goes around a place of its own: what a ray from there along the outward normal leaves, less what it
-//! enters. Zero on a sound surface; one where another part of the body lies over it.
+//! How many times the surface of a body goes around a place of its own: what a ray from there along the
+//! outward normal leaves, less what it enters. Zero on a sound surface; one where another part of the body
+//! lies over it.
 
 use super::skin::Skin;
 use super::tree::Tree;

@@ -1,7 +1,9 @@
-//! What pinballs of the plane and of space have in common: disks or balls in elements, where they go, and which of them are near each other.
+//! What pinballs of the plane and of space have in common: disks or balls in elements, where they go, and
+//! which of them are near each other.
 //!
-//! The balls come from the elements under the surfaces ([`super`] and [`super::space`] say where they are and how large), pairs from the global search. Springs are made of what is near by the
-//! formulations, which know friction; slips are kept here, pair by pair.
+//! The balls come from the elements under the surfaces ([`super`] and [`super::space`] say where they are and
+//! how large), pairs from the global search. Springs are made of what is near by the formulations, which know
+//! friction; slips are kept here, pair by pair.
 
 use super::super::Sweep;
 use super::super::initial::{is_ignored, kept};
@@ -15,8 +17,9 @@ use crate::model;
 use crate::tensor::Dim;
 use crate::vector::{length, minus};
 
-/// Balls of one element nearer than this fraction of their radii are one: at a corner, and where both sides of a thin body are in one element.
-/// A little more than a half, which elements with L/h = 1.5 have in their corners: round-off is not to decide.
+/// Balls of one element nearer than this fraction of their radii are one: at a corner, and where both sides
+/// of a thin body are in one element. A little more than a half, which elements with L/h = 1.5 have in their
+/// corners: round-off is not to decide.
 const SAME: f64 = 0.500001;
 
 /// What differs between the dimensions.
@@ -190,7 +193,8 @@ impl<const D: usize, const N: usize> Follower<D, N>
 where
     Dim<D>: Round<D>,
 {
-    /// Of the balls under one surface that meets itself, or under two; `bodies` of each node of the model, `positions` the initial ones, m; `reach` of the law, m.
+    /// Of the balls under one surface that meets itself, or under two; `bodies` of each node of the model,
+    /// `positions` the initial ones, m; `reach` of the law, m.
     pub(super) fn new(
         layers: Vec<Vec<Ball<N>>>,
         interface: &model::Interface,
@@ -281,7 +285,8 @@ where
         self.searched.clone_from(&self.centres);
     }
 
-    /// How the balls of `near[index]` lie; what counts as zero is noted. A body keeps no more distance from itself than half of what it had.
+    /// How the balls of `near[index]` lie; what counts as zero is noted. A body keeps no more distance from
+    /// itself than half of what it had.
     pub(super) fn lying(&mut self, index: usize) -> Lying<D> {
         let near = self.near[index];
         let [mine, theirs] = near.pair.map(|ball| ball as usize);
@@ -341,7 +346,8 @@ where
         archive.check(near.iter().all(is_there), "a pinball is not there")
     }
 
-    /// Takes over what another one knew whose surfaces were those before they changed: of balls that are still there.
+    /// Takes over what another one knew whose surfaces were those before they changed: of balls that are
+    /// still there.
     pub(super) fn inherit(&mut self, old: &Self) {
         let mut by_nodes: Vec<([u32; N], usize)> = self.balls.iter().map(|ball| ball.nodes).zip(0..).collect();
         by_nodes.sort_unstable();
@@ -360,7 +366,8 @@ where
             let slip = if is_turned { Dim::<D>::reversed(near.slip) } else { near.slip };
             Some(Near { pair, slip, known: old.has_begun, ..*near })
         };
-        // The first search looks what is known of its pairs up here. Balls that come to light may be in each other, where their body has been squeezed: that counts as zero.
+        // The first search looks what is known of its pairs up here. Balls that come to light may be in each
+        // other, where their body has been squeezed: that counts as zero.
         let mut near: Vec<_> = old.near.iter().filter_map(now).collect();
         near.sort_by_key(|near| near.pair);
         self.near = near;

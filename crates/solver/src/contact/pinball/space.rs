@@ -1,11 +1,15 @@
 //! Pinballs in space: balls in the elements under the surfaces, a spring between each two that come near.
 //!
-//! Surfaces, the elements behind their facets and κ come from the builder; springs go to the solver. As the disks of the plane ([`super`]), after Belytschko and Neal (1991): but the ball
-//! touches the surface from inside (`geometry`), so that surfaces that touch have no gap and no overlap. The centre is a fixed point of the element, c = Σ N_k x_k, the radius is constant:
-//! the gap |c₁ − c₂| − R₁ − R₂ has the rows N_k n, its spring keeps the energy, and the forces keep both momenta exactly. Friction acts at both centres, along two tangents, and each element
-//! takes its part of the couple by its mean spin, which is its own in every rigid motion.
+//! Surfaces, the elements behind their facets and κ come from the builder; springs go to the solver. As the
+//! disks of the plane ([`super`]), after Belytschko and Neal (1991): but the ball touches the surface from
+//! inside (`geometry`), so that surfaces that touch have no gap and no overlap. The centre is a fixed point
+//! of the element, c = Σ N_k x_k, the radius is constant: the gap |c₁ − c₂| − R₁ − R₂ has the rows N_k n, its
+//! spring keeps the energy, and the forces keep both momenta exactly. Friction acts at both centres, along
+//! two tangents, and each element takes its part of the couple by its mean spin, which is its own in every
+//! rigid motion.
 //!
-//! Surfaces of balls are bumpy: between four balls of equal cubes a ball of their size comes nearer by 29 % of their diameter, and one of less than 0.41 of it passes.
+//! Surfaces of balls are bumpy: between four balls of equal cubes a ball of their size comes nearer by 29 %
+//! of their diameter, and one of less than 0.41 of it passes.
 
 mod geometry;
 
@@ -31,7 +35,8 @@ type Vector = [f64; 3];
 /// A ball in an element of at most eight nodes.
 type Ball = follower::Ball<8>;
 
-/// Springs are there that may close with so many times the last motion, and at this fraction of the skin for what is set in motion now.
+/// Springs are there that may close with so many times the last motion, and at this fraction of the skin for
+/// what is set in motion now.
 const LOOK_AHEAD: f64 = 4.0;
 const START: f64 = 0.02;
 
@@ -53,7 +58,8 @@ pub struct Pinball {
 }
 
 impl Pinball {
-    /// Of one surface that meets itself, or of two; `bodies` of each node of the model, `positions` the initial ones, m; `reach` of the law, m.
+    /// Of one surface that meets itself, or of two; `bodies` of each node of the model, `positions` the
+    /// initial ones, m; `reach` of the law, m.
     #[must_use]
     pub fn new(
         layers: &[Layer<'_>],
@@ -84,7 +90,8 @@ impl Formulation<3> for Pinball {
             let [one, other] = near.pair.map(|ball| &follower.balls[ball as usize]);
             let tangents = Dim::<3>::tangents(spring.normal, &spring.tangent);
             let slip = cone::carried(turned_with([one, other], near.slip, scene.sweep), tangents);
-            // Friction acts at both centres; each element takes the part of the couple that its radius has in the distance.
+            // Friction acts at both centres; each element takes the part of the couple that its radius has in
+            // the distance.
             let part = lying.distance / (one.radius + other.radius);
             let mut ends = [End::<3>::default(); 16];
             let arms = tangents.map(|tangent| cross(spring.normal, tangent));
@@ -122,9 +129,11 @@ impl Formulation<3> for Pinball {
     }
 }
 
-/// A slip that turns in the step as both elements do in the mean: whichever is the first, and however their nodes are numbered.
+/// A slip that turns in the step as both elements do in the mean: whichever is the first, and however their
+/// nodes are numbered.
 ///
-/// Of each the spin is Θ⁻¹ Σ r × Δx about the mean of its nodes with r half way, which is 2 tan ½φ along the axis of every rigid motion: half of it makes the rotation by Cayley's map, exactly.
+/// Of each the spin is Θ⁻¹ Σ r × Δx about the mean of its nodes with r half way, which is 2 tan ½φ along the
+/// axis of every rigid motion: half of it makes the rotation by Cayley's map, exactly.
 fn turned_with(balls: [&Ball; 2], slip: Vector, sweep: Sweep<'_, 3>) -> Vector {
     let [one, other] = balls.map(|ball| spin::turn([&ball.nodes[..ball.count]], sweep));
     spin::turned(slip, [0, 1, 2].map(|d| 0.5 * (one[d] + other[d])))
@@ -148,8 +157,9 @@ impl Ball {
         (arms, inertia)
     }
 
-    /// Writes the ends of a spring that pushes the ball along `sign` n; friction's couple is taken by the element's nodes as their mean spin takes it: `arms` is n × t times the radius, for
-    /// both tangents. How many there are.
+    /// Writes the ends of a spring that pushes the ball along `sign` n; friction's couple is taken by the
+    /// element's nodes as their mean spin takes it: `arms` is n × t times the radius, for both tangents. How
+    /// many there are.
     fn add_ends(&self, positions: &[Vector], sign: f64, arms: [Vector; 2], ends: &mut [End<3>]) -> usize {
         // ω = Θ⁻¹ Σ r × v: the spin of every rigid motion. ω·a of a vector a has the rows (Θ⁻¹ a) × r.
         let (of_nodes, inertia) = self.arms(|node| positions[node as usize]);

@@ -1,19 +1,25 @@
-//! Where two edges of surfaces in space cross, and from which side: closest points of both lines, and the gap between them.
+//! Where two edges of surfaces in space cross, and from which side: closest points of both lines, and the gap
+//! between them.
 //!
-//! Surfaces come from the mesh, positions from the step; crossings go to the formulation. Only edges that fold outward count (ridges). Two ridges that cross make a corner of the set of all
-//! differences of points of both bodies, which is there a half-space with the normal n = ± e_a × e_b: the gap g = (x_a − x_b)·n is the exact depth of the two wedges, whatever of them is nearest.
-//! Which of both signs, and whether they meet at all, the outer normals say: n must leave the second ridge between its facets, and −n the first one.
+//! Surfaces come from the mesh, positions from the step; crossings go to the formulation. Only edges that
+//! fold outward count (ridges). Two ridges that cross make a corner of the set of all differences of points
+//! of both bodies, which is there a half-space with the normal n = ± e_a × e_b: the gap g = (x_a − x_b)·n is
+//! the exact depth of the two wedges, whatever of them is nearest. Which of both signs, and whether they meet
+//! at all, the outer normals say: n must leave the second ridge between its facets, and −n the first one.
 //!
-//! The rows of the gap are its gradient, ± w n at the ends of the edges: closest points change nothing by their own motion. x_a − x_b is along n, so both momenta are kept.
+//! The rows of the gap are its gradient, ± w n at the ends of the edges: closest points change nothing by
+//! their own motion. x_a − x_b is along n, so both momenta are kept.
 
 use super::node_facet::{Placed, Vector, unit};
 use crate::mesh::surface::NONE;
 use crate::tensor::{cross, dot};
 use crate::vector::minus;
 
-/// Cosine of the angle between the facets of an edge below which it is a ridge (20 degrees): what nodes alone miss of flatter ones is less than 5 % of their length.
+/// Cosine of the angle between the facets of an edge below which it is a ridge (20 degrees): what nodes alone
+/// miss of flatter ones is less than 5 % of their length.
 const SHARP: f64 = 0.94;
-/// The same of one that may become a ridge while its nodes go as far as they may until the next search (10 degrees).
+/// The same of one that may become a ridge while its nodes go as far as they may until the next search (10
+/// degrees).
 const BLUNT: f64 = 0.985;
 /// Sine of the angle between edges below which they do not cross.
 const PARALLEL: f64 = 0.1;
@@ -44,7 +50,8 @@ impl Ridge {
         self.cosine < BLUNT
     }
 
-    /// How well a direction leaves the body there: 1 half way between the facets' normals, 0 along one of them, negative beyond.
+    /// How well a direction leaves the body there: 1 half way between the facets' normals, 0 along one of
+    /// them, negative beyond.
     fn opens(&self, direction: Vector) -> f64 {
         let [a, b] = self.inward.map(|inward| dot(direction, inward));
         -a.max(b) / self.half
@@ -75,7 +82,8 @@ impl Crossing {
         Self { gap: -self.gap, normal: self.normal.map(|n| -n), ..self }
     }
 
-    /// How well the opposite of the normal leaves the first ridge and the normal the second one: 1 half way between the facets' normals, 0 along one of them, negative beyond.
+    /// How well the opposite of the normal leaves the first ridge and the normal the second one: 1 half way
+    /// between the facets' normals, 0 along one of them, negative beyond.
     #[must_use]
     pub fn fits(&self, [a, b]: [&Ridge; 2]) -> [f64; 2] {
         [a.opens(self.normal.map(|n| -n)), b.opens(self.normal)]
@@ -88,7 +96,8 @@ pub fn point([a, b]: [Vector; 2], along: f64) -> Vector {
     [0, 1, 2].map(|d| (1.0 - along) * a[d] + along * b[d])
 }
 
-/// Where the lines through two edges are nearest, from either side. `None` where they are (nearly) parallel, or no numbers.
+/// Where the lines through two edges are nearest, from either side. `None` where they are (nearly) parallel,
+/// or no numbers.
 #[must_use]
 pub fn crossing(a: [Vector; 2], b: [Vector; 2]) -> Option<Crossing> {
     let (p, q, r) = (minus(a[1], a[0]), minus(b[1], b[0]), minus(a[0], b[0]));
@@ -124,7 +133,8 @@ impl Placed<'_> {
         self.surface.edges[edge as usize].nodes.map(|node| self.positions[node as usize])
     }
 
-    /// An edge that folds outward; `None` where it folds inward, or the surface ends: on a symmetry plane other edges, which end there too, meet it with their nodes.
+    /// An edge that folds outward; `None` where it folds inward, or the surface ends: on a symmetry plane
+    /// other edges, which end there too, meet it with their nodes.
     #[must_use]
     pub fn ridge(&self, edge: u32) -> Option<Ridge> {
         let [first, other] = self.surface.edges[edge as usize].facets;

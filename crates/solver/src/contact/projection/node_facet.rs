@@ -1,18 +1,25 @@
-//! Nearest feature of a surface in space to a point: a facet, an edge or a node, which decides by its pseudo-normal whether the point is inside.
+//! Nearest feature of a surface in space to a point: a facet, an edge or a node, which decides by its
+//! pseudo-normal whether the point is inside.
 //!
-//! A triangle is flat. A facet of four nodes is made of four triangles around its middle x_m = ¼ Σ x_a, so that facets, flat or not, join along straight edges without gaps: the distance from
-//! such a surface is continuous wherever a point slides, over convex and concave edges and corners, and its nearest point is found in closed form (Ericson 2005, section 5.1.5). With
-//! angle-weighted pseudo-normals at nodes and sums at edges the sign of (x − P)·n is that of inside or outside for every closed surface (Bærentzen and Aanæs, IEEE Trans. Vis. Comput. Graph. 11
-//! (2005) 243-253): one rule for facets, edges and nodes, section 4.2 of the theory sheet.
+//! A triangle is flat. A facet of four nodes is made of four triangles around its middle x_m = ¼ Σ x_a, so
+//! that facets, flat or not, join along straight edges without gaps: the distance from such a surface is
+//! continuous wherever a point slides, over convex and concave edges and corners, and its nearest point is
+//! found in closed form (Ericson 2005, section 5.1.5). With angle-weighted pseudo-normals at nodes and sums
+//! at edges the sign of (x − P)·n is that of inside or outside for every closed surface (Bærentzen and Aanæs,
+//! IEEE Trans. Vis. Comput. Graph. 11 (2005) 243-253): one rule for facets, edges and nodes, section 4.2 of
+//! the theory sheet.
 //!
-//! The gap is g = ± |x − P|, its gradient the unit vector n = ± (x − P) / |x − P|, and −w_a n at the nodes: P is the nearest point, so that its own motion along the surface changes nothing.
-//! Weights are a partition of unity and x − P is along n: forces along these rows keep both momenta.
+//! The gap is g = ± |x − P|, its gradient the unit vector n = ± (x − P) / |x − P|, and −w_a n at the nodes: P
+//! is the nearest point, so that its own motion along the surface changes nothing. Weights are a partition of
+//! unity and x − P is along n: forces along these rows keep both momenta.
 //!
-//! Beyond the rim of a face, where its surface is cut off or goes on around a sharp edge, the plane of the last triangle goes on (`Placed::seen_over`): P is then beyond the triangle, and
-//! some of its weights are negative.
+//! Beyond the rim of a face, where its surface is cut off or goes on around a sharp edge, the plane of the
+//! last triangle goes on (`Placed::seen_over`): P is then beyond the triangle, and some of its weights are
+//! negative.
 //!
-//! Where a surface ends on a symmetry plane its image goes on: the pseudo-normals of such edges and nodes are those of the surface together with its image, and lie in the plane. The image needs no
-//! facets of its own, since a point on the model's side of the plane is never farther from the model's own side.
+//! Where a surface ends on a symmetry plane its image goes on: the pseudo-normals of such edges and nodes are
+//! those of the surface together with its image, and lie in the plane. The image needs no facets of its own,
+//! since a point on the model's side of the plane is never farther from the model's own side.
 
 use super::node_segment::END_TOLERANCE;
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
@@ -74,7 +81,8 @@ pub enum Border {
     None,
     /// It is cut off.
     Cut,
-    /// Its image in symmetry planes goes on: their unit normals, which point to the body; of an edge twice the same.
+    /// Its image in symmetry planes goes on: their unit normals, which point to the body; of an edge twice
+    /// the same.
     Mirrors([Vector; 2]),
 }
 
@@ -100,12 +108,13 @@ pub(in crate::contact) fn unit(v: Vector) -> Vector {
     if size > 0.0 { [v[0] / size, v[1] / size, v[2] / size] } else { [0.0; 3] }
 }
 
-/// Distances below this fraction of a facet's size have no direction of their own: the pseudo-normal is taken.
+/// Distances below this fraction of a facet's size have no direction of their own: the pseudo-normal is
+/// taken.
 const ROUNDING: f64 = 1e-12;
 /// Beyond the border of a surface that ends there a point counts by this fraction of a facet's size.
 const BORDER: f64 = 1e-6;
-/// Points of a surface that are nearer to each other than this fraction of a facet's size are one point, and a corner with a smaller share
-/// has none: rounding must not decide.
+/// Points of a surface that are nearer to each other than this fraction of a facet's size are one point, and
+/// a corner with a smaller share has none: rounding must not decide.
 const TIE: f64 = 1e-9;
 /// Squares of distances to one point differ by less than this fraction.
 const SAME_SQUARE: f64 = 1e-6;
@@ -115,7 +124,8 @@ pub(in crate::contact) fn place_on_triangle(x: Vector, triangle: [Vector; 3]) ->
     nearest_of_triangle(x, triangle).foot
 }
 
-/// Which corners of a triangle its place that is nearest to another place hangs on: one at a corner, two on an edge.
+/// Which corners of a triangle its place that is nearest to another place hangs on: one at a corner, two on
+/// an edge.
 pub(in crate::contact) fn corners_below(x: Vector, triangle: [Vector; 3]) -> [bool; 3] {
     nearest_of_triangle(x, triangle).weights.map(|weight| weight > TIE)
 }
@@ -251,8 +261,8 @@ impl Placed<'_> {
         self.nearest(x, facet).map(|(nearest, triangle)| (nearest.square.sqrt(), triangle))
     }
 
-    /// Length by which what is small on a facet is measured, m: the root of the sum of the squares of the diagonals, of three nodes that of
-    /// two edges in the mean, whichever comes first.
+    /// Length by which what is small on a facet is measured, m: the root of the sum of the squares of the
+    /// diagonals, of three nodes that of two edges in the mean, whichever comes first.
     #[must_use]
     pub fn size(&self, facet: u32) -> f64 {
         let ([a, b, c, d], count) = self.corners(facet);
@@ -263,7 +273,8 @@ impl Placed<'_> {
         (square(a, c) + square(b, d)).sqrt()
     }
 
-    /// What of a facet is nearest to x, m; nothing is said of inside or outside. `None` where that is no number.
+    /// What of a facet is nearest to x, m; nothing is said of inside or outside. `None` where that is no
+    /// number.
     pub(in crate::contact) fn nearest(&self, x: Vector, facet: u32) -> Option<(Nearest, usize)> {
         let (corners, count) = self.corners(facet);
         let (last, triangles) = if count == 3 { (corners[2], 1) } else { (middle(&corners), 4) };
@@ -277,9 +288,9 @@ impl Placed<'_> {
         best
     }
 
-    /// The ends of the edge on which the foot of a projection lies, or the node at which it lies and [`NONE`]; twice [`NONE`] over a facet,
-    /// or beyond a rim. The same whichever of the facets
-    /// there the projection names.
+    /// The ends of the edge on which the foot of a projection lies, or the node at which it lies and
+    /// [`NONE`]; twice [`NONE`] over a facet, or beyond a rim. The same whichever of the facets there the
+    /// projection names.
     pub(in crate::contact) fn rests_on(&self, Projection { facet, weights, .. }: &Projection) -> [u32; 2] {
         let corners = self.surface.facets[*facet as usize];
         let corners = corners.corners();
@@ -292,9 +303,9 @@ impl Placed<'_> {
         }
     }
 
-    /// Whether one of two places on a surface is nearer to x than the other. Of one point of the surface that facet counts, and that
-    /// triangle of it, in front of or behind which x is
-    /// farthest: which comes first says nothing.
+    /// Whether one of two places on a surface is nearer to x than the other. Of one point of the surface that
+    /// facet counts, and that triangle of it, in front of or behind which x is farthest: which comes first
+    /// says nothing.
     pub(in crate::contact) fn is_nearer(&self, x: Vector, one: &Found, other: &Found) -> bool {
         let ((a, _, _), (b, _, _)) = (one, other);
         if (a.square - b.square).abs() <= SAME_SQUARE * a.square.max(b.square) {
@@ -334,7 +345,8 @@ impl Placed<'_> {
         }
     }
 
-    /// Direction by which a feature tells outside from inside, not of unit length, and whether the surface ends there.
+    /// Direction by which a feature tells outside from inside, not of unit length, and whether the surface
+    /// ends there.
     fn pseudo_normal(&self, facet: u32, k: usize, feature: Feature, weights: [f64; 3]) -> (Vector, Border) {
         let plus = |a: Vector, b: Vector| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         match feature {
@@ -369,7 +381,8 @@ impl Placed<'_> {
         let x = self.triangle(facet, k);
         let (p, q) = (minus(x[(at + 1) % 3], x[at]), minus(x[(at + 2) % 3], x[at]));
         let normal = cross(p, q);
-        // The angle by a rational bound of its sine and cosine is not enough: weights must be angles for the sign to be right.
+        // The angle by a rational bound of its sine and cosine is not enough: weights must be angles for the
+        // sign to be right.
         let angle = angle_of(dot(normal, normal).sqrt(), dot(p, q));
         unit(normal).map(|n| angle * n)
     }
@@ -383,7 +396,8 @@ impl Placed<'_> {
         [0, 1, 2].map(|d| after[d] + before[d])
     }
 
-    /// Angle-weighted normal at a corner of a facet, over the facets that follow each other around it, and whether the surface ends there.
+    /// Angle-weighted normal at a corner of a facet, over the facets that follow each other around it, and
+    /// whether the surface ends there.
     #[must_use]
     pub fn node_normal(&self, facet: u32, corner: usize) -> (Vector, Border) {
         let node = self.surface.facets[facet as usize][corner];
@@ -421,7 +435,8 @@ impl Placed<'_> {
         self.surface.mirror(edge).map_or(Border::Cut, |normal| Border::Mirrors([normal; 2]))
     }
 
-    /// Normal of the symmetry plane on which the surface ends at the side of triangle `k` from its corner `side` to the next one, if it does.
+    /// Normal of the symmetry plane on which the surface ends at the side of triangle `k` from its corner
+    /// `side` to the next one, if it does.
     pub(in crate::contact) fn mirror_at(&self, facet: u32, k: usize, side: usize) -> Option<Vector> {
         if self.surface.mirrors.is_empty() || (side > 0 && self.triangles(facet) == 4) {
             return None;
@@ -429,7 +444,8 @@ impl Placed<'_> {
         self.surface.mirror(self.surface.edges_of[facet as usize][k + side])
     }
 
-    /// Whether a point is on the model's side of a symmetry plane that goes through `at`, by its normal there; `size` (m) is that of the facet.
+    /// Whether a point is on the model's side of a symmetry plane that goes through `at`, by its normal
+    /// there; `size` (m) is that of the facet.
     pub(in crate::contact) fn is_before(x: Vector, at: Vector, normal: Vector, size: f64) -> bool {
         dot(minus(x, at), normal) >= -BORDER * size
     }
@@ -448,13 +464,15 @@ impl Placed<'_> {
         best
     }
 
-    /// Where x lies by the nearest of some facets. `None` where there is none, or the surface ends before x comes over it.
+    /// Where x lies by the nearest of some facets. `None` where there is none, or the surface ends before x
+    /// comes over it.
     #[must_use]
     pub fn project(&self, x: Vector, facets: impl IntoIterator<Item = u32>) -> Option<Projection> {
         self.seen(x, self.nearest_of(x, facets)?)
     }
 
-    /// As [`Placed::seen`], but the plane of the nearest triangle goes on beyond the rim of what `is_face` says is the face; with it the way from the rim to P, m, zero over the face.
+    /// As [`Placed::seen`], but the plane of the nearest triangle goes on beyond the rim of what `is_face`
+    /// says is the face; with it the way from the rim to P, m, zero over the face.
     pub(in crate::contact) fn seen_over(&self, x: Vector, found: Found, is_face: impl Fn(u32) -> bool) -> Option<(Projection, Vector)> {
         let (nearest, facet, k) = found;
         let goes_on = |edge: usize| {
@@ -478,7 +496,8 @@ impl Placed<'_> {
         Some((over, beyond))
     }
 
-    /// Where a point is seen from the plane of triangle `k`, over it or not: shares of its corners in the foot, height above it (m), and normal. `None` where it has no area.
+    /// Where a point is seen from the plane of triangle `k`, over it or not: shares of its corners in the
+    /// foot, height above it (m), and normal. `None` where it has no area.
     pub(in crate::contact) fn above(&self, x: Vector, facet: u32, k: usize) -> Option<(Vector, f64, Vector)> {
         let [a, b, c] = self.triangle(facet, k);
         let area = cross(minus(b, a), minus(c, a));
@@ -499,7 +518,8 @@ impl Placed<'_> {
         Some(Projection { facet, feature: Feature::Face, triangle: k, weights: self.spread(facet, k, shares), foot, gap, normal })
     }
 
-    /// Whether the foot on the plane of a triangle is on it as far as rounding lets one tell: by the same fraction of a facet as in the plane.
+    /// Whether the foot on the plane of a triangle is on it as far as rounding lets one tell: by the same
+    /// fraction of a facet as in the plane.
     fn is_over(&self, over: &Projection) -> bool {
         let [a, b, c, d] = over.weights;
         let least = if self.triangles(over.facet) == 1 {
@@ -513,8 +533,9 @@ impl Placed<'_> {
         least >= -END_TOLERANCE
     }
 
-    /// A point that is behind the plane of the nearest triangle, by its distance from that triangle, over it or beyond its rim: as deep, and pushed back to it. With the triangle's normal;
-    /// `None` where it is before the plane, or on it.
+    /// A point that is behind the plane of the nearest triangle, by its distance from that triangle, over it
+    /// or beyond its rim: as deep, and pushed back to it. With the triangle's normal; `None` where it is
+    /// before the plane, or on it.
     pub(in crate::contact) fn behind(&self, x: Vector, (nearest, facet, triangle): Found) -> Option<(Projection, Vector)> {
         let Nearest { square, weights, foot } = nearest;
         let (along, away, distance) = (self.normal(facet, triangle), minus(x, foot), square.sqrt());
@@ -564,7 +585,8 @@ impl Placed<'_> {
     }
 }
 
-/// Angle (rad) between two directions with the sine `sin` ≥ 0 and the cosine `cos`, both times any positive number: the same bits everywhere, to some 1e-15.
+/// Angle (rad) between two directions with the sine `sin` ≥ 0 and the cosine `cos`, both times any positive
+/// number: the same bits everywhere, to some 1e-15.
 fn angle_of(sin: f64, cos: f64) -> f64 {
     use std::f64::consts::{FRAC_PI_2, PI};
     if sin == 0.0 {

@@ -1,8 +1,10 @@
-//! Node against segments of the plane: nearest feature, inside or outside, and the swept crossing of a segment.
+//! Node against segments of the plane: nearest feature, inside or outside, and the swept crossing of a
+//! segment.
 //!
-//! Positions come from the step, candidates from the global search; projections go to the contact law. One rule covers both corner cases
-//! of the paper (figures 4 and 5): the nearest feature of the target decides, the inside of a segment or a node; the pseudo-normal of
-//! a node is the sum of its two segment normals. Theory, sections 4.1 and 4.2.
+//! Positions come from the step, candidates from the global search; projections go to the contact law. One
+//! rule covers both corner cases of the paper (figures 4 and 5): the nearest feature of the target decides,
+//! the inside of a segment or a node; the pseudo-normal of a node is the sum of its two segment normals.
+//! Theory, sections 4.1 and 4.2.
 
 use crate::archive::keep_all;
 use crate::mesh::surface::{NONE, Surface};
@@ -16,7 +18,8 @@ pub type Vector = [f64; 2];
 pub struct Target {
     /// The segments, body on the right.
     pub surface: Surface,
-    /// Normal of the symmetry line that the node of an open end lies on: (node, normal), by node. The mirrored half of the body goes on there.
+    /// Normal of the symmetry line that the node of an open end lies on: (node, normal), by node. The
+    /// mirrored half of the body goes on there.
     pub mirrors: Vec<(u32, Vector)>,
 }
 
@@ -35,24 +38,29 @@ pub struct Projection {
 
 keep_all!(Projection { segment, weights, gap, normal });
 
-/// Nodes that project beyond a segment's end by this fraction of its length still project on it. Two bars of one height meet corner on corner:
-/// round-off must not decide whether they touch.
+/// Nodes that project beyond a segment's end by this fraction of its length still project on it. Two bars of
+/// one height meet corner on corner: round-off must not decide whether they touch.
 pub(in crate::contact) const END_TOLERANCE: f64 = 1e-6;
 /// Round-off of f, and of the comparison with it, over lengths of both factors.
 pub(in crate::contact) const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Off a node by this part of the distance, squared, the inside of a segment is nearer than the node whatever rounds.
+/// Off a node by this part of the distance, squared, the inside of a segment is nearer than the node whatever
+/// rounds.
 pub(in crate::contact) const CLEAR: f64 = 1e-6;
 /// Two sides are equally near when their distances differ by less than this fraction.
 const TIE: f64 = 1e-9;
-/// Cosine of the angle between two segments from which on their common node is an edge, not a facet of something round.
+/// Cosine of the angle between two segments from which on their common node is an edge, not a facet of
+/// something round.
 const EDGE: f64 = 0.5;
-/// How far a face goes on beyond a free end: this fraction of the length of its last segment, or of the slave's segments where those are shorter.
+/// How far a face goes on beyond a free end: this fraction of the length of its last segment, or of the
+/// slave's segments where those are shorter.
 pub const BAND: f64 = 0.025;
 
-/// By how much a face that goes on over a band of this width (m) has fallen at a distance `beyond` its end (m): φ, m, and its slope.
+/// By how much a face that goes on over a band of this width (m) has fallen at a distance `beyond` its end
+/// (m): φ, m, and its slope.
 ///
-/// It goes straight on over half of the band, bends down over the other half, and falls at 45 degrees from there. What is flush but for half of the band feels no end at all; what
-/// leaves the face sideways slides down the slope and gives the energy of its spring back as work, over a way that is as long as it was deep.
+/// It goes straight on over half of the band, bends down over the other half, and falls at 45 degrees from
+/// there. What is flush but for half of the band feels no end at all; what leaves the face sideways slides
+/// down the slope and gives the energy of its spring back as work, over a way that is as long as it was deep.
 #[must_use]
 pub fn fall_off(beyond: f64, band: f64) -> [f64; 2] {
     let half = 0.5 * band;
@@ -78,9 +86,11 @@ pub struct Held {
 /// What a node has ahead of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ahead {
-    /// Segment that the nearest feature in front belongs to, and the projection on it: `None` where the surface is cut off there.
+    /// Segment that the nearest feature in front belongs to, and the projection on it: `None` where the
+    /// surface is cut off there.
     pub first: Option<(u32, Option<Projection>)>,
-    /// So far all candidates are away, in front or behind, m: until one of them is nearer nothing is touched or passed through. Minus infinity if one has no length.
+    /// So far all candidates are away, in front or behind, m: until one of them is nearer nothing is touched
+    /// or passed through. Minus infinity if one has no length.
     pub clear: f64,
 }
 
@@ -104,7 +114,8 @@ impl Seen {
 }
 
 impl Target {
-    /// Projects `x` on segment `segment` or on the end that is nearest; `None` where the surface is cut off there, or the segment has no length.
+    /// Projects `x` on segment `segment` or on the end that is nearest; `None` where the surface is cut off
+    /// there, or the segment has no length.
     ///
     /// ε of eq. (8) is 2 s − 1 with s = (x − C₁)·T / |C₂ − C₁|.
     #[must_use]
@@ -118,7 +129,8 @@ impl Target {
         self.feature(x, segment, positions).map(|feature| feature.distance)
     }
 
-    /// Distance of `x` from the line of segment `segment`, m, positive on the outer side; `None` where it has no length.
+    /// Distance of `x` from the line of segment `segment`, m, positive on the outer side; `None` where it has
+    /// no length.
     #[must_use]
     pub fn side_of(&self, x: Vector, segment: u32, positions: &[Vector]) -> Option<f64> {
         let [c1, c2] = self.surface.segments[segment as usize].map(|node| positions[node as usize]);
@@ -137,7 +149,8 @@ impl Target {
         (length > 0.0).then(|| Seen { place: dot(r, t) / square, gap: cross(t, r) / length, length })
     }
 
-    /// Whether a face ends where segment `segment` begins (`end` 0) or ends (1): the surface is cut off there, or goes on around a sharp edge, away from the outside.
+    /// Whether a face ends where segment `segment` begins (`end` 0) or ends (1): the surface is cut off
+    /// there, or goes on around a sharp edge, away from the outside.
     #[must_use]
     pub fn is_free(&self, segment: u32, end: usize, positions: &[Vector]) -> bool {
         let neighbour = self.neighbour(segment, PLACES[end]);
@@ -149,8 +162,9 @@ impl Target {
         self.is_edge(before, after, positions) && cross(self.along(before, positions), self.along(after, positions)) <= 0.0
     }
 
-    /// The projection on segment `segment` as it goes on beyond a free end over a band of this width (m), see [`fall_off`]; `None` where `x` is not beyond such an end. Weights are
-    /// those of the place on the segment's line, one of them negative; the gap is that of the line and what the face has fallen off.
+    /// The projection on segment `segment` as it goes on beyond a free end over a band of this width (m), see
+    /// [`fall_off`]; `None` where `x` is not beyond such an end. Weights are those of the place on the
+    /// segment's line, one of them negative; the gap is that of the line and what the face has fallen off.
     #[must_use]
     pub fn beyond(&self, x: Vector, segment: u32, band: f64, positions: &[Vector]) -> Option<Projection> {
         let seen = self.seen(x, segment, positions)?;
@@ -226,8 +240,9 @@ impl Target {
         if end == Place::Begin { self.surface.previous[segment as usize] } else { self.surface.next[segment as usize] }
     }
 
-    /// Nearest feature to `x` among those of `candidates` that `x` is in front of, or behind by no more than `rounding` (m): a node above a thin plate sees neither the
-    /// plate's far side nor that of its own body. `None` where the nearest is an end at which the surface is cut off.
+    /// Nearest feature to `x` among those of `candidates` that `x` is in front of, or behind by no more than
+    /// `rounding` (m): a node above a thin plate sees neither the plate's far side nor that of its own body.
+    /// `None` where the nearest is an end at which the surface is cut off.
     #[must_use]
     pub fn ahead(&self, x: Vector, candidates: &[u32], rounding: f64, positions: &[Vector]) -> Option<Projection> {
         self.look_ahead(x, candidates, rounding, positions).first?.1
@@ -250,27 +265,31 @@ impl Target {
         Ahead { first: first.map(|feature| (feature.segment, feature.projection)), clear }
     }
 
-    /// Nearest feature to `x` among `candidates`; of equally near ones the first. `None` where that is an end at which the surface is cut off.
+    /// Nearest feature to `x` among `candidates`; of equally near ones the first. `None` where that is an end
+    /// at which the surface is cut off.
     pub fn nearest(&self, x: Vector, candidates: &[u32], positions: &[Vector]) -> Option<Projection> {
         let nearest = candidates.iter().filter_map(|&segment| self.feature(x, segment, positions)).reduce(nearer)?;
         self.between_sides(x, nearest, NONE, positions, true)
     }
 
-    /// Follows the chain from `start` to the nearest feature: the way to stay on the side of a thin body on which a node came in.
-    /// `None` beyond an end at which the surface is cut off.
+    /// Follows the chain from `start` to the nearest feature: the way to stay on the side of a thin body on
+    /// which a node came in. `None` beyond an end at which the surface is cut off.
     ///
-    /// Across a sharp edge the node stays with the face that it came in through as long as it projects on it: near an edge the other face is
-    /// always near, and a bar that meets another end on would be pushed out sideways, with no force at all. On faceted curves the nearest decides.
+    /// Across a sharp edge the node stays with the face that it came in through as long as it projects on it:
+    /// near an edge the other face is always near, and a bar that meets another end on would be pushed out
+    /// sideways, with no force at all. On faceted curves the nearest decides.
     ///
-    /// A neighbour counts with its own inside and the shared node. Its far end counts only when `x` is beyond the shared node: else a
-    /// node deep below a thin body would be led around the body's edge to the far side.
+    /// A neighbour counts with its own inside and the shared node. Its far end counts only when `x` is beyond
+    /// the shared node: else a node deep below a thin body would be led around the body's edge to the far
+    /// side.
     #[must_use]
     pub fn follow(&self, x: Vector, start: u32, positions: &[Vector]) -> Option<Projection> {
         self.follow_without(x, start, NONE, Held::default(), positions)
     }
 
-    /// As [`Target::follow`], but the chain ends at the segments of node `own`: those of the slave itself, in a contact of a surface with itself. Beyond a free end the node stays
-    /// with the face as [`Target::beyond`] and `held` say.
+    /// As [`Target::follow`], but the chain ends at the segments of node `own`: those of the slave itself, in
+    /// a contact of a surface with itself. Beyond a free end the node stays with the face as
+    /// [`Target::beyond`] and `held` say.
     #[must_use]
     pub fn follow_without(&self, x: Vector, start: u32, own: u32, held: Held, positions: &[Vector]) -> Option<Projection> {
         let mut best = self.feature(x, start, positions)?;
@@ -300,8 +319,10 @@ impl Target {
         self.between_sides(x, best, own, positions, false)
     }
 
-    /// Whether `x`, which projects on the inside of `here`, can't be nearer to the neighbour at its end `end`: it is beyond the common node as the neighbour sees it, so that node
-    /// is what it would find there, and clearly off that node on `here`. This is so for nearly all nodes on nearly flat surfaces, and costs no root and no division.
+    /// Whether `x`, which projects on the inside of `here`, can't be nearer to the neighbour at its end
+    /// `end`: it is beyond the common node as the neighbour sees it, so that node is what it would find
+    /// there, and clearly off that node on `here`. This is so for nearly all nodes on nearly flat surfaces,
+    /// and costs no root and no division.
     #[inline]
     fn is_left_behind(&self, x: Vector, here: &Feature, neighbour: u32, end: Place, positions: &[Vector]) -> bool {
         let Some(Projection { weights, gap, .. }) = here.projection.filter(|_| here.at == Place::Inside) else { return false };
@@ -320,8 +341,9 @@ impl Target {
         segment != NONE && (own == NONE || !self.surface.segments[segment as usize].contains(&own))
     }
 
-    /// The projection of a feature; of a node that is equally near to two sides, as far as rounding lets one tell, that on their common node:
-    /// what is symmetric stays so. Sides that meet at an edge count only with `over_edges`.
+    /// The projection of a feature; of a node that is equally near to two sides, as far as rounding lets one
+    /// tell, that on their common node: what is symmetric stays so. Sides that meet at an edge count only
+    /// with `over_edges`.
     fn between_sides(&self, x: Vector, feature: Feature, own: u32, positions: &[Vector], over_edges: bool) -> Option<Projection> {
         let projection = feature.projection?;
         if feature.at != Place::Inside || projection.gap >= 0.0 {
@@ -354,25 +376,32 @@ impl Target {
         dot(ta, tb) < EDGE * (dot(ta, ta) * dot(tb, tb)).sqrt()
     }
 
-    /// Time (0 to 1) at which a node that moves from `x_old` to `x_new` goes through `segment` from the outside in; all paths straight.
+    /// Time (0 to 1) at which a node that moves from `x_old` to `x_new` goes through `segment` from the
+    /// outside in; all paths straight.
     ///
-    /// The side f = T × (x − C₁) is a quadratic in time; where it falls through zero, the node must lie between the segment's nodes.
+    /// The side f = T × (x − C₁) is a quadratic in time; where it falls through zero, the node must lie
+    /// between the segment's nodes.
     ///
     /// What holds, tested against whole numbers (`tests/all/swept.rs`):
-    /// - A way in is found at any speed and thickness: over the segment or exactly over an end (then by both neighbours whose side it changes), in
-    ///   for good or out again within the step, from a place on the segment too. On it is outside, and f is zero or not by the very
-    ///   expression that gives [`Target::project`] its sign.
-    /// - Round-off hides none along a chain: whoever is outside a closed chain before and inside it after is reported by some segment (by its winding number),
-    ///   if the signs of both gaps say so too. Of a dip under a single segment it hides what is no deeper than the rounding of f.
-    /// - Nothing else is reported: no way out, no graze (f touches zero), no path along the segment, no motion together with it, no segment that shrinks to
-    ///   a point elsewhere. Exceptions, all of which [`Target::follow`] finds outside: beyond an end by a millionth of the length; over the end
-    ///   of a side that the body does not go behind (a corner grazed); and, where rounding decides, who ends on the segment or slides along it.
+    /// - A way in is found at any speed and thickness: over the segment or exactly over an end (then by both
+    ///   neighbours whose side it changes), in for good or out again within the step, from a place on the
+    ///   segment too. On it is outside, and f is zero or not by the very expression that gives
+    ///   [`Target::project`] its sign.
+    /// - Round-off hides none along a chain: whoever is outside a closed chain before and inside it after is
+    ///   reported by some segment (by its winding number), if the signs of both gaps say so too. Of a dip
+    ///   under a single segment it hides what is no deeper than the rounding of f.
+    /// - Nothing else is reported: no way out, no graze (f touches zero), no path along the segment, no
+    ///   motion together with it, no segment that shrinks to a point elsewhere. Exceptions, all of which
+    ///   [`Target::follow`] finds outside: beyond an end by a millionth of the length; over the end of a side
+    ///   that the body does not go behind (a corner grazed); and, where rounding decides, who ends on the
+    ///   segment or slides along it.
     #[must_use]
     pub fn crossing(&self, x_old: Vector, x_new: Vector, segment: u32, positions_old: &[Vector], positions_new: &[Vector]) -> Option<f64> {
         self.passage(x_old, x_new, segment, positions_old, positions_new)?.entered
     }
 
-    /// What a node does to `segment` on its way from `x_old` to `x_new`; `None` where it stays on one side of the segment's line.
+    /// What a node does to `segment` on its way from `x_old` to `x_new`; `None` where it stays on one side of
+    /// the segment's line.
     #[inline]
     #[must_use]
     pub fn passage(
@@ -402,10 +431,12 @@ impl Target {
         if a == 0.0 && b == 0.0 && !changes {
             return Some(Passage { entered: None, exits });
         }
-        // Time counts from that end of the step where f is smaller: tiny segments that a fast node hits late are seen sharply.
+        // Time counts from that end of the step where f is smaller: tiny segments that a fast node hits late
+        // are seen sharply.
         let (e, r, f, forth) = if end.abs() < begin.abs() { (e1, r1, end, -1.0) } else { (e0, r0, begin, 1.0) };
         let from_begin = |time: f64| if forth < 0.0 { 1.0 - time } else { time };
-        // Down and up within the step, or up and down: where f has roots at all, they are in it, however they round.
+        // Down and up within the step, or up and down: where f has roots at all, they are in it, however they
+        // round.
         let turn = -0.5 * b / a;
         let turns = turn > 0.0 && turn < 1.0 && (begin >= 0.0) == (a > 0.0) && (end >= 0.0) == (a > 0.0);
         // Who ends on it did not go in yet.
@@ -419,13 +450,15 @@ impl Target {
         };
         let entered = match fall.filter(between) {
             Some(time) => Some(from_begin(time)),
-            // Who begins on an end has f = 0 there to the last bit: no way in is hidden, and winding has no meaning.
+            // Who begins on an end has f = 0 there to the last bit: no way in is hidden, and winding has no
+            // meaning.
             None => (!before.contains(&[0.0; 2]) && exits < 0).then(|| fall.map_or(1.0, from_begin)),
         };
         Some(Passage { entered, exits })
     }
 
-    /// Part of the winding number of `segment` around `x`, as [`Passage::exits`] counts it: summed over a closed surface it is minus the number of bodies that `x` is in.
+    /// Part of the winding number of `segment` around `x`, as [`Passage::exits`] counts it: summed over a
+    /// closed surface it is minus the number of bodies that `x` is in.
     #[must_use]
     pub fn turn(x: Vector, segment: [u32; 2], positions: &[Vector]) -> i32 {
         let [a, b] = segment.map(|node| minus(positions[node as usize], x));
@@ -464,12 +497,13 @@ enum Place {
 /// Both ends of a segment.
 const PLACES: [Place; 2] = [Place::Begin, Place::End];
 
-/// How often a node goes out through a segment a → b (body on its right) less how often it goes in, in one step. `seen` are a and b at the
-/// beginning and a and b at the end, as seen from the node.
+/// How often a node goes out through a segment a → b (body on its right) less how often it goes in, in one
+/// step. `seen` are a and b at the beginning and a and b at the end, as seen from the node.
 ///
-/// This is the winding number of the loop a₀ → a₁ → b₁ → b₀ → a₀ around the node (the origin), counted by the ray along +x. Neighbours share
-/// the way of their common node, with the same bits and opposite signs; so along a chain nothing is lost or counted twice, however the
-/// products round: the sum over a closed chain is exactly the change of the winding number of the chain.
+/// This is the winding number of the loop a₀ → a₁ → b₁ → b₀ → a₀ around the node (the origin), counted by the
+/// ray along +x. Neighbours share the way of their common node, with the same bits and opposite signs; so
+/// along a chain nothing is lost or counted twice, however the products round: the sum over a closed chain is
+/// exactly the change of the winding number of the chain.
 fn net_exits([a0, b0]: [Vector; 2], [a1, b1]: [Vector; 2]) -> i32 {
     let way = |from: Vector, to: Vector| match (from[1] <= 0.0, to[1] <= 0.0) {
         (true, false) => i32::from(cross(from, to) > 0.0),
@@ -479,7 +513,8 @@ fn net_exits([a0, b0]: [Vector; 2], [a1, b1]: [Vector; 2]) -> i32 {
     way(a0, a1) + side(a1, b1) - way(b0, b1) - side(a0, b0)
 }
 
-/// How often the segment a → b goes through the ray along +x from the origin: 1 upwards, −1 downwards. A node on the segment itself is outside, as its gap of zero says.
+/// How often the segment a → b goes through the ray along +x from the origin: 1 upwards, −1 downwards. A node
+/// on the segment itself is outside, as its gap of zero says.
 fn side(a: Vector, b: Vector) -> i32 {
     match (a[1] <= 0.0, b[1] <= 0.0) {
         (true, false) => i32::from(cross(a, b) >= 0.0),
@@ -488,7 +523,8 @@ fn side(a: Vector, b: Vector) -> i32 {
     }
 }
 
-/// Time at which a t² + b t + c falls through zero, or rests on it and then falls; without cancellation. `certain`: it does so somewhere.
+/// Time at which a t² + b t + c falls through zero, or rests on it and then falls; without cancellation.
+/// `certain`: it does so somewhere.
 fn fall(a: f64, b: f64, c: f64, certain: bool) -> Option<f64> {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 && !certain {
@@ -543,7 +579,8 @@ mod tests {
         ) {
             let of = |i: usize| [corners[i], corners[i + 1], corners[i + 2]];
             if let (Some(before), Some(after)) = (winding(&of(0)), winding(&of(3))) {
-                // Ways through the origin and sides along the ray are common here; the scale makes products round.
+                // Ways through the origin and sides along the ray are common here; the scale makes products
+                // round.
                 let real = |i: usize| corners[i].map(|c| f64::from(c) * 0.1);
                 let sum: i32 = (0..3).map(|i| {
                     let j = (i + 1) % 3;

@@ -1,10 +1,14 @@
-//! When, in a step, a node goes through a triangle that moves, and an edge through another one: the swept check of solids, for the proof that no contact was missed.
+//! When, in a step, a node goes through a triangle that moves, and an edge through another one: the swept
+//! check of solids, for the proof that no contact was missed.
 //!
-//! Positions of both ends of a step come from the proof ([`super::super::proof`]); all nodes go straight and evenly between them. Then the volume that a node spans with a triangle, and that of
-//! two edges, is a cubic of the time, det(u, v, w) of three vectors that are linear in it. Where it vanishes all four nodes are in one plane (Provot 1997; Bridson, Fedkiw and Anderson 2002),
-//! and where the place is on the triangle, or on both edges, one goes through the other. In Bernstein's form no sign changes among the coefficients mean no root, one change one root, and
-//! halves have their coefficients by de Casteljau's rule: roots are isolated, not guessed. Everything within rounding counts as it is worst for the proof: who begins a rounding
-//! behind the triangle begins in front of it, and a place a rounding beyond an edge is on it.
+//! Positions of both ends of a step come from the proof ([`super::super::proof`]); all nodes go straight and
+//! evenly between them. Then the volume that a node spans with a triangle, and that of two edges, is a cubic
+//! of the time, det(u, v, w) of three vectors that are linear in it. Where it vanishes all four nodes are in
+//! one plane (Provot 1997; Bridson, Fedkiw and Anderson 2002), and where the place is on the triangle, or on
+//! both edges, one goes through the other. In Bernstein's form no sign changes among the coefficients mean no
+//! root, one change one root, and halves have their coefficients by de Casteljau's rule: roots are isolated,
+//! not guessed. Everything within rounding counts as it is worst for the proof: who begins a rounding behind
+//! the triangle begins in front of it, and a place a rounding beyond an edge is on it.
 
 use crate::tensor::{cross, dot};
 use crate::vector::minus;
@@ -98,8 +102,8 @@ fn split([a, b, c, d]: [f64; 4], [begin, end]: [f64; 2], halvings: u32, times: &
     split([all, bcd, cd, d], [middle, end], halvings - 1, times);
 }
 
-/// The last place between 0 and 1, but for `width`, at which a cubic that falls once has not fallen: the false position (Illinois: Dowell and Jarratt, BIT 11 (1971) 168-174), then halves of what
-/// is left.
+/// The last place between 0 and 1, but for `width`, at which a cubic that falls once has not fallen: the
+/// false position (Illinois: Dowell and Jarratt, BIT 11 (1971) 168-174), then halves of what is left.
 fn only_fall(coefficients: [f64; 4], width: f64) -> f64 {
     let at = |t: f64| {
         let [a, b, c, d] = coefficients;
@@ -141,7 +145,8 @@ fn only_fall(coefficients: [f64; 4], width: f64) -> f64 {
     above
 }
 
-/// Whether a volume keeps its sign in the step, by far: it differs from the straight line between its ends by no more than ¼ |Q| + 0.39 |C| of the terms Q t² + C t³.
+/// Whether a volume keeps its sign in the step, by far: it differs from the straight line between its ends by
+/// no more than ¼ |Q| + 0.39 |C| of the terms Q t² + C t³.
 fn keeps_sign(old: [Vector; 3], new: [Vector; 3], [begin, end]: [f64; 2]) -> bool {
     let size = |v: Vector| v[0].abs() + v[1].abs() + v[2].abs();
     let ([u, v, w], [du, dv, dw]) = (old.map(size), [0, 1, 2].map(|k| size(minus(new[k], old[k]))));
@@ -150,8 +155,10 @@ fn keeps_sign(old: [Vector; 3], new: [Vector; 3], [begin, end]: [f64; 2]) -> boo
     begin * end > 0.0 && begin.abs().min(end.abs()) > 1.01 * bend + 4.0 * rounding
 }
 
-/// Times at which a node goes through a triangle: from its front (from where it is counter-clockwise) to its back, and from its back to its front. One that begins on the triangle and goes behind
-/// it, or before it, does so. `is_over` tells whether a place in the triangle's plane is on it, or no farther beyond it than it counts.
+/// Times at which a node goes through a triangle: from its front (from where it is counter-clockwise) to its
+/// back, and from its back to its front. One that begins on the triangle and goes behind it, or before it,
+/// does so. `is_over` tells whether a place in the triangle's plane is on it, or no farther beyond it than it
+/// counts.
 pub fn passages([from, to]: [Vector; 2], old: [Vector; 3], new: [Vector; 3], is_over: impl Fn(Vector, [Vector; 3]) -> bool) -> [Times; 2] {
     let sides = |x: Vector, [a, b, c]: [Vector; 3]| [minus(x, a), minus(b, a), minus(c, a)];
     let (before, after) = (sides(from, old), sides(to, new));
@@ -178,7 +185,8 @@ pub fn entries(path: [Vector; 2], old: [Vector; 3], new: [Vector; 3]) -> Times {
     passages(path, old, new, |x, triangle| (0..3).all(|side| is_beside(x, triangle, side)))[0]
 }
 
-/// Whether a place in the plane of a triangle is on that side of the line from its corner `side` to the next one where the triangle is.
+/// Whether a place in the plane of a triangle is on that side of the line from its corner `side` to the next
+/// one where the triangle is.
 #[must_use]
 pub fn is_beside(x: Vector, t: [Vector; 3], side: usize) -> bool {
     let normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
@@ -187,7 +195,8 @@ pub fn is_beside(x: Vector, t: [Vector; 3], side: usize) -> bool {
     !(share < -RIM * dot(normal, normal))
 }
 
-/// Times at which two edges go through each other so that the first, which was on the side to which first × second points, times `sign`, goes to the other; how far along either they meet.
+/// Times at which two edges go through each other so that the first, which was on the side to which first ×
+/// second points, times `sign`, goes to the other; how far along either they meet.
 pub fn crossings(sign: f64, [a_old, b_old]: [[Vector; 2]; 2], [a, b]: [[Vector; 2]; 2], mut meet: impl FnMut(f64, [f64; 2])) {
     let sides = |a: [Vector; 2], b: [Vector; 2]| [minus(a[0], b[0]).map(|c| sign * c), minus(a[1], a[0]), minus(b[1], b[0])];
     let (coefficients, rounding) = volume(sides(a_old, b_old), sides(a, b));
@@ -320,7 +329,8 @@ mod tests {
 
     #[test]
     fn a_triangle_that_comes_turns_and_goes_on_is_gone_through() {
-        // The node stays, the triangle flies over it in the step, and turns so that its volume falls, rises and falls.
+        // The node stays, the triangle flies over it in the step, and turns so that its volume falls, rises
+        // and falls.
         let old = [[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [0.0, 1.0, -3.0]];
         let new = old.map(|[x, y, _]| [x, y, 4.0]);
         let times: Vec<f64> = entries([[0.0; 3]; 2], old, new).iter().collect();

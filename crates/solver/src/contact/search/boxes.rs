@@ -1,4 +1,5 @@
-//! One box per facet, compared with every slave node: the paper's method (b), with boxes that lie along the facets, see `hull`.
+//! One box per facet, compared with every slave node: the paper's method (b), with boxes that lie along the
+//! facets, see `hull`.
 
 use super::extent::Margin;
 use super::hull::{Hull, Path};

@@ -23,7 +23,8 @@ impl<const D: usize> Eight<D> {
         }
     }
 
-    /// Which of them share a point with `other`: bit i for the i-th. No coordinate may be NaN. The same as [`Extent::meets`].
+    /// Which of them share a point with `other`: bit i for the i-th. No coordinate may be NaN. The same as
+    /// [`Extent::meets`].
     #[inline(always)]
     pub(super) fn meet<L: Lane>(&self, other: &Extent<D>) -> u32 {
         let mut apart = 0;

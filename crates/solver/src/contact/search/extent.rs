@@ -45,11 +45,11 @@ impl<const D: usize> Extent<D> {
         (finite == 0.0).then_some(extent)
     }
 
-    /// The box of everything that comes nearer than `reach` to a facet while it moves straight from its old to its new position.
-    /// `None` when a coordinate is not finite.
+    /// The box of everything that comes nearer than `reach` to a facet while it moves straight from its old
+    /// to its new position. `None` when a coordinate is not finite.
     ///
-    /// Every point of the facet at every time is a convex combination of its old and new nodes, so their box holds it. It grows by
-    /// `reach` and by a few units in the last place, because the two sums below round.
+    /// Every point of the facet at every time is a convex combination of its old and new nodes, so their box
+    /// holds it. It grows by `reach` and by a few units in the last place, because the two sums below round.
     #[inline]
     pub(super) fn of_facet(query: &Query<'_, D>, facet: &[u32; D], margin: Margin) -> Option<Self> {
         let mut extent = Self::NONE;
@@ -92,7 +92,8 @@ impl Margin {
     pub(super) fn new(reach: f64) -> Self {
         Self(reach.max(0.0) * (1.0 + 8.0 * f64::EPSILON))
     }
-    /// Margin at coordinate `x`, m: a sum with it rounds by at most ε/2 · (|x| + reach), less than what is added here.
+    /// Margin at coordinate `x`, m: a sum with it rounds by at most ε/2 · (|x| + reach), less than what is
+    /// added here.
     #[inline]
     pub(super) fn at(self, x: f64) -> f64 {
         self.around(x)
@@ -104,7 +105,8 @@ impl Margin {
     }
 }
 
-// One instruction each, where `f64::min` and `max` need three for their care of NaN; callers sort NaN out themselves.
+// One instruction each, where `f64::min` and `max` need three for their care of NaN; callers sort NaN out
+// themselves.
 #[inline]
 pub(super) fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }

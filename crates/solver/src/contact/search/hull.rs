@@ -1,8 +1,10 @@
-//! What a facet is held in while it moves, and what a node is held in: the filter that `boxes` and `grid` share.
+//! What a facet is held in while it moves, and what a node is held in: the filter that `boxes` and `grid`
+//! share.
 //!
-//! A facet is held in a box that lies along it (in space: along the axes), a node's path in a ball around its middle. Where surfaces lie layer on
-//! layer, a box along the axes around a slanted facet reaches through several of them; one along the facet doesn't. The expressions are written once,
-//! for one facet and one node, for eight facets and for eight nodes, so that all give the same pairs to the bit.
+//! A facet is held in a box that lies along it (in space: along the axes), a node's path in a ball around its
+//! middle. Where surfaces lie layer on layer, a box along the axes around a slanted facet reaches through
+//! several of them; one along the facet doesn't. The expressions are written once, for one facet and one
+//! node, for eight facets and for eight nodes, so that all give the same pairs to the bit.
 
 use super::Query;
 use super::extent::{Extent, Margin, larger, smaller};
@@ -76,8 +78,8 @@ fn normalized<L: Lane, const D: usize>(v: [L; D]) -> [L; D] {
 impl<L: Lane, const D: usize> Hull<L, D> {
     /// Of a facet with these nodes; nowhere when a coordinate is not finite.
     ///
-    /// Every point of the facet at every time is a convex combination of its old and new nodes, so a box that holds these holds it. It
-    /// grows by the reach, and by what sums and products round.
+    /// Every point of the facet at every time is a convex combination of its old and new nodes, so a box that
+    /// holds these holds it. It grows by the reach, and by what sums and products round.
     #[inline(always)]
     fn of_facet(old: &[[L; D]; D], new: &[[L; D]; D], margin: Margin) -> Self {
         let mut normal = [L::splat(0.0); D];
@@ -109,7 +111,8 @@ impl<L: Lane, const D: usize> Hull<L, D> {
         let (finite, bounded) = (finite.less(L::splat(1.0)), scale.less(L::splat(LARGEST)));
         let mut hull = Self { normal: upright(), middle: [L::splat(0.0); D], half: [L::splat(f64::MAX); D] };
         for d in 0..D {
-            // One that is nowhere has no number that is not finite but its size, and adds nothing to a mean normal.
+            // One that is nowhere has no number that is not finite but its size, and adds nothing to a mean
+            // normal.
             hull.normal[d] = L::select(finite, L::select(bounded, normal[d], hull.normal[d]), L::splat(0.0));
             let middle = L::select(bounded, L::splat(0.5) * (low[d] + high[d]), hull.middle[d]);
             hull.middle[d] = L::select(finite, middle, L::splat(0.0));
@@ -130,7 +133,8 @@ impl<L: Lane, const D: usize> Hull<L, D> {
         path.radius.less(apart)
     }
 
-    /// The box that holds it, in the directions of another normal: least and largest coordinates. Empty for one that is nowhere.
+    /// The box that holds it, in the directions of another normal: least and largest coordinates. Empty for
+    /// one that is nowhere.
     #[inline(always)]
     fn seen_along(&self, normal: &[L; D]) -> ([L; D], [L; D]) {
         let (mut middle, mut half) = (self.middle, self.half);
@@ -282,7 +286,8 @@ impl<const D: usize> Hulls<D> {
     pub(super) const NONE: Self =
         Self(Hull { normal: [Batch::splat(0.0); D], middle: [Batch::splat(0.0); D], half: [Batch::splat(0.0); D] });
 
-    /// Takes in eight facets: the positions of their nodes, old and new, NaN where there is no facet. Returns their boxes along the axes.
+    /// Takes in eight facets: the positions of their nodes, old and new, NaN where there is no facet. Returns
+    /// their boxes along the axes.
     #[inline(always)]
     pub(super) fn set<L: Lane>(&mut self, old: &[[Batch; D]; D], new: &[[Batch; D]; D], margin: Margin) -> Upright<D> {
         let mut boxes = Upright::NONE;
@@ -332,7 +337,8 @@ impl<const D: usize> Hulls<D> {
         !missed & 0xff
     }
 
-    /// The box, in the mean directions of the facets `begin..end` of the eight, that holds their boxes; `extent` holds them along the axes.
+    /// The box, in the mean directions of the facets `begin..end` of the eight, that holds their boxes;
+    /// `extent` holds them along the axes.
     #[inline(always)]
     pub(super) fn around<L: Lane>(&self, begin: usize, end: usize, extent: &Extent<D>) -> Hull<f64, D> {
         let everything = Hull { normal: upright(), middle: [0.0; D], half: [f64::MAX; D] };
@@ -437,7 +443,8 @@ impl<const D: usize> Paths<D> {
 
     /// Which of them may meet a facet of a group: bit i for the i-th.
     ///
-    /// A path that meets a facet's box lies, with its radius on every side in the facet's directions, in the group's: turned by any angle this takes up to √2 of it.
+    /// A path that meets a facet's box lies, with its radius on every side in the facet's directions, in the
+    /// group's: turned by any angle this takes up to √2 of it.
     #[inline(always)]
     pub(super) fn may_meet<L: Lane>(&self, group: &Hull<f64, D>) -> u32 {
         let none = [L::splat(0.0); D];

@@ -1,7 +1,8 @@
 //! Global search: which slave nodes may meet which facets. Every search returns a superset of the true pairs.
 //!
-//! Positions and surfaces come from the contact; candidate pairs go to the projection. One search a file, one line in [`registry`]. What all
-//! promise is tested in `tests/all/search.rs` for whatever the registry holds; `docs/theory.md` section 4.5 says where they come from.
+//! Positions and surfaces come from the contact; candidate pairs go to the projection. One search a file, one
+//! line in [`registry`]. What all promise is tested in `tests/all/search.rs` for whatever the registry holds;
+//! `docs/theory.md` section 4.5 says where they come from.
 //!
 //! Nodes whose position is not finite meet nothing: every search but the brute force leaves them out.
 
@@ -41,11 +42,12 @@ pub struct Query<'a, const D: usize> {
 
 /// A global search. Implementations may keep storage between calls, never results.
 pub trait Search<const D: usize>: Send + Sync {
-    /// Writes into `pairs` (cleared first, sorted by slave, then facet, each pair once) every pair that comes nearer
-    /// than `reach` during the step, and perhaps others. A node is never paired with a facet that it belongs to.
+    /// Writes into `pairs` (cleared first, sorted by slave, then facet, each pair once) every pair that comes
+    /// nearer than `reach` during the step, and perhaps others. A node is never paired with a facet that it
+    /// belongs to.
     fn pairs(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>);
-    /// The same by and by: `take` gets those of some slave nodes after the other, of each all at once; `pairs` is room. What a search keeps between calls is freed at the end: it is
-    /// for those that are rare.
+    /// The same by and by: `take` gets those of some slave nodes after the other, of each all at once;
+    /// `pairs` is room. What a search keeps between calls is freed at the end: it is for those that are rare.
     fn by_and_by(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>, take: &mut dyn FnMut(&[Pair])) {
         self.pairs(query, pairs);
         take(pairs);

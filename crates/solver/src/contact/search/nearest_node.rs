@@ -1,13 +1,16 @@
 //! Facets of the target nodes that come near a slave node: the paper's method (a), made safe.
 //!
-//! The paper takes the facets of the one nearest target node; beside a long facet whose nodes are both far that one belongs to another facet.
-//! Here all target nodes count that come nearer than the reach and a part of their longest facet, which loses nothing:
+//! The paper takes the facets of the one nearest target node; beside a long facet whose nodes are both far
+//! that one belongs to another facet. Here all target nodes count that come nearer than the reach and a part
+//! of their longest facet, which loses nothing:
 //!
-//! If the slave node comes nearer than `reach` to a facet at time t, it does so to a point q of the facet. The facet's nodes lie in a ball
-//! of radius R ≤ L √((D − 1) / (2 D)), L its diameter (Jung 1901): half the length of a segment, L/√3 for a triangle. Some node v has |v − q| ≤ R:
-//! with q = Σ λ_i v_i and c the ball's centre, Σ λ_i |v_i − q|² = Σ λ_i |v_i − c|² − |q − c|² ≤ R². So at time t the slave node is
-//! nearer to v than reach + R. The distance of two nodes that move straight is a convex function of time, so L of the step is reached
-//! at its beginning or end, and the least distance of slave node and v is that of a point from a straight line's piece.
+//! If the slave node comes nearer than `reach` to a facet at time t, it does so to a point q of the facet.
+//! The facet's nodes lie in a ball of radius R ≤ L √((D − 1) / (2 D)), L its diameter (Jung 1901): half the
+//! length of a segment, L/√3 for a triangle. Some node v has |v − q| ≤ R: with q = Σ λ_i v_i and c the ball's
+//! centre, Σ λ_i |v_i − q|² = Σ λ_i |v_i − c|² − |q − c|² ≤ R². So at time t the slave node is nearer to v
+//! than reach + R. The distance of two nodes that move straight is a convex function of time, so L of the
+//! step is reached at its beginning or end, and the least distance of slave node and v is that of a point
+//! from a straight line's piece.
 
 use super::extent::Margin;
 use super::{Pair, Query, Search, SearchKind};

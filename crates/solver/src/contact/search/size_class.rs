@@ -1,7 +1,8 @@
 //! Sorts facets into a few classes of similar size, each of which gets a grid of its own cell size.
 //!
-//! Sizes are counted by their binary exponent. Every class costs each slave node one look; a facet that is much smaller than the
-//! largest of its class is compared with slave nodes that are far from it. The classes are those with the least sum of both.
+//! Sizes are counted by their binary exponent. Every class costs each slave node one look; a facet that is
+//! much smaller than the largest of its class is compared with slave nodes that are far from it. The classes
+//! are those with the least sum of both.
 
 /// Cost of looking at one class, in comparisons of boxes.
 const LOOK: f64 = 8.0;
@@ -70,7 +71,8 @@ impl Sizes {
         self.classes[number]
     }
 
-    /// Classes for all sizes counted, large ones first; in space of `dimension`, where a surface fills cells like a length to the power dimension − 1.
+    /// Classes for all sizes counted, large ones first; in space of `dimension`, where a surface fills cells
+    /// like a length to the power dimension − 1.
     pub(super) fn classes(&mut self, dimension: usize) -> &[Class] {
         self.classes.clear();
         let (n, bins) = (BINS, &self.bins);

@@ -25,8 +25,8 @@ struct Sphere<const D: usize> {
 }
 
 impl<const D: usize> Sphere<D> {
-    /// Around the middle of a box: through its corner, or less where the farthest of `points` is nearer. A sphere around points holds their
-    /// convex hull, so all of a facet at all times.
+    /// Around the middle of a box: through its corner, or less where the farthest of `points` is nearer. A
+    /// sphere around points holds their convex hull, so all of a facet at all times.
     fn around<'a>(extent: &Extent<D>, points: impl Iterator<Item = &'a [f64; D]>) -> Self {
         // Halved first: the sum of two large numbers may overflow.
         let centre = std::array::from_fn(|d| 0.5 * extent.low[d] + 0.5 * extent.high[d]);
@@ -34,7 +34,8 @@ impl<const D: usize> Sphere<D> {
         Self { centre, radius }
     }
 
-    /// Whether two spheres come nearer than a reach, with room for the rounding of centres, radii and their distance.
+    /// Whether two spheres come nearer than a reach, with room for the rounding of centres, radii and their
+    /// distance.
     fn meets(&self, other: &Self, margin: Margin) -> bool {
         let scale = self.centre.iter().chain(&other.centre).fold(self.radius + other.radius, |s, x| s + x.abs());
         let apart = distance(&self.centre, &other.centre);

@@ -1,4 +1,5 @@
-//! The common part of two segments that face each other: where it is, the gap in it, and how gap, area and radius vary with the nodes.
+//! The common part of two segments that face each other: where it is, the gap in it, and how gap, area and
+//! radius vary with the nodes.
 //!
 //! Nodes and positions come from the formulation; rows of rates go to its springs.
 
@@ -19,7 +20,8 @@ pub(super) struct Common {
     /// Where the common part begins, and its length, m.
     begin: f64,
     pub(super) length: f64,
-    /// Length times −t_a·t_b, m: segments that turn away from each other fade out instead of being dropped at a right angle.
+    /// Length times −t_a·t_b, m: segments that turn away from each other fade out instead of being dropped at
+    /// a right angle.
     pub(super) area: f64,
     /// Gap at the beginning and the end, and whose node is there: segment (0, 1) and its end (0, 1).
     pub(super) ends: [[f64; 3]; 2],
@@ -57,17 +59,21 @@ impl Common {
         Some(common)
     }
 
-    /// Gap at a place q (0 to 1) of the common part, and the ends of a spring there. The row of the gap is its whole derivative.
+    /// Gap at a place q (0 to 1) of the common part, and the ends of a spring there. The row of the gap is
+    /// its whole derivative.
     ///
-    /// The point of segment a is at ξ_a = (s − s_a0)/(s_a1 − s_a0) with s = (1 − q) s_begin + q s_end, of the nodes where the common part begins and ends;
-    /// coordinates change by ds_k = t·dx_k + h_k dφ (h_k: height of node k above t), where t turns by dφ = ½ (dφ_a + dφ_b). So
+    /// The point of segment a is at ξ_a = (s − s_a0)/(s_a1 − s_a0) with s = (1 − q) s_begin + q s_end, of the
+    /// nodes where the common part begins and ends; coordinates change by ds_k = t·dx_k + h_k dφ (h_k: height
+    /// of node k above t), where t turns by dφ = ½ (dφ_a + dφ_b). So
     ///
     /// dg = n·(Σ N dx_a − Σ M dx_b) + n·d_a dξ_a − n·d_b dξ_b        with d = x_1 − x_0 of a segment:
     ///
-    /// where segments are inclined to each other, points that slide along them open or close the gap. (n turns too, but x_a − x_b is parallel to it.)
+    /// where segments are inclined to each other, points that slide along them open or close the gap. (n
+    /// turns too, but x_a − x_b is parallel to it.)
     ///
-    /// Friction acts along t at both points, which are the gap apart; its couple is taken by forces across both segments, half of it each. So the slip rate
-    /// ṡ = t·(v_a − v_b) + ½ g (θ̇_a + θ̇_b) does not see rotations of both together, and friction keeps the angular momentum.
+    /// Friction acts along t at both points, which are the gap apart; its couple is taken by forces across
+    /// both segments, half of it each. So the slip rate ṡ = t·(v_a − v_b) + ½ g (θ̇_a + θ̇_b) does not see
+    /// rotations of both together, and friction keeps the angular momentum.
     pub(super) fn point(&self, place: f64) -> (f64, [End; 4]) {
         let n = self.normal;
         let [xa, xb] = self.points(place);
@@ -95,7 +101,8 @@ impl Common {
         [0, 1].map(|k| [0, 1].map(|d| weights[k][0] * self.positions[k][0][d] + weights[k][1] * self.positions[k][1][d]))
     }
 
-    /// How far the segment that does not end at the beginning and at the end of the common part goes on there, m.
+    /// How far the segment that does not end at the beginning and at the end of the common part goes on
+    /// there, m.
     pub(super) fn beyond(&self) -> [f64; 2] {
         let [[a0, a1], [b0, b1]] = self.along;
         [(a0 - b1).abs(), (a1 - b0).abs()]
@@ -130,7 +137,8 @@ impl Common {
         [0, 1].map(|d| 0.5 * (xa[d] + xb[d]))
     }
 
-    /// Derivative of c_a·x_a + c_b·x_b by the position of each node, as far as it comes from the points' sliding along their segments.
+    /// Derivative of c_a·x_a + c_b·x_b by the position of each node, as far as it comes from the points'
+    /// sliding along their segments.
     fn slides(&self, place: f64, by: [Vector; 2]) -> [[Vector; 2]; 2] {
         let (n, origin) = (self.normal, self.positions[0][0]);
         let t = [-n[1], n[0]];
@@ -159,7 +167,8 @@ impl Common {
         [-chord[1] * per_length, chord[0] * per_length]
     }
 
-    /// Adds `factor` times the derivative of ln(r) to the rows of the gap, with the radius r half way between both points at a place.
+    /// Adds `factor` times the derivative of ln(r) to the rows of the gap, with the radius r half way between
+    /// both points at a place.
     pub(super) fn vary_radius(&self, ends: &mut [End; 4], place: f64, factor: f64) {
         let radius = self.middle(place)[0];
         if !(radius > 0.0) {
@@ -175,7 +184,8 @@ impl Common {
 
     /// Adds `factor` times the derivative of ln(area) to the rows of the gap.
     ///
-    /// d area / area = dℓ/ℓ − tan θ (dφ_a − dφ_b) with the angle θ between the segments, dℓ = t·(dx_end − dx_begin) + (h_end − h_begin) dφ.
+    /// d area / area = dℓ/ℓ − tan θ (dφ_a − dφ_b) with the angle θ between the segments, dℓ = t·(dx_end −
+    /// dx_begin) + (h_end − h_begin) dφ.
     pub(super) fn vary_area(&self, ends: &mut [End; 4], factor: f64) {
         let (n, per_length) = (self.normal, factor / self.length);
         let t = [-n[1], n[0]];

@@ -8,7 +8,8 @@ use crate::contact::{Sweep, law};
 use crate::model;
 use crate::rigid::Bodies;
 
-/// Nodes of two facing chains: the first from x = 0 to `width` at y = 0 with the body below, the second back with the body above.
+/// Nodes of two facing chains: the first from x = 0 to `width` at y = 0 with the body below, the second back
+/// with the body above.
 struct Facing2 {
     positions: Vec<Vector>,
     surfaces: [Surface; 2],

@@ -1,6 +1,7 @@
 //! What contacts are told of their springs once these are solved.
 //!
-//! Springs and what was found of them lie in [`Springs`]; energies and works are worked out where they are asked for (`book.rs`), so that nothing is stored that is only summed up.
+//! Springs and what was found of them lie in [`Springs`]; energies and works are worked out where they are
+//! asked for (`book.rs`), so that nothing is stored that is only summed up.
 
 use super::book::Books;
 use super::{End, Solved, Spring, Springs, Terms, Totals};
@@ -128,7 +129,8 @@ impl<const D: usize> Answers<'_, D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Sums the springs up: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at the ends), and what they did in the coming update to `traces`.
+    /// Sums the springs up: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at
+    /// the ends), and what they did in the coming update to `traces`.
     pub fn collect_into(self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, traces: &mut Traces<D>) -> Totals<D> {
         let mut totals = Totals::default();
         for answer in self {

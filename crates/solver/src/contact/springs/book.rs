@@ -9,7 +9,8 @@ use crate::tensor::Dim;
 /// The books of a spring, J/m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Books {
-    /// Energy at the whole step n, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F (g^{n+½} + g^{n−½} − 2 g^n).
+    /// Energy at the whole step n, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F
+    /// (g^{n+½} + g^{n−½} − 2 g^n).
     pub energy: f64,
     /// Energy at n + ½ of the gap, and of a tie's slip.
     pub stored: [f64; 2],
@@ -19,7 +20,8 @@ pub struct Books {
     pub slip_energy: f64,
     /// Work of both forces in the velocity update.
     pub work: f64,
-    /// What the update took for good or for the elastic slip: minus the work of friction, damping and multipliers.
+    /// What the update took for good or for the elastic slip: minus the work of friction, damping and
+    /// multipliers.
     pub lost: Lost,
 }
 

@@ -1,9 +1,12 @@
-//! How the springs of an island feel each other: what a force at one adds to the rates of gap and slip at another, by way of the nodes that both act on.
+//! How the springs of an island feel each other: what a force at one adds to the rates of gap and slip at
+//! another, by way of the nodes that both act on.
 //!
-//! Arms come from [`super::link`], the rates go to [`super::relax`] in every sweep. With row·v the rate of a spring's gap (or slip) and M the mobility of a node, a force F_j with the
-//! row r_j changes the rate of i by r_i · M r_j F_j. These numbers do not change while an island is solved, so a sweep reads them and the forces only: two springs that follow
-//! each other wait for one multiplication, not for a velocity to be written and read again. Where many springs meet (rigid bodies, the nodes of a segment that is much longer than those
-//! on it) pairs would be too many: such hubs keep what the springs have added to their velocity.
+//! Arms come from [`super::link`], the rates go to [`super::relax`] in every sweep. With row·v the rate of a
+//! spring's gap (or slip) and M the mobility of a node, a force F_j with the row r_j changes the rate of i by
+//! r_i · M r_j F_j. These numbers do not change while an island is solved, so a sweep reads them and the
+//! forces only: two springs that follow each other wait for one multiplication, not for a velocity to be
+//! written and read again. Where many springs meet (rigid bodies, the nodes of a segment that is much longer
+//! than those on it) pairs would be too many: such hubs keep what the springs have added to their velocity.
 
 use super::link::{Arm, Link, Slips, Slot};
 use crate::contact::springs::TangentSpace;
@@ -82,7 +85,8 @@ impl<const D: usize> Couplings<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Finds who touches which slot, which slots are hubs, and what springs do to each other; `slides`: whether any of them cares for slip.
+    /// Finds who touches which slot, which slots are hubs, and what springs do to each other; `slides`:
+    /// whether any of them cares for slip.
     pub(super) fn find(&mut self, links: &mut [Link<D>], arms: &[Arm<D>], slips: &[Slips<D>], slots: &mut [Slot<D>], slides: bool) {
         let touch = |i: usize, k: usize| Touch { link: i as u32, arm: k as u32, force: Dim::<D>::force_of(&arms[k].row) };
         let at_arms = |(i, link): (usize, &Link<D>)| link.arms().map(move |k| (arms[k].slot, touch(i, k)));

@@ -1,5 +1,5 @@
-//! Ends of springs as they are kept: all have a share, and what not all have lies apart: turns (only with friction), and what few have. Springs are more than caches hold, so their size is
-//! their cost.
+//! Ends of springs as they are kept: all have a share, and what not all have lies apart: turns (only with
+//! friction), and what few have. Springs are more than caches hold, so their size is their cost.
 
 use super::End;
 use crate::contact::springs::TangentSpace;

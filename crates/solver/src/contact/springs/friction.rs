@@ -1,12 +1,16 @@
-//! Friction along a spring's tangent: Coulomb's law by return mapping on an elastic slip, and ties that never slip.
+//! Friction along a spring's tangent: Coulomb's law by return mapping on an elastic slip, and ties that never
+//! slip.
 //!
-//! The slip s is elastic up to T = k s. Over an update, from half step to half step, it moves by Δs = ½ (dt^{n−1} + dt^n) · ½ (ṡ^{n−½} + ṡ^{n+½}):
+//! The slip s is elastic up to T = k s. Over an update, from half step to half step, it moves by Δs = ½
+//! (dt^{n−1} + dt^n) · ½ (ṡ^{n−½} + ṡ^{n+½}):
 //!
-//! T_trial = −½ k (s^{n−½} + s^{n−½} + Δs),   T = T_trial within ±T_max,   s^{n+½} = s^{n−½} + Δs within ±T_max / k when T is at its limit.
+//! T_trial = −½ k (s^{n−½} + s^{n−½} + Δs), T = T_trial within ±T_max, s^{n+½} = s^{n−½} + Δs within ±T_max /
+//! k when T is at its limit.
 //!
-//! While it sticks T takes from the motion exactly what ½ k s² stores, for any k and step (as normal springs do). What it takes beyond is lost, and never negative:
-//! at the limit −T Δs − ½ k (s^{n+½}² − s^{n−½}²) = (s^{n+½} − s^{n−½}) (T_max − ½ k (s^{n+½} + s^{n−½})) + T_max Δs_plastic ≥ 0 (for T < 0).
-//! With a multiplier as normal law k is infinite: the force that stops the slip in v^{n+½}, within ±T_max.
+//! While it sticks T takes from the motion exactly what ½ k s² stores, for any k and step (as normal springs
+//! do). What it takes beyond is lost, and never negative: at the limit −T Δs − ½ k (s^{n+½}² −
+//! s^{n−½}²) = (s^{n+½} − s^{n−½}) (T_max − ½ k (s^{n+½} + s^{n−½})) + T_max Δs_plastic ≥ 0 (for T < 0). With
+//! a multiplier as normal law k is infinite: the force that stops the slip in v^{n+½}, within ±T_max.
 
 pub mod cone;
 
@@ -30,7 +34,8 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// T_max, N/m, for the normal force F (N/m) on a length `area` (m) at a slip rate (m/s; that before the update).
+    /// T_max, N/m, for the normal force F (N/m) on a length `area` (m) at a slip rate (m/s; that before the
+    /// update).
     #[must_use]
     pub fn limit(&self, force: f64, area: f64, slip_rate: f64) -> f64 {
         let speed = slip_rate.abs();
@@ -118,7 +123,8 @@ pub fn slide(stick: &Stick<2>, [slip]: [f64; 1], limit: f64) -> Slid<2> {
     Slid { friction: [friction], slip: [slip_new.clamp(-elastic, elastic)], slides: true }
 }
 
-/// Force of a tie on the slip `slip` (m, at n): a spring that pulls both ways, or with an infinite stiffness what ends the slip in one step.
+/// Force of a tie on the slip `slip` (m, at n): a spring that pulls both ways, or with an infinite stiffness
+/// what ends the slip in one step.
 #[must_use]
 pub fn tie(stick: &Stick<2>, [slip]: [f64; 1]) -> [f64; 1] {
     let Stick { old: [old], free: [free], compliance: [[compliance]], stiffness, time_steps: [before, after] } = *stick;

@@ -1,7 +1,9 @@
-//! Islands: springs that share nodes or rigid bodies that they can move, directly or by way of other springs. Nothing passes between islands, so each is solved for itself.
+//! Islands: springs that share nodes or rigid bodies that they can move, directly or by way of other springs.
+//! Nothing passes between islands, so each is solved for itself.
 //!
-//! Where the springs' ends lie comes from [`super::link`]; the order goes to [`super::Springs::solve`]. What nothing moves (held nodes, driven bodies) joins nothing. Islands are in
-//! the order of their first springs and springs within an island in the order of the list: nothing else decides.
+//! Where the springs' ends lie comes from [`super::link`]; the order goes to [`super::Springs::solve`]. What
+//! nothing moves (held nodes, driven bodies) joins nothing. Islands are in the order of their first springs
+//! and springs within an island in the order of the list: nothing else decides.
 
 use std::ops::Range;
 
@@ -24,7 +26,8 @@ pub(super) struct Islands {
 }
 
 impl Islands {
-    /// Sorts the `springs`: spring i ends at `ends(i)` of `places`, numbers below `count`, of which those count that move.
+    /// Sorts the `springs`: spring i ends at `ends(i)` of `places`, numbers below `count`, of which those
+    /// count that move.
     pub(super) fn find(
         &mut self,
         springs: usize,

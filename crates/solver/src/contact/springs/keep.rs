@@ -1,6 +1,7 @@
 //! The springs of the last step in a kept state: fields, histories and erosion ask for them after the step.
 //!
-//! They are kept as contacts found them, with what was found of each: how the solution has them in memory is its own affair.
+//! They are kept as contacts found them, with what was found of each: how the solution has them in memory is
+//! its own affair.
 
 use super::{End, Solved, Spring, Springs, Totals};
 use crate::archive::{Archive, Keep, Kept, keep_each};

@@ -1,7 +1,9 @@
-//! What springs act on, and how: nodes and rigid bodies with their velocities and mobilities, and the rows of every spring on them.
+//! What springs act on, and how: nodes and rigid bodies with their velocities and mobilities, and the rows of
+//! every spring on them.
 //!
-//! Springs and the state of the step come from [`super::Springs`]; links and arms, island by island, go to [`super::relax`]. Velocities are counted from those that there are
-//! without springs: what a force changes is then exact to its own last digits, however fast the bodies move.
+//! Springs and the state of the step come from [`super::Springs`]; links and arms, island by island, go to
+//! [`super::relax`]. Velocities are counted from those that there are without springs: what a force changes
+//! is then exact to its own last digits, however fast the bodies move.
 
 use super::couple::{Couplings, Forces};
 use super::ends::Ends;
@@ -67,7 +69,8 @@ where
         Self::new(at, nodes, update).mobility != Default::default()
     }
 
-    /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader feels it.
+    /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader
+    /// feels it.
     #[inline]
     fn row(&self, mut row: [f64; D], end: &End<D>) -> Row<D> {
         if let Some(turn) = &end.image {
@@ -115,7 +118,8 @@ where
     pub(super) count: u32,
     /// Change of g^{n+½} per normal force.
     pub(super) compliance: f64,
-    /// What its own forces do to its rates, arm by arm: the gap's per normal force, either per the other, the slips' per friction.
+    /// What its own forces do to its rates, arm by arm: the gap's per normal force, either per the other, the
+    /// slips' per friction.
     pub(super) own: <Dim<D> as TangentSpace<D>>::Symmetric,
     pub(super) is_at_hub: bool,
     /// g^n, g^{n−½}.
@@ -127,7 +131,8 @@ where
     pub(super) rate_free: f64,
     pub(super) slip_rate_old: Along<D>,
     pub(super) slip_rate_free: Along<D>,
-    /// Compliances of normal force and friction beyond the spring's own, and the forces at which they change nothing; see [`super::relax`].
+    /// Compliances of normal force and friction beyond the spring's own, and the forces at which they change
+    /// nothing; see [`super::relax`].
     pub(super) lent: [f64; 2],
     pub(super) centre: Forces<D>,
     /// Elastic slip at n + ½.
@@ -292,7 +297,8 @@ where
         bench.links.push(link);
     }
 
-    /// What is at the end `k`. Slots are filled in the order in which they are met, which is that of their numbers.
+    /// What is at the end `k`. Slots are filled in the order in which they are met, which is that of their
+    /// numbers.
     fn movable<'b>(&self, k: usize, slot: u32, held: &'b mut Movable<D>, bench: &'b mut Bench<D>) -> &'b Movable<D> {
         let make = || Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update);
         if slot == NONE {
@@ -313,8 +319,8 @@ where
     }
 }
 
-/// The gap at which a spring stores what it had at the gap `half` (m): elsewhere if it is as stiff as another face now. Newton's
-/// iteration; energies are convex.
+/// The gap at which a spring stores what it had at the gap `half` (m): elsewhere if it is as stiff as another
+/// face now. Newton's iteration; energies are convex.
 fn gap_of<const D: usize>(law: &dyn Law, spring: &Spring<D>, half: f64, stored: f64) -> f64
 where
     Dim<D>: TangentSpace<D>,

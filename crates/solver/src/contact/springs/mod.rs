@@ -1,30 +1,37 @@
-//! Contact springs, solved so that contact neither makes nor takes energy, whatever their stiffness and the step.
+//! Contact springs, solved so that contact neither makes nor takes energy, whatever their stiffness and the
+//! step.
 //!
-//! Contacts and obstacles find where springs are; this file finds their forces, all together, because springs share nodes. With the gaps at half steps,
-//! g^{n+½} = g^n + ½ dt^n ġ^{n+½} and g^{n−½} = g^n − ½ dt^{n−1} ġ^{n−½}, a force F does the work F (g^{n+½} − g^{n−½}) in the velocity update (exactly for
-//! equal steps, else but for ¼ (dt^n − dt^{n−1}) F Δġ, which the slow growth of the step keeps small). So
+//! Contacts and obstacles find where springs are; this file finds their forces, all together, because springs
+//! share nodes. With the gaps at half steps, g^{n+½} = g^n + ½ dt^n ġ^{n+½} and g^{n−½} = g^n − ½ dt^{n−1}
+//! ġ^{n−½}, a force F does the work F (g^{n+½} − g^{n−½}) in the velocity update (exactly for equal steps,
+//! else but for ¼ (dt^n − dt^{n−1}) F Δġ, which the slow growth of the step keeps small). So
 //!
 //! F = − [V(g^{n+½}) − V(g^{n−½})] / (g^{n+½} − g^{n−½})
 //!
-//! takes from the motion exactly what the spring's energy V stores and gives it back at release: Armero and Petőcz, Comput. Meth. Appl. Mech. Engng 158
-//! (1998) 269-300, put into the explicit update. A plain explicit force −V'(g^n) does not: what a spring gives at release differs from
-//! what it took at closing by up to ½ k v² dt²/4, and stiff springs pump or lose energy far below the linear stability limit.
+//! takes from the motion exactly what the spring's energy V stores and gives it back at release: Armero and
+//! Petőcz, Comput. Meth. Appl. Mech. Engng 158 (1998) 269-300, put into the explicit update. A plain explicit
+//! force −V'(g^n) does not: what a spring gives at release differs from what it took at closing by up to ½ k
+//! v² dt²/4, and stiff springs pump or lose energy far below the linear stability limit.
 //!
-//! Stability: while a linear spring is closed, F = −k (g^{n−1} + 2 g^n + g^{n+1})/4, so it adds k to the stiffness and k dt²/4 to the mass:
-//! (K + k) dt² ≤ 4 (M + k dt²/4) holds exactly if K dt² ≤ 4 M. The stable step of the elements alone is the stable step with contact.
+//! Stability: while a linear spring is closed, F = −k (g^{n−1} + 2 g^n + g^{n+1})/4, so it adds k to the
+//! stiffness and k dt²/4 to the mass: (K + k) dt² ≤ 4 (M + k dt²/4) holds exactly if K dt² ≤ 4 M. The stable
+//! step of the elements alone is the stable step with contact.
 //!
-//! The gap of a spring is that of the surfaces when it closes, and from then on the integral of its rate ([`Springs::goes_on`]): a
-//! step begins at n − ½ where the one before ended, with the energy that is stored there. On a plane both are the same number. On a
-//! curved surface the gap of the surfaces less ½ dt ġ is elsewhere by the error of the trapezoidal rule, some dt² times the curvature
-//! times the square of the sliding velocity; at a corner of the angle θ by up to θ times what a node slides in half a step; in a fold
-//! by any depth. A spring that began there would gain or lose what it stores in between, at each corner, and one that is no deeper
-//! than that any multiple of what it has. What lies between both gaps has either sign, no preferred one, and is gone when the
-//! surfaces have parted.
+//! The gap of a spring is that of the surfaces when it closes, and from then on the integral of its rate
+//! ([`Springs::goes_on`]): a step begins at n − ½ where the one before ended, with the energy that is stored
+//! there. On a plane both are the same number. On a curved surface the gap of the surfaces less ½ dt ġ is
+//! elsewhere by the error of the trapezoidal rule, some dt² times the curvature times the square of the
+//! sliding velocity; at a corner of the angle θ by up to θ times what a node slides in half a step; in a fold
+//! by any depth. A spring that began there would gain or lose what it stores in between, at each corner, and
+//! one that is no deeper than that any multiple of what it has. What lies between both gaps has either sign,
+//! no preferred one, and is gone when the surfaces have parted.
 //!
-//! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in different `islands`; those of one are swept over in their fixed order
-//! (`relax`: Gauss-Seidel, normal force and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces (`newton`, `skyline`). Pair forces
-//! keep both momenta exactly at any time. `solve` leads through the step, `link` has what springs act on, `couple` what they do to each other, `book` the energies, `answers` what contacts are told. Laws of the normal force are in [`super::law`],
-//! friction is in [`friction`].
+//! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in
+//! different `islands`; those of one are swept over in their fixed order (`relax`: Gauss-Seidel, normal force
+//! and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces
+//! (`newton`, `skyline`). Pair forces keep both momenta exactly at any time. `solve` leads through the step,
+//! `link` has what springs act on, `couple` what they do to each other, `book` the energies, `answers` what
+//! contacts are told. Laws of the normal force are in [`super::law`], friction is in [`friction`].
 
 pub mod friction;
 mod answers;
@@ -58,8 +65,8 @@ const BOTH: f64 = 2.2;
 /// A value for each direction along a surface.
 pub type Along<const D: usize> = <Dim<D> as TangentSpace<D>>::TangentVector<f64>;
 
-/// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on the others. In the plane a cache line: there is one for every node that
-/// touches.
+/// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on
+/// the others. In the plane a cache line: there is one for every node that touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring<const D: usize = 2>
 where
@@ -75,7 +82,8 @@ where
     pub area: f64,
     /// Where it stiffens, and how much.
     pub stiffening: Stiffening,
-    /// 1 where the ends with positive shares belong to the first surface, −1 where to the second, 0 in a contact of bodies with themselves.
+    /// 1 where the ends with positive shares belong to the first surface, −1 where to the second, 0 in a
+    /// contact of bodies with themselves.
     pub side: f32,
     /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
     pub slip: Along<D>,
@@ -96,7 +104,8 @@ where
     }
 }
 
-/// Where a spring of a law with a stiffness stiffens: the depth beyond which it does, m, and how much stiffer it is at twice that depth, each to two digits.
+/// Where a spring of a law with a stiffness stiffens: the depth beyond which it does, m, and how much stiffer
+/// it is at twice that depth, each to two digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stiffening {
     // The upper halves of numbers of four bytes.
@@ -206,7 +215,8 @@ where
 
 /// What a spring does to one node or rigid body: rows of the rates of gap and slip.
 ///
-/// ġ = Σ (share n + lean)·v, ṡ = Σ (share t + turn)·v with t = (n₂, −n₁). On a rigid body v is its velocity at `point`.
+/// ġ = Σ (share n + lean)·v, ṡ = Σ (share t + turn)·v with t = (n₂, −n₁). On a rigid body v is its velocity
+/// at `point`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End<const D: usize = 2>
 where
@@ -218,7 +228,8 @@ where
     pub share: f64,
     /// What the gap's rate has beyond: of points that move along segments which are inclined to the tangent.
     pub lean: [f64; D],
-    /// What makes the rate of each slip blind to rotation of both surfaces together, and friction keep the angular momentum.
+    /// What makes the rate of each slip blind to rotation of both surfaces together, and friction keep the
+    /// angular momentum.
     pub turn: <Dim<D> as TangentSpace<D>>::Tangents,
     /// Where the forces act on a rigid body without nodes, m.
     pub point: [f64; D],
@@ -331,7 +342,8 @@ where
     /// In the order in which contacts and obstacles found them.
     pub list: Vec<Spring<D>>,
     ends: Ends<D>,
-    /// Gap (m) and energy (J/m) of each spring at the end of the step before, as far as any goes on; no number: it does not.
+    /// Gap (m) and energy (J/m) of each spring at the end of the step before, as far as any goes on; no
+    /// number: it does not.
     ended: Vec<[f64; 2]>,
     /// What acts in springs, by number.
     pub terms: Vec<Terms>,
@@ -351,7 +363,8 @@ pub struct Update<'a, M: Movers<D>, const D: usize = 2>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Steps before and after, s: v^{n+½} = v^{n−½} + ½ (dt^{n−1} + dt^n) F / m, x^{n+1} = x^n + dt^n v^{n+½}.
+    /// Steps before and after, s: v^{n+½} = v^{n−½} + ½ (dt^{n−1} + dt^n) F / m, x^{n+1} = x^n + dt^n
+    /// v^{n+½}.
     pub time_steps: [f64; 2],
     /// x^n, m.
     pub positions: &'a [[f64; D]],
@@ -368,7 +381,8 @@ where
 {
     /// How many nodes there are.
     fn count(&self) -> usize;
-    /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`, if any.
+    /// The node that moves in the stead of `node`, and the rotation from its motion to that of `node`, if
+    /// any.
     fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as TangentSpace<D>>::ImageRotation>);
     /// Motion of a node that leads itself.
     fn mover(&self, leader: usize) -> Mover<D>;
@@ -468,8 +482,8 @@ where
         self.list.push(Spring { first, count: self.ends.len() - first, ..spring });
     }
 
-    /// Lets the spring that was pushed last begin where it ended in the step before, at the gap `half` (m) with the energy `stored`
-    /// (J/m); if it was open there, without energy.
+    /// Lets the spring that was pushed last begin where it ended in the step before, at the gap `half` (m)
+    /// with the energy `stored` (J/m); if it was open there, without energy.
     #[inline]
     pub fn goes_on(&mut self, half: f64, stored: f64) {
         self.ended.resize(self.list.len() - 1, [f64::NAN; 2]);
@@ -486,8 +500,9 @@ where
         spring.ends().map(|k| self.ends.get(k))
     }
 
-    /// The longest step, s, in which nothing goes farther into a body than `ways` times the depth at which the spring there stiffens, with
-    /// the velocities (m/s) that nodes and rigid bodies have; infinite if nothing can in a step in which none goes farther than `way`, m.
+    /// The longest step, s, in which nothing goes farther into a body than `ways` times the depth at which
+    /// the spring there stiffens, with the velocities (m/s) that nodes and rigid bodies have; infinite if
+    /// nothing can in a step in which none goes farther than `way`, m.
     #[must_use]
     pub fn step_of_approach(&self, ways: f64, way: f64, velocities: &[[f64; D]], bodies: &Bodies<D>) -> f64 {
         let may_be = |spring: &&Spring<D>| spring.gap > 0.0 && ways * spring.stiffening.depth() < BOTH * way;

@@ -1,14 +1,20 @@
-//! Prediction of the forces in an island: Newton's step for all springs that push, by a direct solution of the linearized system.
+//! Prediction of the forces in an island: Newton's step for all springs that push, by a direct solution of
+//! the linearized system.
 //!
-//! Islands come from [`super::relax`], which calls where sweeps are slow: springs much stiffer than the nodes between them, or more of them than the nodes have ways to move. The change of
-//! a spring's force with the gap that it would have without it, s = −dF/dg_free, is that of a compliance d + c with its own c = Σ row·response: d = 2/k of a closed linear
-//! spring, zero of a multiplier. So the steps of the forces obey
+//! Islands come from [`super::relax`], which calls where sweeps are slow: springs much stiffer than the nodes
+//! between them, or more of them than the nodes have ways to move. The change of a spring's force with the
+//! gap that it would have without it, s = −dF/dg_free, is that of a compliance d + c with its own c = Σ
+//! row·response: d = 2/k of a closed linear spring, zero of a multiplier. So the steps of the forces obey
 //!
-//! (d_i + A_ii) ΔF_i + Σ_j A_ij ΔF_j = r_i / s_i,   A_ij = ½ dt row_i · response_j,   r_i what the law would change,
+//! (d_i + A_ii) ΔF_i + Σ_j A_ij ΔF_j = r_i / s_i, A_ij = ½ dt row_i · response_j, r_i what the law would
+//! change,
 //!
-//! with friction that sticks as unknowns of the same kind and friction that slides as a multiple of its normal force; in space it has an unknown across itself. Springs in line along a surface only know their
-//! neighbours: they are ordered from one end to the other (Cuthill and McKee), rigid bodies come last as unknowns of their own, and the solution costs as much as a few sweeps.
-//! Where springs say the same twice the forces are not unique (the motion is); [`SOFTNESS`] keeps the factors then. Nothing is trusted: sweeps confirm or go on.
+//! with friction that sticks as unknowns of the same kind and friction that slides as a multiple of its
+//! normal force; in space it has an unknown across itself. Springs in line along a surface only know their
+//! neighbours: they are ordered from one end to the other (Cuthill and McKee), rigid bodies come last as
+//! unknowns of their own, and the solution costs as much as a few sweeps. Where springs say the same twice
+//! the forces are not unique (the motion is); [`SOFTNESS`] keeps the factors then. Nothing is trusted: sweeps
+//! confirm or go on.
 
 use super::couple::{Forces, Rates, Touch};
 use super::friction::Stick;
@@ -71,7 +77,8 @@ impl<const D: usize> Newton<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Moves the forces of an island by a `fraction` of the way to where its springs agree, were they as they are now; `false`: the island is far too wide for that, and stays so.
+    /// Moves the forces of an island by a `fraction` of the way to where its springs agree, were they as they
+    /// are now; `false`: the island is far too wide for that, and stays so.
     pub(super) fn predict(&mut self, island: &mut Island<'_, D>, fraction: f64) -> bool {
         if self.is_wide(island) {
             return false;
@@ -88,8 +95,9 @@ where
         true
     }
 
-    /// Whether the matrix of a large island is seen to be too much work before its springs are looked at: those that push are taken neighbour by neighbour, and where the fronts get so wide
-    /// that half of them all along were too much, nothing else needs to be known.
+    /// Whether the matrix of a large island is seen to be too much work before its springs are looked at:
+    /// those that push are taken neighbour by neighbour, and where the fronts get so wide that half of them
+    /// all along were too much, nothing else needs to be known.
     fn is_wide(&mut self, island: &Island<'_, D>) -> bool {
         let links = island.links.len();
         if links < LARGE {
@@ -487,7 +495,8 @@ fn begin_at<const D: usize>(first: &mut [u32], unknowns: [u32; D], low: u32) {
     }
 }
 
-/// Adds what the forces of the second of two springs do to the rates of gap and slip of the first, times `half` a step.
+/// Adds what the forces of the second of two springs do to the rates of gap and slip of the first, times
+/// `half` a step.
 #[inline]
 fn add<const D: usize>(matrix: &mut Skyline, [on, by]: [&State<D>; 2], half: f64, pair: [[f64; D]; D])
 where

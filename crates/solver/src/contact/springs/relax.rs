@@ -1,7 +1,10 @@
-//! The springs of an island, relaxed until they agree: Gauss-Seidel over the springs in their order, normal force and friction in turn.
+//! The springs of an island, relaxed until they agree: Gauss-Seidel over the springs in their order, normal
+//! force and friction in turn.
 //!
-//! Links and arms come from [`super::link`], predictions from [`super::newton`] where sweeps are slow; only a sweep that changes nothing ends the solution. For linear springs the
-//! matrix (2/k on the diagonal plus compliances) is symmetric and positive definite, so sweeps converge; how fast depends on how much stiffer the springs are than the nodes between them.
+//! Links and arms come from [`super::link`], predictions from [`super::newton`] where sweeps are slow; only a
+//! sweep that changes nothing ends the solution. For linear springs the matrix (2/k on the diagonal plus
+//! compliances) is symmetric and positive definite, so sweeps converge; how fast depends on how much stiffer
+//! the springs are than the nodes between them.
 
 use super::couple::{Couplings, Forces, Rates};
 use super::friction::{Slid, Stick};
@@ -102,7 +105,8 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// After a sweep over all springs that changed so much: predictions that lead nowhere are followed by shorter steps, which ends running in circles.
+    /// After a sweep over all springs that changed so much: predictions that lead nowhere are followed by
+    /// shorter steps, which ends running in circles.
     fn judge(&mut self, change: f64) {
         self.fraction = if change < 0.7 * self.best { 1.0 } else { (0.6 * self.fraction).max(0.1) };
         self.best = self.best.min(change);
@@ -132,7 +136,8 @@ where
         // All springs, then those that push until they agree, then all again: open ones are only looked at.
         let mut all = self.sweep_all();
         let mut pace = Pace { sweeps: 1, ..Pace::default() };
-        // A spring alone without friction is solved by its law, unless it acts on a body at several places, of which each feels what the others do.
+        // A spring alone without friction is solved by its law, unless it acts on a body at several places,
+        // of which each feels what the others do.
         if self.links.len() == 1 && !self.links[0].is_at_hub && matches!(self.terms_of(0).tangential, Tangential::Free) {
             return pace.effort();
         }
@@ -158,7 +163,8 @@ where
         }
     }
 
-    /// Sweeps over the springs that push, until nothing changes or a prediction has been made; `before` is the change of the sweep before.
+    /// Sweeps over the springs that push, until nothing changes or a prediction has been made; `before` is
+    /// the change of the sweep before.
     fn relax_live(&mut self, live: &mut Vec<u32>, before: f64, newton: &mut Newton<D>, pace: &mut Pace) {
         live.clear();
         live.extend((0..self.links.len() as u32).filter(|&i| self.forces[i as usize] != [0.0; D]));
@@ -184,7 +190,8 @@ where
         }
     }
 
-    /// Lends constraints a little compliance about the forces that they have: more constraints than ways to move contradict each other until the right ones are found.
+    /// Lends constraints a little compliance about the forces that they have: more constraints than ways to
+    /// move contradict each other until the right ones are found.
     fn soften(&mut self) {
         for i in 0..self.links.len() {
             if !self.terms_of(i).law.is_elastic() {
@@ -196,7 +203,8 @@ where
         }
     }
 
-    /// Makes the forces that there are those about which constraints give way; `false`: there are no constraints.
+    /// Makes the forces that there are those about which constraints give way; `false`: there are no
+    /// constraints.
     fn centre(&mut self) -> bool {
         let mut any = false;
         for (link, &forces) in self.links.iter_mut().zip(&*self.forces).filter(|(link, _)| link.lent != [0.0; 2]) {

@@ -1,7 +1,10 @@
-//! Systems of equations with few entries, near the diagonal but for some rows at the end: skyline storage and LU factors without pivoting.
+//! Systems of equations with few entries, near the diagonal but for some rows at the end: skyline storage and
+//! LU factors without pivoting.
 //!
-//! [`super::newton`] fills in the springs of an island and takes the solution. Row i of the lower and column i of the upper triangle are stored from the same first entry on;
-//! factors stay inside that profile. Without pivoting, so for matrices that are definite (or nearly symmetric and quasi-definite); whoever uses the solution checks it.
+//! [`super::newton`] fills in the springs of an island and takes the solution. Row i of the lower and column
+//! i of the upper triangle are stored from the same first entry on; factors stay inside that profile. Without
+//! pivoting, so for matrices that are definite (or nearly symmetric and quasi-definite); whoever uses the
+//! solution checks it.
 
 /// A square matrix, then its factors.
 #[derive(Default)]

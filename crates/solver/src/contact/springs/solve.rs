@@ -1,7 +1,8 @@
 //! The solution of a step: what the springs act on, islands, and forces.
 //!
-//! Springs come from the contacts, the state of the step from [`crate::step`]; what was found stays until the next one. Within a pool of threads the islands are shared among
-//! them. An island is solved by one thread, in its own order, so results do not depend on their number.
+//! Springs come from the contacts, the state of the step from [`crate::step`]; what was found stays until the
+//! next one. Within a pool of threads the islands are shared among them. An island is solved by one thread,
+//! in its own order, so results do not depend on their number.
 
 use super::islands::{Islands, NONE};
 use super::link::{Bench, Joints, Movable};

@@ -64,7 +64,8 @@ impl Cloud {
         velocities
     }
 
-    /// What is wrong with the forces, as a fraction of the largest: what law and friction want where the others are.
+    /// What is wrong with the forces, as a fraction of the largest: what law and friction want where the
+    /// others are.
     fn error(&self, springs: &Springs<3>) -> f64 {
         let (dt, terms, velocities) = (self.dt, &springs.terms[0], self.pushed(springs));
         let answers = springs.answers(0..springs.list.len());
@@ -122,7 +123,8 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness_in_space() {
     }
 }
 
-/// A sheet of nodes that is pressed, and slides, on another one that is bumpy and finer: springs of both passes to the corners of squares.
+/// A sheet of nodes that is pressed, and slides, on another one that is bumpy and finer: springs of both
+/// passes to the corners of squares.
 fn sheets(counts: [usize; 2], stiffness: f64) -> Cloud {
     let mut cloud = Cloud { dt: 0.01, ..Cloud::default() };
     let first = (counts[0] + 1).pow(2);
@@ -261,7 +263,8 @@ proptest! {
     }
 }
 
-/// A body that is dropped on a floor on one of its corners, with friction or without: points of it push on plane springs.
+/// A body that is dropped on a floor on one of its corners, with friction or without: points of it push on
+/// plane springs.
 #[test]
 fn a_rigid_body_that_bounces_on_its_corners_keeps_its_energy_and_with_friction_loses_some() {
     let corners = [
@@ -363,7 +366,8 @@ fn friction_and_normal_forces_of_a_spring_keep_the_angular_momentum_where_its_ro
     assert!((0..3).all(|d| (before[d] - now[d]).abs() < 1e-15), "{before:?} {now:?}");
 }
 
-/// What touches only as long as another spring does not push yet has slid nowhere: else the order of the springs would decide what it remembers.
+/// What touches only as long as another spring does not push yet has slid nowhere: else the order of the
+/// springs would decide what it remembers.
 #[test]
 fn a_spring_that_is_open_in_the_end_remembers_no_slip_of_an_earlier_sweep() {
     let spring = |normal: Vector, gap: f64| (Spring { normal, gap, stiffness: 1e4, ..Spring::default() }, vec![End::node(0, 1.0)]);

@@ -1,7 +1,7 @@
 //! Directions along a surface, and what springs in contact ask of a dimension ([`TangentSpace`], on [`Dim`]).
 //!
-//! A surface has one tangent in 2D, and two in 3D, which a spring carries with it. Arrays of 2D keep the order in which
-//! their entries are added, so that results in 2D do not depend on there being 3D.
+//! A surface has one tangent in 2D, and two in 3D, which a spring carries with it. Arrays of 2D keep the
+//! order in which their entries are added, so that results in 2D do not depend on there being 3D.
 
 use super::friction::{self, Slid, Stick, cone};
 use crate::archive::Plain;
@@ -12,7 +12,8 @@ use crate::tensor::{Dim, cross as cross_space};
 use crate::vector::{SYMMETRIC, any_tangent, times_symmetric};
 use std::ops::{Index, IndexMut};
 
-/// What springs in contact ask of a dimension: vectors along a surface, friction, and how nodes and bodies respond to forces.
+/// What springs in contact ask of a dimension: vectors along a surface, friction, and how nodes and bodies
+/// respond to forces.
 pub trait TangentSpace<const D: usize>: Tributary<D> + RigidMotion<D> {
     /// A value for each direction along a surface: D − 1.
     type TangentVector<T: Plain>: Plain + Index<usize, Output = T> + IndexMut<usize>;
@@ -44,7 +45,8 @@ pub trait TangentSpace<const D: usize>: Tributary<D> + RigidMotion<D> {
     fn slide(stick: &Stick<D>, slip: Self::TangentVector<f64>, limit: f64) -> Slid<D>
     where
         Dim<D>: TangentSpace<D>;
-    /// A direction along the surface in which friction that slides still follows the slip, and the change of its rate per force (beside the compliance); see [`cone`].
+    /// A direction along the surface in which friction that slides still follows the slip, and the change of
+    /// its rate per force (beside the compliance); see [`cone`].
     fn lateral_compliance(
         stick: &Stick<D>,
         slip: Self::TangentVector<f64>,
@@ -70,7 +72,8 @@ pub trait TangentSpace<const D: usize>: Tributary<D> + RigidMotion<D> {
     fn response_of_node(mobility: &Self::Mobility, force: [f64; D]) -> [f64; D];
     /// Whether a velocity of a rigid body gives way.
     fn is_free(mobility: &Self::Mobility, axis: usize) -> bool;
-    /// Hands the entries of `factor` times the inverse of a rigid body's mobility over (row, column, value), of what gives way.
+    /// Hands the entries of `factor` times the inverse of a rigid body's mobility over (row, column, value),
+    /// of what gives way.
     fn inverse(mobility: &Self::Mobility, factor: f64, each: impl FnMut(usize, usize, f64));
     /// The image of a motion that a join turns, as springs in contact take it.
     fn image_rotation(turn: &Square<D>) -> Self::ImageRotation;

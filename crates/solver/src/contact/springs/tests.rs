@@ -20,7 +20,8 @@ impl Movers for Mover {
     }
 }
 
-/// A mass between two springs' walls: the energy must come back however stiff the walls and however long the step.
+/// A mass between two springs' walls: the energy must come back however stiff the walls and however long the
+/// step.
 #[test]
 fn a_bouncing_mass_keeps_its_energy_for_every_stiffness() {
     for k in [0.1, 1.0, 30.0, 1e4] {

@@ -1,4 +1,5 @@
-//! What was checked in a run, for those who have to trust it: pairs, crossings, and what could not be explained.
+//! What was checked in a run, for those who have to trust it: pairs, crossings, and what could not be
+//! explained.
 
 use crate::archive::{Archive, Keep, Kept, keep_each};
 use std::ops::AddAssign;
@@ -15,16 +16,20 @@ impl Keep for Certificate {
     }
 }
 
-/// Proof that no contact was missed: every pair in reach is swept in every step, and the entries and exits of a node through the segments of a body, counted in
-/// whole numbers that lose nothing, must agree with the contacts that it has. In space who goes through a facet, or with an edge through another one, must be in contact ([`crate::contact::proof`]).
+/// Proof that no contact was missed: every pair in reach is swept in every step, and the entries and exits of
+/// a node through the segments of a body, counted in whole numbers that lose nothing, must agree with the
+/// contacts that it has. In space who goes through a facet, or with an edge through another one, must be in
+/// contact ([`crate::contact::proof`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Certificate {
-    /// Pairs of a node and a segment (in space a facet, and of two edges) whose paths within a step were checked for crossing, over all steps.
+    /// Pairs of a node and a segment (in space a facet, and of two edges) whose paths within a step were
+    /// checked for crossing, over all steps.
     pub pairs_swept: u64,
     /// Nodes that were found to go into a body.
     pub crossings_found: u64,
-    /// Nodes that are inside a body, by the count of entries and exits, but not in contact with it, over all steps; in space nodes that went in or through, or were let go inside, and edges that went
-    /// through each other, without contact. Must be zero.
+    /// Nodes that are inside a body, by the count of entries and exits, but not in contact with it, over all
+    /// steps; in space nodes that went in or through, or were let go inside, and edges that went through each
+    /// other, without contact. Must be zero.
     pub unverified: u64,
 }
 

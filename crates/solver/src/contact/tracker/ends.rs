@@ -1,8 +1,9 @@
 //! Ends of faces: who is held beyond them, and who is not let in there.
 //!
-//! A face ends where its surface is cut off or goes on around a sharp edge. Bodies that end flush are off by round-off or by what the one is wider, so a face holds nodes a little
-//! beyond its end ([`Target::beyond`]); a body that slides down beside another must not be caught there. What tells them apart is the slave's own surface: it has to go
-//! back over the face. The exact rules of crossing and level know nothing of this.
+//! A face ends where its surface is cut off or goes on around a sharp edge. Bodies that end flush are off by
+//! round-off or by what the one is wider, so a face holds nodes a little beyond its end ([`Target::beyond`]);
+//! a body that slides down beside another must not be caught there. What tells them apart is the slave's own
+//! surface: it has to go back over the face. The exact rules of crossing and level know nothing of this.
 
 use super::super::Sweep;
 use super::super::length;
@@ -10,9 +11,11 @@ use super::super::projection::node_segment::{BAND, Projection, Seen, Target, Vec
 use crate::archive::{Archive, Keep, Kept};
 use crate::mesh::surface::{NONE, Surface};
 
-/// Two segments face each other if the cosine of the angle between the one and the turned other is at least this.
+/// Two segments face each other if the cosine of the angle between the one and the turned other is at least
+/// this.
 const FACING: f64 = 0.5;
-/// Nearer than this fraction of the length to the end of a face, it is round-off on which side of the end a node is.
+/// Nearer than this fraction of the length to the end of a face, it is round-off on which side of the end a
+/// node is.
 const AT_END: f64 = 1e-6;
 
 /// What a pass knows of ends, beyond the surfaces.
@@ -105,7 +108,8 @@ impl Ends {
         self.near.get(segment as usize).copied().unwrap_or(false)
     }
 
-    /// Whether the slave's own surface goes from it back over the face that ends at `end` (0 or 1) of `segment`.
+    /// Whether the slave's own surface goes from it back over the face that ends at `end` (0 or 1) of
+    /// `segment`.
     pub(super) fn overlaps(
         &self,
         slaves: &Surface,
@@ -127,7 +131,8 @@ impl Ends {
         })
     }
 
-    /// Whether a node may be in contact through the face that `projection` is on, as far as the end of it is concerned: within round-off of the end only who goes back over it.
+    /// Whether a node may be in contact through the face that `projection` is on, as far as the end of it is
+    /// concerned: within round-off of the end only who goes back over it.
     pub(super) fn admit(&self, slaves: &Surface, target: &Target, slave: u32, projection: &Projection, positions: &[Vector]) -> bool {
         let place = projection.weights[1];
         let end = usize::from(place > 0.5);
@@ -138,8 +143,9 @@ impl Ends {
             || self.overlaps(slaves, target, (slave, projection.segment, end), positions)
     }
 
-    /// Whether a node that is beyond a free end comes upon the face there: from the front, where the face goes straight on. (One that comes from the side would run into the slope, which
-    /// is steep for a motion along the face; who is beside a body has nothing to do with its top.)
+    /// Whether a node that is beyond a free end comes upon the face there: from the front, where the face
+    /// goes straight on. (One that comes from the side would run into the slope, which is steep for a motion
+    /// along the face; who is beside a body has nothing to do with its top.)
     pub(super) fn comes_over(
         target: &Target,
         beyond: &Projection,

@@ -1,4 +1,5 @@
-//! Groups of a slave node and a body, with their candidates and what they remember; carried over from search to search.
+//! Groups of a slave node and a body, with their candidates and what they remember; carried over from search
+//! to search.
 //!
 //! Storage is flat and kept: nothing is allocated once it has grown to the size of the problem.
 
@@ -202,7 +203,8 @@ impl Pass {
         for pairs in reach.pairs.chunk_by(|a, b| a.slave == b.slave) {
             let slave = pairs[0].slave;
             let node = slaves[slave as usize];
-            // A node of two surfaces joins them: it can't go in. In a surface with itself only its own segments are left out, by the search.
+            // A node of two surfaces joins them: it can't go in. In a surface with itself only its own
+            // segments are left out, by the search.
             if self.slave != self.target && target.surface.nodes.binary_search(&node).is_ok() {
                 continue;
             }

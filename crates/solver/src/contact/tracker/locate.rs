@@ -1,7 +1,9 @@
-//! Where each slave node lies in a step: on the chain that it came in through while it is inside, else by crossing, else ahead of the nearest feature.
+//! Where each slave node lies in a step: on the chain that it came in through while it is inside, else by
+//! crossing, else ahead of the nearest feature.
 //!
-//! Groups come with their candidates; touches go to the tracker. Every candidate is swept in every step, whatever is known of the node, unless it is so far that it can't have come
-//! near (`sleep.rs`): the level of a group, the sum of entries less exits, is the proof that none was missed.
+//! Groups come with their candidates; touches go to the tracker. Every candidate is swept in every step,
+//! whatever is known of the node, unless it is so far that it can't have come near (`sleep.rs`): the level of
+//! a group, the sum of entries less exits, is the proof that none was missed.
 
 use super::super::Sweep;
 use super::super::projection::node_segment::{Held, Projection, Target, Vector};
@@ -16,11 +18,13 @@ use embate_lanes::{BATCH, Level};
 
 /// A node nearer than this fraction of the skin is on the surface, as far as rounding lets one tell.
 const ROUNDING: f64 = 4e-9;
-/// A node that touches a face stays with it until it is farther away than this fraction of the skin (a millionth of a segment): surfaces that a multiplier holds at zero distance must not be
-/// passed from face to face of a corner by round-off.
+/// A node that touches a face stays with it until it is farther away than this fraction of the skin (a
+/// millionth of a segment): surfaces that a multiplier holds at zero distance must not be passed from face to
+/// face of a corner by round-off.
 const HOLD: f64 = 4e-6;
 
-/// Nodes are seen that may come in with so many times the last motion, and this fraction of the skin (half a per cent of a segment) for those that are set in motion now.
+/// Nodes are seen that may come in with so many times the last motion, and this fraction of the skin (half a
+/// per cent of a segment) for those that are set in motion now.
 const LOOK_AHEAD: f64 = 4.0;
 const START: f64 = 0.02;
 
@@ -120,7 +124,8 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The projection of a group that touches or may come to it. Of one that does not, `clear` tells how far its candidates are away, as far as that is known.
+    /// The projection of a group that touches or may come to it. Of one that does not, `clear` tells how far
+    /// its candidates are away, as far as that is known.
     fn locate(&self, group: &mut Group, candidates: &[u32], clear: &mut f64, certificate: &mut Certificate) -> Option<Projection> {
         let x = self.sweep.new[group.node as usize];
         let passages = self.sweep_through(group.node, candidates);
@@ -138,7 +143,8 @@ impl<'a> View<'a> {
             // What goes around an end is not seen: only what comes in counts.
             group.level = 0;
         }
-        // Who just left may have been beyond a thin body: on its way back it goes through the far side, but does not come in there.
+        // Who just left may have been beyond a thin body: on its way back it goes through the far side, but
+        // does not come in there.
         let entries = if !was_inside {
             [passages.first, passages.last]
         } else if group.level > 0 {
@@ -160,7 +166,8 @@ impl<'a> View<'a> {
                 return Some(inside);
             }
             if nearest.is_none_or(|nearest| nearest.gap.abs() > self.rounding) {
-                // The faces of a closed crack overlap: who leaves through one of them is still behind the other.
+                // The faces of a closed crack overlap: who leaves through one of them is still behind the
+                // other.
                 if let Some(inside) = self.behind(x, group, candidates) {
                     group.memory = inside.segment;
                     return Some(inside);
@@ -195,8 +202,9 @@ impl<'a> View<'a> {
         group.own || self.ends.admit(&self.slaves.surface, self.target, group.slave, projection, self.sweep.new)
     }
 
-    /// What a node is ahead of where faces end: `ahead`, or the face around the edge, if it is that which the node's own surface goes back over; nothing for a node that only passes by,
-    /// over the end of a face or hardly beyond it.
+    /// What a node is ahead of where faces end: `ahead`, or the face around the edge, if it is that which the
+    /// node's own surface goes back over; nothing for a node that only passes by, over the end of a face or
+    /// hardly beyond it.
     fn at_end(&self, x: Vector, group: &Group, ahead: Projection) -> Option<Projection> {
         if self.may_hold(group, &ahead) {
             return Some(ahead);
@@ -220,7 +228,8 @@ impl<'a> View<'a> {
         (!is_passed).then_some(ahead)
     }
 
-    /// The projection on a face, or on that around the edge where the node may not be in contact through the first.
+    /// The projection on a face, or on that around the edge where the node may not be in contact through the
+    /// first.
     fn rightful(&self, x: Vector, group: &Group, nearest: Projection) -> Projection {
         if self.may_hold(group, &nearest) {
             return nearest;
@@ -238,7 +247,8 @@ impl<'a> View<'a> {
         behind.reduce(|best, other| if other.gap > best.gap { other } else { best })
     }
 
-    /// The projection of a node that is beyond the end of a face near the segment `nearest`, if it is held there.
+    /// The projection of a node that is beyond the end of a face near the segment `nearest`, if it is held
+    /// there.
     fn beside(&self, x: Vector, group: &Group, nearest: u32) -> Option<Projection> {
         let surface = &self.target.surface;
         let x_old = self.sweep.old[group.node as usize];

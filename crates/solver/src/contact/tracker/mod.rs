@@ -1,9 +1,10 @@
-//! Where slave nodes lie with respect to the bodies of target surfaces, from step to step: candidates from the global search, the segment through which each
-//! node came in, and the projection of the step.
+//! Where slave nodes lie with respect to the bodies of target surfaces, from step to step: candidates from
+//! the global search, the segment through which each node came in, and the projection of the step.
 //!
-//! Positions come from the step; what is found goes to the formulation, which makes springs of it. A slave node and a body make a group with a memory of its own and at
-//! most one touch, so a node between two bodies, or between another body and a fold of its own, meets both. Order is fixed: passes, then slave nodes, then bodies
-//! ascending; so results depend neither on the search nor on the number of threads.
+//! Positions come from the step; what is found goes to the formulation, which makes springs of it. A slave
+//! node and a body make a group with a memory of its own and at most one touch, so a node between two bodies,
+//! or between another body and a fold of its own, meets both. Order is fixed: passes, then slave nodes, then
+//! bodies ascending; so results depend neither on the search nor on the number of threads.
 
 mod certificate;
 mod ends;
@@ -65,7 +66,8 @@ pub struct Memory {
     pub normal: Vector,
     /// Energy of its spring at n − ½, J/m.
     pub stored: f64,
-    /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins there, 3 both; 0 not known.
+    /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins
+    /// there, 3 both; 0 not known.
     pub faces: u8,
 }
 
@@ -109,8 +111,9 @@ const CHUNK: usize = 1024;
 const SERIAL: usize = 4 * CHUNK;
 
 impl Tracker {
-    /// For the nodes of `targets[slave]` against `targets[target]` in each pass (slave, target), which may be the same surface; `positions` are the initial ones. Every
-    /// surface counts as one body: [`Tracker::with_bodies`] tells more.
+    /// For the nodes of `targets[slave]` against `targets[target]` in each pass (slave, target), which may be
+    /// the same surface; `positions` are the initial ones. Every surface counts as one body:
+    /// [`Tracker::with_bodies`] tells more.
     #[must_use]
     pub fn new(targets: Vec<Target>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, positions: &[Vector]) -> Self {
         let passes = passes.iter().map(|&(slave, target)| Pass::new(slave, target, &targets)).collect();
@@ -118,7 +121,8 @@ impl Tracker {
         Self { targets, passes, reach, found: Found::default(), chunks: Vec::new(), travel: 0.0, past: None }
     }
 
-    /// With the body of each node of the model, and per surface the segments that were left out of it because they lie on a symmetry line.
+    /// With the body of each node of the model, and per surface the segments that were left out of it because
+    /// they lie on a symmetry line.
     #[must_use]
     pub fn with_bodies(mut self, bodies: &[u32], lids: &[Vec<[u32; 2]>]) -> Self {
         for pass in &mut self.passes {
@@ -127,7 +131,8 @@ impl Tracker {
         self
     }
 
-    /// Holds nodes a little beyond the ends of faces, so that bodies that end flush stay in contact; `positions` are the initial ones.
+    /// Holds nodes a little beyond the ends of faces, so that bodies that end flush stay in contact;
+    /// `positions` are the initial ones.
     #[must_use]
     pub fn with_ends(mut self, positions: &[Vector]) -> Self {
         for pass in &mut self.passes {
@@ -136,15 +141,16 @@ impl Tracker {
         self
     }
 
-    /// Segments of its own surface that end and begin at the slave node of a touch, and the surface; [`crate::mesh::surface::NONE`] where there is none. Known only with [`Tracker::with_ends`].
+    /// Segments of its own surface that end and begin at the slave node of a touch, and the surface;
+    /// [`crate::mesh::surface::NONE`] where there is none. Known only with [`Tracker::with_ends`].
     #[must_use]
     pub fn segments_at(&self, touch: &Touch) -> ([u32; 2], &Target) {
         let pass = &self.passes[touch.pass as usize];
         (pass.ends.around.get(touch.slave as usize).copied().unwrap_or([NONE; 2]), &self.targets[pass.slave])
     }
 
-    /// The segments where a node touches, each with its surface: of the target, and those that end and begin at the node,
-    /// [`crate::mesh::surface::NONE`] where there is none.
+    /// The segments where a node touches, each with its surface: of the target, and those that end and begin
+    /// at the node, [`crate::mesh::surface::NONE`] where there is none.
     #[must_use]
     pub fn around(&self, touch: &Touch) -> [(usize, u32); 3] {
         let pass = &self.passes[touch.pass as usize];
@@ -213,8 +219,9 @@ impl Tracker {
         self.passes.iter_mut().for_each(Pass::forget);
     }
 
-    /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and body. Pairs farther than the skin and `extra` (m)
-    /// are not looked at. In the first call nothing is known of the past: a node in another body is where the nearest feature of that body says.
+    /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and
+    /// body. Pairs farther than the skin and `extra` (m) are not looked at. In the first call nothing is
+    /// known of the past: a node in another body is where the nearest feature of that body says.
     pub fn track(&mut self, sweep: Sweep<'_>, extra: f64) -> &[Touch] {
         self.reach.report.steps += 1;
         let mut sweep = sweep;
@@ -238,7 +245,8 @@ impl Tracker {
             self.reach.settle(sweep);
         }
         self.found.touches.clear();
-        // Within a pool of threads the groups are shared among them, in chunks that do not depend on their number.
+        // Within a pool of threads the groups are shared among them, in chunks that do not depend on their
+        // number.
         let threads = rayon::current_thread_index().is_some();
         for (number, pass) in self.passes.iter_mut().enumerate() {
             // Each pair belongs to one group; those of groups that sleep are proven by their distance.

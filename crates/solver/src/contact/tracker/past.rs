@@ -1,8 +1,10 @@
-//! What a tracker takes over from the one before it when surfaces change: who was inside through which segment, slips, counts.
+//! What a tracker takes over from the one before it when surfaces change: who was inside through which
+//! segment, slips, counts.
 //!
-//! Segments and bodies have new numbers then, so everything is found again by nodes. Levels are counted anew against the new surfaces, at the beginning of the step
-//! (`start.rs`), and the step itself is swept as any other: whatever came in or left is proven as before. Who was inside through a segment that is no more is outside, unless the new
-//! surfaces say otherwise.
+//! Segments and bodies have new numbers then, so everything is found again by nodes. Levels are counted anew
+//! against the new surfaces, at the beginning of the step (`start.rs`), and the step itself is swept as any
+//! other: whatever came in or left is proven as before. Who was inside through a segment that is no more is
+//! outside, unless the new surfaces say otherwise.
 
 use super::certificate::SearchReport;
 use super::group::{Group, Pass};
@@ -50,7 +52,8 @@ impl Tracker {
 }
 
 impl Pass {
-    /// Groups of `before` that are still possible, ascending; `segments` are those that each group touches. Surfaces: slaves and target, old and new.
+    /// Groups of `before` that are still possible, ascending; `segments` are those that each group touches.
+    /// Surfaces: slaves and target, old and new.
     fn recalled(&self, before: &Self, segments: &[u32], [old_slaves, old_target, slaves, target]: [&Target; 4]) -> Vec<(Group, Memory)> {
         let by_nodes = ByNodes::new(target);
         let neighbours = |pass: &Self, surface: &Target, slave: u32| {

@@ -9,7 +9,8 @@ use crate::vector::{bound_of, minus};
 
 /// Skin as a fraction of the mean segment length: how far bodies may move before the next global search.
 pub const SKIN: f64 = 0.25;
-/// The global search is asked for a little more than is kept, so that what is kept does not depend on how each search rounds.
+/// The global search is asked for a little more than is kept, so that what is kept does not depend on how
+/// each search rounds.
 pub(super) const SLACK: f64 = 1.001;
 /// Where no node has gone so far since the search, as a fraction of the skin, none has gone half of it.
 pub(in crate::contact) const SAFE: f64 = 0.499;

@@ -1,7 +1,10 @@
-//! Which nodes are inside other bodies when nothing is known of the past: by winding numbers, exactly as the levels count from then on.
+//! Which nodes are inside other bodies when nothing is known of the past: by winding numbers, exactly as the
+//! levels count from then on.
 //!
-//! A ray along +x is counted against the segments of its row; only nodes within the box of another body are asked. Surfaces that don't enclose their body (those with ends, sides that end on
-//! symmetry lines, the sides of holes) say nothing of what is far from them: there the nearest feature within the first reach decides. A node is never inside its own body.
+//! A ray along +x is counted against the segments of its row; only nodes within the box of another body are
+//! asked. Surfaces that don't enclose their body (those with ends, sides that end on symmetry lines, the
+//! sides of holes) say nothing of what is far from them: there the nearest feature within the first reach
+//! decides. A node is never inside its own body.
 
 use super::super::projection::node_segment::{Projection, Target, Vector};
 use super::group::{Group, Pass};
@@ -103,10 +106,12 @@ impl Pass {
         self.slave != self.target && target.surface.nodes.binary_search(&node).is_ok()
     }
 
-    /// Bodies that their surface, with the segments on symmetry lines, goes around: as many segments begin as end at each node, and the area on their right is not that of a void.
+    /// Bodies that their surface, with the segments on symmetry lines, goes around: as many segments begin as
+    /// end at each node, and the area on their right is not that of a void.
     fn enclosed(&self, target: &Target, positions: &[Vector]) -> BTreeSet<u32> {
         let segments = target.surface.segments.iter().copied().zip(self.segment_bodies.iter().copied());
-        // Seen from one of their nodes: far from the origin no digits are lost, and what a chain encloses is the same from anywhere.
+        // Seen from one of their nodes: far from the origin no digits are lost, and what a chain encloses is
+        // the same from anywhere.
         let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
         let mut seen_from: BTreeMap<u32, Vector> = BTreeMap::new();
         let mut ends = Vec::new();

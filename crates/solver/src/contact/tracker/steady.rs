@@ -1,7 +1,10 @@
-//! Nodes that stay on the segment where they were, eight at a time: nearly all that touch, in nearly every step.
+//! Nodes that stay on the segment where they were, eight at a time: nearly all that touch, in nearly every
+//! step.
 //!
-//! Groups come from [`super::locate`], which goes on with those that do not stay. A node stays if it passes through no candidate (it has one, that through which it came in), projects on the
-//! inside of it, can't be nearer to a neighbour, and is not farther than what holds it: the tests and the numbers of [`Target::passage`] and [`Target::follow_without`], to the last bit.
+//! Groups come from [`super::locate`], which goes on with those that do not stay. A node stays if it passes
+//! through no candidate (it has one, that through which it came in), projects on the inside of it, can't be
+//! nearer to a neighbour, and is not farther than what holds it: the tests and the numbers of
+//! [`Target::passage`] and [`Target::follow_without`], to the last bit.
 
 use super::super::Sweep;
 use super::super::projection::node_segment::{CLEAR, END_TOLERANCE, Projection, ROUNDING, Target};
@@ -131,7 +134,8 @@ impl Places {
         bits &= L::bits(L::splat(0.0).less(square));
         bits &= !L::bits(L::either(place.less(L::splat(-END_TOLERANCE)), L::splat(1.0 + END_TOLERANCE).less(place)));
         bits &= !L::bits(L::splat(self.hold).less(gap));
-        // What is beyond the common node as the neighbour sees it, and clearly off that node, is not nearer to the neighbour.
+        // What is beyond the common node as the neighbour sees it, and clearly off that node, is not nearer
+        // to the neighbour.
         for side in 0..2 {
             let far = [L::load(&self.far[side][0], at), L::load(&self.far[side][1], at)];
             let (common, weight) = if side == 0 { (begin[1], place) } else { (end[1], L::splat(1.0) - place) };

@@ -1,9 +1,11 @@
 //! `expression`: a curve as a formula of the time `t`, such as `2*sin(3*t) + exp(-t)`.
 //!
-//! Text comes from the model; a small parser by precedence makes a list of operations for a stack, which is all that is left at run time. Sine, cosine, exponential
-//! and logarithm are the project's own: the platform's differ in the last bits from machine to machine.
+//! Text comes from the model; a small parser by precedence makes a list of operations for a stack, which is
+//! all that is left at run time. Sine, cosine, exponential and logarithm are the project's own: the
+//! platform's differ in the last bits from machine to machine.
 //!
-//! sum = product { (+|-) product },  product = sign { (*|/) sign },  sign = -sign | power,  power = atom [ ^ sign ],  atom = number | t | pi | name(sum, ...) | (sum)
+//! sum = product { (+|-) product }, product = sign { (*|/) sign }, sign = -sign | power, power = atom [ ^
+//! sign ], atom = number | t | pi | name(sum, ...) | (sum)
 
 use crate::angle::cos_sin;
 use embate_lanes::math;

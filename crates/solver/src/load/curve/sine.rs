@@ -23,7 +23,8 @@ impl Sine {
         self.offset + self.amplitude * cos_sin(TAU * self.frequency * time + self.phase)[1]
     }
 
-    /// Mean value between two times: that in the middle, its wave times sin(x)/x with x half the angle between them.
+    /// Mean value between two times: that in the middle, its wave times sin(x)/x with x half the angle
+    /// between them.
     #[must_use]
     pub fn mean(&self, from: f64, to: f64) -> f64 {
         let half = 0.5 * TAU * self.frequency * (to - from);

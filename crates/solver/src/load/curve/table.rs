@@ -1,6 +1,8 @@
-//! `time` and `value`: a curve through points, linear or smooth between them, constant before the first and after the last.
+//! `time` and `value`: a curve through points, linear or smooth between them, constant before the first and
+//! after the last.
 //!
-//! Smooth is the polynomial of fifth degree with zero velocity and acceleration at both points: y₀ + (y₁ − y₀) s³ (10 − 15 s + 6 s²), twice continuously differentiable.
+//! Smooth is the polynomial of fifth degree with zero velocity and acceleration at both points: y₀ + (y₁ −
+//! y₀) s³ (10 − 15 s + 6 s²), twice continuously differentiable.
 
 /// Points in time.
 #[derive(Clone, Debug, Default, PartialEq)]

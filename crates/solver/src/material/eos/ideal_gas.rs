@@ -1,4 +1,5 @@
-//! Ideal gas: p = (γ − 1) ρ e = (γ − 1) E / v, with the specific energy e = E/ρ₀. Its state at the start is given by a pressure or an energy.
+//! Ideal gas: p = (γ − 1) ρ e = (γ − 1) E / v, with the specific energy e = E/ρ₀. Its state at the start is
+//! given by a pressure or an energy.
 
 use super::{Equation, EquationKind, Terms};
 use crate::material::messages::PARAMETERS;

@@ -1,14 +1,17 @@
 //! Mie-Grüneisen about the shock Hugoniot of a solid or liquid.
 //!
-//! Shock speed u_s = c0 + s1 u_p + s2 (u_p/u_s) u_p + s3 (u_p/u_s)² u_p, so with η = 1 − v = u_p/u_s and µ = 1/v − 1:
+//! Shock speed u_s = c0 + s1 u_p + s2 (u_p/u_s) u_p + s3 (u_p/u_s)² u_p, so with η = 1 − v = u_p/u_s and
+//! µ = 1/v − 1:
 //!
 //! ```text
-//! p_H = ρ₀ c0² η / (1 − s1 η − s2 η² − s3 η³)²,   E_H = ½ p_H η,   p = p_H + Γ (E − E_H),   Γ = γ0 + a µ   (compression)
-//! p = ρ₀ c0² µ + Γ E                                                                                       (tension)
+//! p_H = ρ₀ c0² η / (1 − s1 η − s2 η² − s3 η³)²,   E_H = ½ p_H η,   Γ = γ0 + a µ
+//! p = p_H + Γ (E − E_H)   (compression)
+//! p = ρ₀ c0² µ + Γ E       (tension)
 //! ```
 //!
-//! Γ is the Grüneisen parameter times v. With E from the energy balance of the step a steady shock lies on the Hugoniot itself.
-//! Source: Meyers, Dynamic Behavior of Materials (1994), chapter 5; Steinberg, UCRL-MA-106439 (1996).
+//! Γ is the Grüneisen parameter times v. With E from the energy balance of the step a steady shock lies on
+//! the Hugoniot itself. Source: Meyers, Dynamic Behavior of Materials (1994), chapter 5; Steinberg,
+//! UCRL-MA-106439 (1996).
 
 use super::{Equation, EquationKind, Terms};
 use crate::material::Parameters;

@@ -1,6 +1,6 @@
-//! Polynomial: p = C0 + C1 µ + C2 µ² + C3 µ³ + (C4 + C5 µ + C6 µ²) E with µ = ρ/ρ₀ − 1 = 1/v − 1; the terms of C2 and C6 are left out in tension (µ < 0),
-//! where they would push the wrong way.
-//! Source: the linear polynomial equation of DYNA2D, Hallquist, UCID-18756 (1988).
+//! Polynomial: p = C0 + C1 µ + C2 µ² + C3 µ³ + (C4 + C5 µ + C6 µ²) E with µ = ρ/ρ₀ − 1 = 1/v − 1; the terms
+//! of C2 and C6 are left out in tension (µ < 0), where they would push the wrong way. Source: the linear
+//! polynomial equation of DYNA2D, Hallquist, UCID-18756 (1988).
 
 use super::{Equation, EquationKind, Terms};
 use crate::material::Parameters;

@@ -1,8 +1,9 @@
 //! Power law of the plastic strain: σ_y = σ_y0 + K ε_p^n.
 //!
-//! Its slope is infinite at the start. There the chord with a thousand times the elastic stiffness stands in for it: σ_y = σ_y0 + min(K ε_p^n,
-//! 3000 µ ε_p). The two meet where plastic strain is a thousandth of the elastic strain that made it or less, for steel at ε_p = 1e-7.
-//! Source: Ludwik, Elemente der technologischen Mechanik, Springer (1909).
+//! Its slope is infinite at the start. There the chord with a thousand times the elastic stiffness stands in
+//! for it: σ_y = σ_y0 + min(K ε_p^n, 3000 µ ε_p). The two meet where plastic strain is a thousandth of the
+//! elastic strain that made it or less, for steel at ε_p = 1e-7. Source: Ludwik, Elemente der technologischen
+//! Mechanik, Springer (1909).
 
 use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
 use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};

@@ -1,5 +1,6 @@
-//! Flow stress over equivalent plastic strain: the contract that each kind of hardening fulfils; `j2.rs` makes a law of each.
-//! To add one: a file here with its curve, a type in `j2.rs`, and its name in the line of `j2` in `laws!`.
+//! Flow stress over equivalent plastic strain: the contract that each kind of hardening fulfils; `j2.rs`
+//! makes a law of each. To add one: a file here with its curve, a type in `j2.rs`, and its name in the line
+//! of `j2` in `laws!`.
 
 mod linear;
 mod ludwik;
@@ -26,11 +27,13 @@ use embate_lanes::Lane;
 /// Initial yield stress.
 pub(super) const YIELD: Parameter = Parameter::new("yield", "σ_y", Dimension::PRESSURE, Range::Positive, "initial yield stress");
 
-/// A flow stress σ_y(ε_p), nowhere negative. Where it falls, it does so by less than 3µ per plastic strain: the return has one solution then.
+/// A flow stress σ_y(ε_p), nowhere negative. Where it falls, it does so by less than 3µ per plastic strain:
+/// the return has one solution then.
 pub trait Hardening: Copy + Send + Sync + 'static {
     /// The law `j2` with this hardening.
     const KIND: LawKind;
-    /// What a point keeps of [`Hardening::flow`] where it is: all of it, `[L; 2]`, or, where it costs next to nothing, nothing, `[L; 0]`.
+    /// What a point keeps of [`Hardening::flow`] where it is: all of it, `[L; 2]`, or, where it costs next to
+    /// nothing, nothing, `[L; 0]`.
     type Kept<L: Lane>: Kept<L>;
     /// Whether [`Flow::reach`] is ever more than 0: the return then takes the curvature with it.
     const CURVED: bool = true;
@@ -43,7 +46,8 @@ pub trait Hardening: Copy + Send + Sync + 'static {
         Vec::new()
     }
 
-    /// How it falls: the parameter, the least slope (Pa), and the plastic strain at which nothing is left; `None` where it does not.
+    /// How it falls: the parameter, the least slope (Pa), and the plastic strain at which nothing is left;
+    /// `None` where it does not.
     fn falling(_parameters: &Parameters<'_>) -> Option<(&'static str, f64, Option<f64>)> {
         None
     }
@@ -72,7 +76,8 @@ pub struct Flow<L> {
     pub slope: L,
     /// d²σ_y/dε_p², Pa.
     pub curvature: L,
-    /// Plastic strain within half of which there is no kink and the curvature changes by no more than its part of this; 0: nobody knows.
+    /// Plastic strain within half of which there is no kink and the curvature changes by no more than its
+    /// part of this; 0: nobody knows.
     pub reach: L,
 }
 
@@ -93,7 +98,8 @@ impl<L: Lane> Flow<L> {
     }
 }
 
-/// The flow stress and its slope at the plastic strain that a point has, kept from the step that led there: a power or an exponential less in every step.
+/// The flow stress and its slope at the plastic strain that a point has, kept from the step that led there: a
+/// power or an exponential less in every step.
 pub trait Kept<L: Lane>: State<L> {
     /// Keeps them.
     fn new(flow: [L; 2]) -> Self;

@@ -1,6 +1,7 @@
 //! Rate dependence: the flow stress times 1 + (ε̇_p / C)^{1/P}.
 //!
-//! Source: Cowper and Symonds, Brown University, Division of Applied Mathematics, report 28 (1957). Mild steel: C = 40 1/s, P = 5.
+//! Source: Cowper and Symonds, Brown University, Division of Applied Mathematics, report 28 (1957). Mild
+//! steel: C = 40 1/s, P = 5.
 
 use super::super::{ParameterFault, Parameters};
 use crate::material::messages::PARAMETERS;

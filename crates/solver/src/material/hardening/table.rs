@@ -1,6 +1,7 @@
 //! A measured curve: points (ε_p, σ_y), straight lines between them, the last stress after the last point.
 //!
-//! The first point is at ε_p = 0. Stresses may fall, by less than the return can bear (`softening.rs`); all are positive, so something is always left.
+//! The first point is at ε_p = 0. Stresses may fall, by less than the return can bear (`softening.rs`); all
+//! are positive, so something is always left.
 
 use super::super::{DENSITY, LawKind, POISSON, ParameterFault, Parameters, YOUNG};
 use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE};

@@ -1,7 +1,8 @@
 //! Saturating hardening: σ_y = σ_y0 + (σ_s − σ_y0)(1 − e^{−b ε_p}) + H ε_p.
 //!
-//! A saturation below the initial yield stress, or H < 0, makes the flow stress fall; with H < 0 down to zero, where it stays (see `linear.rs`).
-//! Source: Voce, Journal of the Institute of Metals 74 (1948) 537-562; with the linear term as in Simo and Hughes (1998), box 3.2.
+//! A saturation below the initial yield stress, or H < 0, makes the flow stress fall; with H < 0 down to
+//! zero, where it stays (see `linear.rs`). Source: Voce, Journal of the Institute of Metals 74 (1948)
+//! 537-562; with the linear term as in Simo and Hughes (1998), box 3.2.
 
 use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
 use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};

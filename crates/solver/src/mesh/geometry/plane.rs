@@ -62,12 +62,14 @@ fn size(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
     0.5 * (0..n).map(cross).sum::<f64>()
 }
 
-/// Principal logarithmic strains at the centre, the larger first: half the logarithms of the eigenvalues of FᵀF. Of a line its one strain twice.
+/// Principal logarithmic strains at the centre, the larger first: half the logarithms of the eigenvalues of
+/// FᵀF. Of a line its one strain twice.
 fn strains(cell: Cell<'_>, from: &[[f64; 2]], to: &[[f64; 2]]) -> [f64; 2] {
     if cell.kind.dimension() == 1 {
         return [(size(cell, to) / size(cell, from)).ln(); 2];
     }
-    // Of a triangle two sides, of a quadrilateral the means of two opposite sides: F maps those at the start to those now.
+    // Of a triangle two sides, of a quadrilateral the means of two opposite sides: F maps those at the start
+    // to those now.
     let axis = |axis: usize, x: &[[f64; 2]]| {
         let [from, to] = cell.kind.facts().axes[axis];
         let at = |corner: u8| x[cell.nodes[usize::from(corner)] as usize];

@@ -37,7 +37,8 @@ impl CellGeometry<3> for Dim<3> {
     }
 }
 
-/// Volume enclosed by the facets, bilinear where they have four corners (the mean of both ways to halve them); of a line its length.
+/// Volume enclosed by the facets, bilinear where they have four corners (the mean of both ways to halve
+/// them); of a line its length.
 fn size(cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
     let o = positions[cell.nodes[0] as usize];
     let x = |node: u32| minus(positions[node as usize], o);
@@ -49,7 +50,8 @@ fn size(cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
     cell.faces().map(facet).sum::<f64>() / 6.0
 }
 
-/// Three vectors that a cell carries with it: the edges of a tetrahedron at a corner, else means of opposite sides.
+/// Three vectors that a cell carries with it: the edges of a tetrahedron at a corner, else means of opposite
+/// sides.
 fn frame(cell: Cell<'_>, x: &[[f64; 3]]) -> Square<3> {
     let mean = |corners: &[u8]| {
         let sum = corners.iter().fold([0.0; 3], |sum, &corner| plus(sum, x[cell.nodes[usize::from(corner)] as usize]));

@@ -13,7 +13,8 @@ pub(in crate::mesh) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 impl Axes {
-    /// The first one is the coordinate axis after that which the direction is nearest to, made orthogonal: x for z, y for x, z for y.
+    /// The first one is the coordinate axis after that which the direction is nearest to, made orthogonal: x
+    /// for z, y for x, z for y.
     pub(super) fn along(direction: [f64; 3]) -> Self {
         let third = unit(direction).unwrap_or([0.0, 0.0, 1.0]);
         let nearest = [2, 1, 0].into_iter().fold(2, |best, k| if third[k].abs() > third[best].abs() { k } else { best });

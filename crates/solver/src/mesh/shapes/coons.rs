@@ -8,7 +8,8 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) enum Curve {
     /// From point to point; how long it is up to each of them, m.
     Line { points: Vec<[f64; 2]>, lengths: Vec<f64> },
-    /// A part of a circle: the ends, its centre, and the angle from the first to the second, quarter turns counter-clockwise.
+    /// A part of a circle: the ends, its centre, and the angle from the first to the second, quarter turns
+    /// counter-clockwise.
     Arc { ends: [[f64; 2]; 2], centre: [f64; 2], turn: f64 },
 }
 
@@ -72,8 +73,9 @@ impl Curve {
     }
 }
 
-/// A point of the surface between four curves `bottom`, `right`, `top` and `left`, of which bottom and top run to the right and the others up
-/// (Coons 1967): P(u, v) = (1−v) B(u) + v T(u) + (1−u) L(v) + u R(v) − the bilinear surface of the corners. On the curves it is exact.
+/// A point of the surface between four curves `bottom`, `right`, `top` and `left`, of which bottom and top
+/// run to the right and the others up (Coons 1967): P(u, v) = (1−v) B(u) + v T(u) + (1−u) L(v) + u R(v) − the
+/// bilinear surface of the corners. On the curves it is exact.
 pub(super) fn between([bottom, right, top, left]: &[Curve; 4], [u, v]: [f64; 2]) -> [f64; 2] {
     let on_curve = [(v == 0.0, bottom, u), (u == 1.0, right, v), (v == 1.0, top, u), (u == 0.0, left, v)];
     if let Some((_, curve, place)) = on_curve.into_iter().find(|(is_there, ..)| *is_there) {

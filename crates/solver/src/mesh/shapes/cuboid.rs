@@ -8,7 +8,8 @@ use crate::model::describe::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 
-/// An axis-parallel box of hexahedra; sides `left`, `right` (along x), `bottom`, `top` (along y), `back`, `front` (along z).
+/// An axis-parallel box of hexahedra; sides `left`, `right` (along x), `bottom`, `top` (along y), `back`,
+/// `front` (along z).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cuboid {
     /// Corner with the lowest coordinates, m.

@@ -6,7 +6,8 @@ use crate::mesh::surface::{Corners, exterior};
 use crate::tensor::Dim;
 use std::collections::BTreeSet;
 
-/// What is left of a body where `is_kept` holds at the centre of an element. Its own sides keep their names; a new outside is named by the centre of its pieces.
+/// What is left of a body where `is_kept` holds at the centre of an element. Its own sides keep their names;
+/// a new outside is named by the centre of its pieces.
 pub(super) fn cut<const D: usize>(body: &Body<D>, is_kept: impl Fn([f64; D]) -> bool, name: impl Fn([f64; D]) -> &'static str) -> Body<D>
 where
     Dim<D>: Meshed<D>,

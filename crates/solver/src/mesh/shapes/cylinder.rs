@@ -8,8 +8,9 @@ use crate::model::describe::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 
-/// A cylinder of hexahedra, or one, two or three quarters of one: the section is that of a [`Disk`]. Sides `outer`, of a part of one `start` and `end`, and `bottom`
-/// and `top` where its axis begins and ends. Angles are counted as those of a [`super::Tube`].
+/// A cylinder of hexahedra, or one, two or three quarters of one: the section is that of a [`Disk`]. Sides
+/// `outer`, of a part of one `start` and `end`, and `bottom` and `top` where its axis begins and ends. Angles
+/// are counted as those of a [`super::Tube`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cylinder {
     /// Centre of the bottom, m.

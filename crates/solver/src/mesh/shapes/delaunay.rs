@@ -1,9 +1,12 @@
-//! Triangles between closed outlines: a constrained Delaunay triangulation, refined until sizes and angles are good.
+//! Triangles between closed outlines: a constrained Delaunay triangulation, refined until sizes and angles
+//! are good.
 //!
-//! Outlines come from the polygon. Triangulation and predicates are those of the crate `spade`, whose insertions use nothing but the four
-//! operations (its own refinement takes logarithms of the platform and is not used): the same mesh on every machine.
-//! Source: Ruppert, J. Algorithms 18 (1995) 548-585: split edges that a vertex encroaches upon, then put vertices into the circumcentres of bad
-//! triangles, the worst first. Edges that meet in less than 60 degrees do not encroach upon each other there (Miller, Pav & Walkington 2003).
+//! Outlines come from the polygon. Triangulation and predicates are those of the crate `spade`, whose
+//! insertions use nothing but the four operations (its own refinement takes logarithms of the platform and is
+//! not used): the same mesh on every machine. Source: Ruppert, J. Algorithms 18 (1995) 548-585: split edges
+//! that a vertex encroaches upon, then put vertices into the circumcentres of bad triangles, the worst first.
+//! Edges that meet in less than 60 degrees do not encroach upon each other there (Miller, Pav & Walkington
+//! 2003).
 
 use super::numbers::{cross, distance, dot, minus, on_line};
 use spade::handles::FixedVertexHandle;
@@ -12,7 +15,8 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 type Point = [f64; 2];
 
-/// Circumradius by wanted edge length above which a triangle is too large; 0.577 is that of an equilateral one.
+/// Circumradius by wanted edge length above which a triangle is too large; 0.577 is that of an equilateral
+/// one.
 const LARGE: f64 = 0.72;
 /// Circumradius by shortest edge above which a triangle is too thin: smallest angle 25.8 degrees.
 const THIN: f64 = 1.15;
@@ -28,8 +32,8 @@ pub(super) struct Triangles {
     pub(super) edges: Vec<Vec<u32>>,
 }
 
-/// The triangles between `outlines`, of which each has the body on its left, with edges about as long as `size` says. `None` when more than
-/// `limit` vertices would be needed.
+/// The triangles between `outlines`, of which each has the body on its left, with edges about as long as
+/// `size` says. `None` when more than `limit` vertices would be needed.
 pub(super) fn triangles(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize) -> Option<Triangles> {
     let mut mesher = Mesher::new(outlines, size, limit)?;
     mesher.refine()?;
@@ -231,7 +235,8 @@ impl<'a> Mesher<'a> {
         self.segments.contains_key(&[a.min(b), a.max(b)])
     }
 
-    /// Whether the vertex opposite a piece, on the body's side, is in its circle, or the piece is much too long.
+    /// Whether the vertex opposite a piece, on the body's side, is in its circle, or the piece is much too
+    /// long.
     fn is_encroached(&self, segment: &Segment) -> bool {
         if self.length(segment.ends) > 1.6 * (self.size)(self.middle(segment.ends)) {
             return true;
@@ -391,7 +396,8 @@ impl<'a> Mesher<'a> {
         triangles
     }
 
-    /// Moves vertices inside to the mean of their neighbours where that makes the worst triangle around them better.
+    /// Moves vertices inside to the mean of their neighbours where that makes the worst triangle around them
+    /// better.
     fn smooth(&mut self, triangles: &[[u32; 3]]) {
         let mut around: Vec<Vec<[u32; 2]>> = vec![Vec::new(); self.positions.len()];
         for &[a, b, c] in triangles {
@@ -424,7 +430,8 @@ impl<'a> Mesher<'a> {
     }
 }
 
-/// Area over the sum of squared edges: the larger, the nearer to equilateral; negative for a triangle inside out.
+/// Area over the sum of squared edges: the larger, the nearer to equilateral; negative for a triangle inside
+/// out.
 fn form([a, b, c]: [Point; 3]) -> f64 {
     let edges = [minus(b, a), minus(c, b), minus(a, c)];
     cross(edges[0], minus(c, a)) / edges.iter().map(|&edge| dot(edge, edge)).sum::<f64>()

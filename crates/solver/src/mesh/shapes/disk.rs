@@ -1,19 +1,19 @@
 //! A full disk without needle elements.
 
-use crate::mesh::cell::CellKind;
 use super::numbers::{between, cos_sin};
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, node, shape_key};
+use crate::mesh::cell::CellKind;
 use crate::model::describe::Kind::{Integer, Quantity, Vector};
 use crate::model::describe::Need::Required;
 use crate::model::describe::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 
-/// A full disk: a square core of `elements` × `elements` with bulged sides, and layers of quadrilaterals from there to the circle; three
-/// elements meet at the core's four corners. Side `outer`.
+/// A full disk: a square core of `elements` × `elements` with bulged sides, and layers of quadrilaterals from
+/// there to the circle; three elements meet at the core's four corners. Side `outer`.
 ///
-/// From 2 elements on no corner angle is below 67 degrees and no side longer than twice the shortest of its element; with 1 (five elements
-/// in all) 45 degrees and 2.5 times (a test holds this).
+/// From 2 elements on no corner angle is below 67 degrees and no side longer than twice the shortest of its
+/// element; with 1 (five elements in all) 45 degrees and 2.5 times (a test holds this).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disk {
     /// Centre, m.
@@ -75,7 +75,10 @@ impl BuiltIn for Disk {
         }
         let core = |i: usize, j: usize| j * (n + 1) + i;
         for j in 0..n {
-            body.extend(CellKind::Quadrilateral, (0..n).map(|i| [core(i, j), core(i + 1, j), core(i + 1, j + 1), core(i, j + 1)].map(node)));
+            body.extend(
+                CellKind::Quadrilateral,
+                (0..n).map(|i| [core(i, j), core(i + 1, j), core(i + 1, j + 1), core(i, j + 1)].map(node)),
+            );
         }
         // The core's outside, counter-clockwise from its lower left corner; it is layer 0.
         let outside: Vec<[usize; 2]> = (0..n)
@@ -95,7 +98,10 @@ impl BuiltIn for Disk {
                 let [x, y] = [0, 1].map(|d| between(inside[d], circle[d], layer, layers));
                 body.positions.push([centre[0] + radius * x, centre[1] + radius * y]);
             }
-            body.extend(CellKind::Quadrilateral, (0..around).map(|k| [at(layer - 1, k), at(layer, k), at(layer, k + 1), at(layer - 1, k + 1)]));
+            body.extend(
+                CellKind::Quadrilateral,
+                (0..around).map(|k| [at(layer - 1, k), at(layer, k), at(layer, k + 1), at(layer - 1, k + 1)]),
+            );
         }
         body.sides = vec![("outer".into(), (0..around).rev().map(|k| [at(layers, k + 1), at(layers, k)]).collect())];
         Ok(body)
@@ -114,11 +120,13 @@ impl Disk {
     }
 }
 
-/// How round the sides of a disk's core are: 0 straight, 1 arcs around the centre. This and [`core_fraction`] and [`layers_of`] were
-/// chosen from a scan for large corner angles, sides of equal length, and a large area over longest diagonal (the stable step).
+/// How round the sides of a disk's core are: 0 straight, 1 arcs around the centre. This and [`core_fraction`]
+/// and [`layers_of`] were chosen from a scan for large corner angles, sides of equal length, and a large area
+/// over longest diagonal (the stable step).
 const ROUND: f64 = 0.5;
 
-/// Distance of the core's corners from the centre, as a fraction of the radius: smaller on coarse disks, whose chords flatten the circle.
+/// Distance of the core's corners from the centre, as a fraction of the radius: smaller on coarse disks,
+/// whose chords flatten the circle.
 fn core_fraction(elements: usize) -> f64 {
     match elements {
         1 => 0.40,
@@ -148,8 +156,9 @@ fn core_point(i: usize, j: usize, n: usize) -> [f64; 2] {
     [(1.0 - round) * half * a + round * corner * ring * c, (1.0 - round) * half * b + round * corner * ring * s]
 }
 
-/// The unit vector that belongs to lattice point (i, j): equal angles for equal steps along a side of the square. Worked out in
-/// the first octant and mirrored, so that mirror images agree to the last bit. Zero at the centre.
+/// The unit vector that belongs to lattice point (i, j): equal angles for equal steps along a side of the
+/// square. Worked out in the first octant and mirrored, so that mirror images agree to the last bit. Zero at
+/// the centre.
 fn direction(i: usize, j: usize, n: usize) -> [f64; 2] {
     let [a, b] = lattice_point(i, j, n);
     let (small, large) = (a.abs().min(b.abs()), a.abs().max(b.abs()));
@@ -186,7 +195,8 @@ mod tests {
         crate::mesh::shapes::tests::is_its_mirror_image(&disk([0.0, 0.0], 0.7, 9));
     }
 
-    /// Smallest corner angle in degrees, largest ratio of two sides of an element, largest over smallest side of the mesh.
+    /// Smallest corner angle in degrees, largest ratio of two sides of an element, largest over smallest side
+    /// of the mesh.
     fn quality(body: &Body) -> [f64; 3] {
         let (mut angle, mut aspect, mut shortest, mut longest) = (180.0_f64, 1.0_f64, f64::MAX, 0.0_f64);
         for quad in body.all::<4>(CellKind::Quadrilateral) {

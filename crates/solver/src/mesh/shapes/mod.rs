@@ -1,7 +1,8 @@
 //! Built-in shapes, one a file: parameters, keys of the model file, mesh, named sides.
 //!
-//! Values come from the model file or from code; bodies go to the mesh builder. To add a shape: one file with `KEY` and `impl BuiltIn`, and its
-//! line in `shapes!`; the model's [`Shape`], the keys, the manual and the contract tests below follow from there.
+//! Values come from the model file or from code; bodies go to the mesh builder. To add a shape: one file with
+//! `KEY` and `impl BuiltIn`, and its line in `shapes!`; the model's [`Shape`], the keys, the manual and the
+//! contract tests below follow from there.
 
 mod axes;
 mod coons;
@@ -121,7 +122,8 @@ impl Wrong {
     }
 }
 
-/// The values of a table of the model file. What is not sound has become NaN or the largest count, or is empty: its fault is told already.
+/// The values of a table of the model file. What is not sound has become NaN or the largest count, or is
+/// empty: its fault is told already.
 pub trait Values {
     /// Whether the table has the key.
     fn has(&self, key: &str) -> bool;
@@ -220,7 +222,8 @@ macro_rules! shapes {
         })*
 
         impl Shape {
-            /// The built-in shape of the plane, and the key of a part that has its table; `None` for all others.
+            /// The built-in shape of the plane, and the key of a part that has its table; `None` for all
+            /// others.
             pub(crate) fn built_in(&self) -> Option<(&dyn BuiltIn, &'static str)> {
                 match self {
                     $(Self::$shape(shape) => Some((shape, $module::KEY.name)),)*
@@ -237,7 +240,8 @@ macro_rules! shapes {
                 }
             }
 
-            /// Whether a key of a part says that it is a solid: a solid shape, or what makes one of a shape of the plane.
+            /// Whether a key of a part says that it is a solid: a solid shape, or what makes one of a shape
+            /// of the plane.
             #[must_use]
             pub fn is_solid_key(name: &str) -> bool {
                 ["extrude", "revolve", $($solid_module::KEY.name),*].contains(&name)
@@ -404,8 +408,9 @@ static MESH_SECTION: Section = Section {
     ..Section::EMPTY
 };
 
-/// A body of `elements` quadrilaterals between the points `at(i, j)`, of which those with i + 1 lie on the right of those with j + 1.
-/// `closed`: the last row is the first. Nodes run along i first. Sides at the lowest and highest i, then at the lowest and highest j.
+/// A body of `elements` quadrilaterals between the points `at(i, j)`, of which those with i + 1 lie on the
+/// right of those with j + 1. `closed`: the last row is the first. Nodes run along i first. Sides at the
+/// lowest and highest i, then at the lowest and highest j.
 fn lattice(elements: [usize; 2], closed: bool, sides: [&str; 4], at: impl Fn(usize, usize) -> [f64; 2]) -> Body {
     let [nx, ny] = elements;
     let row = nx + 1;
@@ -428,7 +433,8 @@ fn lattice(elements: [usize; 2], closed: bool, sides: [&str; 4], at: impl Fn(usi
     body
 }
 
-/// Where a body of quadrilaterals folds over: the first element with a corner that does not turn counter-clockwise, and the place.
+/// Where a body of quadrilaterals folds over: the first element with a corner that does not turn
+/// counter-clockwise, and the place.
 fn fold(body: &Body) -> Option<(usize, [f64; 2])> {
     let turns = |quad: &[u32; 4], k: usize| {
         let x = |k: usize| body.positions[quad[k % 4] as usize];

@@ -1,13 +1,15 @@
 //! Numbers that shapes share: equal and graded steps, and angles in quarter turns.
 //!
-//! Sines, cosines and angles are computed here with fixed operations: the same bits on every platform, exact zeros and ones on the axes (nodes
-//! that should lie on a symmetry line do), and mirror images that agree to the last bit.
+//! Sines, cosines and angles are computed here with fixed operations: the same bits on every platform, exact
+//! zeros and ones on the axes (nodes that should lie on a symmetry line do), and mirror images that agree to
+//! the last bit.
 
 pub(super) use crate::vector::{cross, dot, minus};
 use embate_lanes::math::{exp, ln};
 use std::f64::consts::FRAC_PI_2;
 
-/// Entry `i` of `0..=n` equal steps from `a` to `b`, exact at both ends and symmetric under exchange of the ends.
+/// Entry `i` of `0..=n` equal steps from `a` to `b`, exact at both ends and symmetric under exchange of the
+/// ends.
 pub(super) fn between(a: f64, b: f64, i: usize, n: usize) -> f64 {
     if i == 0 {
         a
@@ -57,15 +59,16 @@ impl Steps {
     }
 }
 
-/// An angle in radians as a number of quarter turns; whole, half and quarter steps of a quarter turn that were meant are made exact.
+/// An angle in radians as a number of quarter turns; whole, half and quarter steps of a quarter turn that
+/// were meant are made exact.
 pub(in crate::mesh) fn quarters(angle: f64) -> f64 {
     let q = angle / FRAC_PI_2;
     let snapped = (4.0 * q).round() / 4.0;
     if (q - snapped).abs() < 1e-12 { snapped } else { q }
 }
 
-/// Cosine and sine of a number of quarter turns, by Taylor polynomials of degree 18 and 17 on ±45 degrees (truncation below 1e-17).
-/// Within 1e-12 of whole quarter turns they are exactly 0 and ±1.
+/// Cosine and sine of a number of quarter turns, by Taylor polynomials of degree 18 and 17 on ±45 degrees
+/// (truncation below 1e-17). Within 1e-12 of whole quarter turns they are exactly 0 and ±1.
 pub(in crate::mesh) fn cos_sin(quarters: f64) -> [f64; 2] {
     let whole = quarters.round();
     let mut rest = quarters - whole;

@@ -9,8 +9,8 @@ use crate::quantity::Dimension;
 use crate::quantity::Range::{NotNegative, Positive};
 use std::f64::consts::FRAC_PI_2;
 
-/// A strip along a path from point to point, with mitred or round bends; sides `left` and `right` of who walks along it and, unless it
-/// closes on itself, `start` and `end`.
+/// A strip along a path from point to point, with mitred or round bends; sides `left` and `right` of who
+/// walks along it and, unless it closes on itself, `start` and `end`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// Points of its middle line, m.
@@ -48,7 +48,8 @@ static SECTION: Section = Section {
 
 /// A piece of the path.
 enum Piece {
-    /// A straight line, and at either end where the strip goes on the right by unit of width (the normal, or the mitre).
+    /// A straight line, and at either end where the strip goes on the right by unit of width (the normal, or
+    /// the mitre).
     Straight { ends: [[f64; 2]; 2], right: [[f64; 2]; 2] },
     /// A bend: its centre, where it begins, and the angle, quarter turns counter-clockwise.
     Bend { centre: [f64; 2], from: [f64; 2], turn: f64 },
@@ -111,7 +112,8 @@ impl Path {
             let (before, after) = (self.part(k + n - 1).0, self.part(k).0);
             [dot(before, after), cross(before, after)]
         };
-        // Half the turn's tangent: what the bend cuts off the parts by radius, and the mitre by half the width.
+        // Half the turn's tangent: what the bend cuts off the parts by radius, and the mitre by half the
+        // width.
         let cut = |k: usize| if has_corner(k) { turn(k)[1].abs() / (1.0 + turn(k)[0]) } else { 0.0 };
         let mitre = |k: usize, own: [f64; 2]| {
             if self.radius > 0.0 || !has_corner(k) {

@@ -1,9 +1,9 @@
 //! A polygon, perhaps with holes, of triangles.
 
-use crate::mesh::cell::CellKind;
 use super::delaunay::{is_inside, triangles};
 use super::numbers::{cross, distance, minus};
 use super::{Body, BuiltIn, CheckOf, Count, Values, Wrong, shape_key};
+use crate::mesh::cell::CellKind;
 use crate::model::describe::Kind::{Outlines, Points, Quantities, Quantity};
 use crate::model::describe::Need::{Default as Written, Optional, Required};
 use crate::model::describe::{Key, Rule, Section, key};
@@ -11,8 +11,8 @@ use crate::quantity::Dimension;
 use crate::quantity::Range::{NotNegative, Positive};
 use embate_lanes::math::ln;
 
-/// A polygon with straight edges and perhaps holes, of Delaunay triangles. Sides: `outer`, its edges `edge1`, `edge2`, ... from the first
-/// point on, and the holes `hole1`, `hole2`, ...
+/// A polygon with straight edges and perhaps holes, of Delaunay triangles. Sides: `outer`, its edges `edge1`,
+/// `edge2`, ... from the first point on, and the holes `hole1`, `hole2`, ...
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     /// Corners, m, in either direction.
@@ -76,7 +76,8 @@ impl Polygon {
         area(&self.outline).abs() - self.holes.iter().map(|hole| area(hole).abs()).sum::<f64>()
     }
 
-    /// Number of triangles that the sizes ask for: ∫ dA / (area of one), around a point ∫ 2πr dr / (s + g r)².
+    /// Number of triangles that the sizes ask for: ∫ dA / (area of one), around a point ∫ 2πr dr / (s + g
+    /// r)².
     fn elements_about(&self) -> f64 {
         let around = |&size: &f64| {
             let (s, g) = (size, self.growth);
@@ -172,7 +173,8 @@ impl BuiltIn for Polygon {
             let whole: Vec<[u32; 2]> = edges.iter().rev().flat_map(|edge| backwards(edge)).collect();
             if k == 0 {
                 sides.push(("outer".to_string(), whole));
-                // Edge e runs from corner e to e + 1 of the outline as given; backwards that is corner n − 1 − e and the one before.
+                // Edge e runs from corner e to e + 1 of the outline as given; backwards that is corner n − 1
+                // − e and the one before.
                 let given = |e: usize| if *turned { (2 * n - 2 - e) % n } else { e };
                 sides.extend((0..n).map(|e| (format!("edge{}", e + 1), backwards(&edges[given(e)]))));
             } else {

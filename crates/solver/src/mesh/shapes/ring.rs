@@ -9,8 +9,8 @@ use crate::model::reference::is_full_turn;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 
-/// A ring or a sector of one, counter-clockwise from `from` to `to`; it closes on itself when they differ by 2π (within 1e-9).
-/// Sides `inner`, `outer` and, for a sector, `start` (at `from`) and `end`.
+/// A ring or a sector of one, counter-clockwise from `from` to `to`; it closes on itself when they differ by
+/// 2π (within 1e-9). Sides `inner`, `outer` and, for a sector, `start` (at `from`) and `end`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ring {
     /// Centre, m.

@@ -1,8 +1,8 @@
 //! Bars along lines in space: trusses, cables, nets between solids or alone.
 
-use crate::mesh::cell::CellKind;
 use super::truss::Net;
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, shape_key};
+use crate::mesh::cell::CellKind;
 use crate::model::describe::Kind::{Integer, SpatialOutlines};
 use crate::model::describe::Need::{Default as Written, Required};
 use crate::model::describe::{Key, Section, key};

@@ -1,16 +1,17 @@
 //! A full sphere, or a part of one, without degenerate elements.
 
-use crate::mesh::cell::CellKind;
 use super::numbers::{between, cos_sin};
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, cut, node, shape_key};
+use crate::mesh::cell::CellKind;
 use crate::model::describe::Kind::{Choice, Integer, Quantity, Spatial};
 use crate::model::describe::Need::{Default as Written, Required};
 use crate::model::describe::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 
-/// A sphere of hexahedra, or the half, quarter or eighth of one where x, y and z are above those of its centre: a core of `elements`³ with bulged sides, and layers
-/// from each of its six sides to the surface. Sides `outer`, and `left` (x), `bottom` (y), `back` (z) where it is cut.
+/// A sphere of hexahedra, or the half, quarter or eighth of one where x, y and z are above those of its
+/// centre: a core of `elements`³ with bulged sides, and layers from each of its six sides to the surface.
+/// Sides `outer`, and `left` (x), `bottom` (y), `back` (z) where it is cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sphere {
     /// Centre, m.
@@ -127,11 +128,12 @@ impl Sphere {
     }
 }
 
-/// How round the sides of the core are: 0 flat, 1 spheres around the centre. This and [`core_fraction`] and [`layers_of`] were chosen from a scan for large Jacobians
-/// at corners and sides of equal length.
+/// How round the sides of the core are: 0 flat, 1 spheres around the centre. This and [`core_fraction`] and
+/// [`layers_of`] were chosen from a scan for large Jacobians at corners and sides of equal length.
 const ROUND: f64 = 0.5;
 
-/// Distance of the core's corners from the centre, as a fraction of the radius: smaller in coarse spheres, whose facets cut the surface.
+/// Distance of the core's corners from the centre, as a fraction of the radius: smaller in coarse spheres,
+/// whose facets cut the surface.
 fn core_fraction(elements: usize) -> f64 {
     match elements {
         1 => 0.45,
@@ -150,8 +152,9 @@ fn lattice_point(at: [usize; 3], n: usize) -> [f64; 3] {
     at.map(|i| between(-1.0, 1.0, i, n))
 }
 
-/// The unit vector that belongs to a lattice point: equal angles for equal steps along a side of the cube it lies on. Worked out without signs and in one order, so
-/// that mirror images agree to the last bit. Zero at the centre.
+/// The unit vector that belongs to a lattice point: equal angles for equal steps along a side of the cube it
+/// lies on. Worked out without signs and in one order, so that mirror images agree to the last bit. Zero at
+/// the centre.
 fn direction(at: [usize; 3], n: usize) -> [f64; 3] {
     let point = lattice_point(at, n);
     let largest = point.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));

@@ -1,6 +1,8 @@
-//! What makes a body of space from a shape of the plane: it is pulled along z, or turned about a line of the plane.
+//! What makes a body of space from a shape of the plane: it is pulled along z, or turned about a line of the
+//! plane.
 //!
-//! Sections come from the shapes and mesh files; bodies of hexahedra, wedges and tetrahedra go back to where the section would have gone.
+//! Sections come from the shapes and mesh files; bodies of hexahedra, wedges and tetrahedra go back to where
+//! the section would have gone.
 
 use super::numbers::{Steps, cos_sin, dot, minus, quarters};
 use super::{Body, Count, ELEMENTS, Values, Wrong};
@@ -44,7 +46,8 @@ impl Default for Extrude {
     }
 }
 
-/// The section is turned about a line of its plane, towards z first. Where it has an edge on the line, quadrilaterals become wedges and triangles tetrahedra.
+/// The section is turned about a line of its plane, towards z first. Where it has an edge on the line,
+/// quadrilaterals become wedges and triangles tetrahedra.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Revolve {
     /// Direction of the line, of any length but zero.
@@ -122,7 +125,8 @@ impl Layers<'_> {
         positions
     }
 
-    /// The element between a section and the next that a cell of the section becomes; what it is that the axis does not allow.
+    /// The element between a section and the next that a cell of the section becomes; what it is that the
+    /// axis does not allow.
     fn cell(&self, Cell { kind, nodes }: Cell<'_>, layer: usize) -> Result<(CellKind, Vec<u32>), &'static str> {
         let n = kind.nodes();
         let here = |k: usize| self.number(nodes[k % n], layer);
@@ -148,7 +152,8 @@ impl Layers<'_> {
         (0..n).find(|&k| self.is_fixed(corners[k]) && self.is_fixed(corners[(k + 1) % n]))
     }
 
-    /// The facet between a section and the next that a segment with the body on its right becomes; none on the axis.
+    /// The facet between a section and the next that a segment with the body on its right becomes; none on
+    /// the axis.
     fn facet(&self, [a, b]: [u32; 2], layer: usize) -> Option<[u32; 4]> {
         let here = |node| self.number(node, layer);
         let next = |node| self.number(node, layer + 1);
@@ -214,7 +219,8 @@ impl Sweep {
         ends.iter().map(|&end| end.to_string()).collect()
     }
 
-    /// How large a body will be whose section is so large; nodes on an axis are counted as often as there are sections.
+    /// How large a body will be whose section is so large; nodes on an axis are counted as often as there are
+    /// sections.
     #[must_use]
     pub fn count(&self, section: Count) -> Count {
         let sections = self.elements().saturating_add(usize::from(!self.is_closed()));
@@ -310,8 +316,9 @@ impl Sweep {
         Ok(body)
     }
 
-    /// The mesh that a mesh of the plane becomes: groups of surfaces become volumes, of lines surfaces, of points sets of nodes. Nodes that groups share, they still
-    /// share. With it the two ends of each group of surfaces, by its place among the groups.
+    /// The mesh that a mesh of the plane becomes: groups of surfaces become volumes, of lines surfaces, of
+    /// points sets of nodes. Nodes that groups share, they still share. With it the two ends of each group of
+    /// surfaces, by its place among the groups.
     pub(in crate::mesh) fn swept_mesh(&self, section: &ImportedMesh, wanted: &[&str]) -> Result<SweptMesh, Wrong> {
         let plane: Vec<[f64; 2]> = section.positions.iter().map(|&[x, y, _]| [x, y]).collect();
         let (layers, positions) = self.layers(&plane)?;

@@ -1,8 +1,8 @@
 //! Bars along lines: trusses, cables, nets.
 
-use crate::mesh::cell::CellKind;
 use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, node, shape_key};
 use crate::mesh::Meshed;
+use crate::mesh::cell::CellKind;
 use crate::model::describe::Kind::{Integer, Outlines};
 use crate::model::describe::Need::{Default as Written, Required};
 use crate::model::describe::{Key, Section, key};
@@ -12,8 +12,9 @@ use crate::vector::{dot, minus};
 /// Points nearer to each other than this fraction of the size are one.
 const SAME: f64 = 1e-9;
 
-/// Bars along straight pieces from point to point. Points in one place are one node; lines that cross anywhere else do not meet.
-/// Sets of nodes: `point0`, `point1`, ... in the order in which the points are first named.
+/// Bars along straight pieces from point to point. Points in one place are one node; lines that cross
+/// anywhere else do not meet. Sets of nodes: `point0`, `point1`, ... in the order in which the points are
+/// first named.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truss {
     /// Lines, each a list of points, m.
@@ -188,7 +189,11 @@ mod tests {
         let count = truss.count();
         assert_eq!((count.nodes, count.elements, count.exact), (14, 15, true));
         assert_eq!(truss.points(), ["point0", "point1", "point2", "point3"]);
-        let length: f64 = body.all::<2>(CellKind::Line).iter().map(|bar| distance(body.positions[bar[0] as usize], body.positions[bar[1] as usize])).sum();
+        let length: f64 = body
+            .all::<2>(CellKind::Line)
+            .iter()
+            .map(|bar| distance(body.positions[bar[0] as usize], body.positions[bar[1] as usize]))
+            .sum();
         assert!((length - 4.0 - 2.0f64.sqrt()).abs() < 1e-11);
         assert_eq!(body.points[2], ("point2".to_string(), vec![2]));
         assert_eq!(body.positions[2], [1.0, 1.0]);

@@ -8,8 +8,9 @@ use crate::model::describe::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 
-/// A tube of hexahedra, or a sector of one; sides `inner` and `outer`, of a sector `start` and `end`, and `bottom` and `top` where its axis begins and ends. Angles
-/// are counted around the axis by the right-hand rule, from x where the axis is z, from y where it is x, from z where it is y.
+/// A tube of hexahedra, or a sector of one; sides `inner` and `outer`, of a sector `start` and `end`, and
+/// `bottom` and `top` where its axis begins and ends. Angles are counted around the axis by the right-hand
+/// rule, from x where the axis is z, from y where it is x, from z where it is y.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tube {
     /// Centre of the bottom, m.

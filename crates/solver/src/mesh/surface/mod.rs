@@ -1,7 +1,9 @@
-//! The outside of bodies, and what a piece of it is: a segment of two nodes in the plane, a facet of three or four in space.
+//! The outside of bodies, and what a piece of it is: a segment of two nodes in the plane, a facet of three or
+//! four in space.
 //!
-//! Cells come from the shapes and mesh files; surfaces go to contact, loads and boundaries. What is written once for both dimensions sees [`Corners`] and
-//! [`Sided`]; what differs in kind (chains in the plane, edges and fans in space) is in `plane.rs` and `space.rs`.
+//! Cells come from the shapes and mesh files; surfaces go to contact, loads and boundaries. What is written
+//! once for both dimensions sees [`Corners`] and [`Sided`]; what differs in kind (chains in the plane, edges
+//! and fans in space) is in `plane.rs` and `space.rs`.
 
 mod plane;
 mod space;
@@ -20,8 +22,8 @@ use std::fmt::Debug;
 /// No neighbour.
 pub const NONE: u32 = u32::MAX;
 
-/// A piece of the outside of a body of dimension `D`: the segment `[a, b]` with the body on the right of a → b, or the facet `[a, b, c, d]`, counter-clockwise seen
-/// from outside; a triangle repeats its last node.
+/// A piece of the outside of a body of dimension `D`: the segment `[a, b]` with the body on the right of a →
+/// b, or the facet `[a, b, c, d]`, counter-clockwise seen from outside; a triangle repeats its last node.
 pub type Facet<const D: usize> = <super::Dim<D> as Meshed<D>>::Facet;
 
 /// An oriented surface of bodies of dimension `D`.
@@ -151,15 +153,17 @@ impl Sided for SpaceSurface {
     }
 }
 
-/// Outside pieces of `cells` (in the plane 3 or 4 nodes each, counter-clockwise; in space tetrahedra, wedges and hexahedra): those that occur once, with the body
-/// on the right of a segment and behind a facet.
+/// Outside pieces of `cells` (in the plane 3 or 4 nodes each, counter-clockwise; in space tetrahedra, wedges
+/// and hexahedra): those that occur once, with the body on the right of a segment and behind a facet.
 ///
-/// Order in the plane: closed chains one after another, each following its own element fans, beginning with its lowest node; chains by that node. In space: by the
-/// nodes of the facets, of which the lowest is the first.
+/// Order in the plane: closed chains one after another, each following its own element fans, beginning with
+/// its lowest node; chains by that node. In space: by the nodes of the facets, of which the lowest is the
+/// first.
 ///
 /// # Errors
-/// A fault that names nodes when a cell is not one of these or has a node twice, when an edge (in space a facet) belongs to more than two cells, or to two cells
-/// that have it in the same direction (one of them is inside out, or they overlap).
+/// A fault that names nodes when a cell is not one of these or has a node twice, when an edge (in space a
+/// facet) belongs to more than two cells, or to two cells that have it in the same direction (one of them is
+/// inside out, or they overlap).
 pub fn exterior<'a, const D: usize>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Vec<Facet<D>>, Fault>
 where
     super::Dim<D>: Meshed<D>,
@@ -167,7 +171,8 @@ where
     <super::Dim<D> as Meshed<D>>::exterior(cells)
 }
 
-/// `facets` in any direction, turned so that they match those of `exterior`; order kept, repeated ones dropped.
+/// `facets` in any direction, turned so that they match those of `exterior`; order kept, repeated ones
+/// dropped.
 ///
 /// # Errors
 /// A fault that names the nodes of the first one that is not on the outside.

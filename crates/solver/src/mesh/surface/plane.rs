@@ -1,7 +1,9 @@
-//! The outside of bodies in the plane: element edges that occur once, oriented with the body on their right and linked to chains.
+//! The outside of bodies in the plane: element edges that occur once, oriented with the body on their right
+//! and linked to chains.
 //!
-//! Cells come from the shapes and mesh files; surfaces go to contact. Where corners of bodies, or two corners of one body, touch in a single
-//! node, each chain stays with its own fan of elements, so that normals never mix across the touching point.
+//! Cells come from the shapes and mesh files; surfaces go to contact. Where corners of bodies, or two corners
+//! of one body, touch in a single node, each chain stays with its own fan of elements, so that normals never
+//! mix across the touching point.
 
 use super::NONE;
 use crate::error::Fault;
@@ -28,7 +30,8 @@ impl PlaneSurface {
         Ok(Edges::new(cells)?.exterior())
     }
 
-    /// The whole outside of `cells` (3 or 4 nodes each, counter-clockwise), in the order of [`exterior`](super::exterior).
+    /// The whole outside of `cells` (3 or 4 nodes each, counter-clockwise), in the order of
+    /// [`exterior`](super::exterior).
     ///
     /// # Errors
     /// As [`exterior`](super::exterior).
@@ -51,11 +54,12 @@ impl PlaneSurface {
 
     /// The part of the outside of `cells` that consists of `segments`, kept in their order.
     ///
-    /// Segments that don't follow each other along the outside are not linked: a side alone begins and ends with [`NONE`].
+    /// Segments that don't follow each other along the outside are not linked: a side alone begins and ends
+    /// with [`NONE`].
     ///
     /// # Errors
-    /// A fault when the cells are wrong (see [`exterior`](super::exterior)), when a segment is no outside edge with the body on its right
-    /// (see [`oriented`](super::oriented)), or when one is given twice.
+    /// A fault when the cells are wrong (see [`exterior`](super::exterior)), when a segment is no outside
+    /// edge with the body on its right (see [`oriented`](super::oriented)), or when one is given twice.
     pub fn new<'a>(segments: Vec<[u32; 2]>, cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self, Fault> {
         Self::linked(segments, &Edges::new(cells)?)
     }
@@ -161,12 +165,14 @@ impl Edges {
         self.from(a).iter().find(|edge| edge.0 == b).map(|edge| edge.1)
     }
 
-    /// The outside segment after the outside segment a → b: around node b, through the elements of its fan. `None` when a → b is not outside.
+    /// The outside segment after the outside segment a → b: around node b, through the elements of its fan.
+    /// `None` when a → b is not outside.
     fn following(&self, [a, b]: [u32; 2]) -> Option<[u32; 2]> {
         if self.before(a, b).is_some() {
             return None;
         }
-        // The cell on the right runs b → a; the fan's next edge at b is (before, b), seen from the neighbour as b → before.
+        // The cell on the right runs b → a; the fan's next edge at b is (before, b), seen from the neighbour
+        // as b → before.
         let mut end = self.before(b, a)?;
         while let Some(further) = self.before(b, end) {
             end = further;
@@ -276,7 +282,8 @@ mod tests {
 
     #[test]
     fn a_body_pinched_to_one_node_is_walked_around_each_fan() {
-        // A 3 x 3 block without its centre and without the cell to its right below: the hole touches the notch in a node.
+        // A 3 x 3 block without its centre and without the cell to its right below: the hole touches the
+        // notch in a node.
         let body = rectangle([0.0, 0.0], [3.0, 3.0], [3, 3]);
         let left: Vec<_> = body.cells().enumerate().filter(|(i, _)| ![4, 2].contains(i)).map(|(_, cell)| cell).collect();
         let surface = PlaneSurface::outside(left.iter().copied()).unwrap();

@@ -1,7 +1,9 @@
-//! The outside of bodies in space: facets of elements that occur once, counter-clockwise seen from outside, and linked across their edges.
+//! The outside of bodies in space: facets of elements that occur once, counter-clockwise seen from outside,
+//! and linked across their edges.
 //!
-//! Cells come from the shapes and mesh files; surfaces go to contact and loads. Where two parts of an outside touch in an edge, each stays with its own fan of
-//! elements, as chains in the plane do at a node: the neighbour across an edge is the facet at the other end of the fan.
+//! Cells come from the shapes and mesh files; surfaces go to contact and loads. Where two parts of an outside
+//! touch in an edge, each stays with its own fan of elements, as chains in the plane do at a node: the
+//! neighbour across an edge is the facet at the other end of the fan.
 
 use super::{Corners, NONE, named};
 use crate::error::Fault;
@@ -17,7 +19,8 @@ use crate::vector::minus;
 pub struct SurfaceEdge {
     /// Its nodes, in the direction in which its first facet has it.
     pub nodes: [u32; 2],
-    /// The facet that has it in this direction, and the one on the other side, or [`NONE`] where the surface ends.
+    /// The facet that has it in this direction, and the one on the other side, or [`NONE`] where the surface
+    /// ends.
     pub facets: [u32; 2],
 }
 
@@ -32,14 +35,16 @@ pub struct SpaceSurface {
     pub edges: Vec<SurfaceEdge>,
     /// Edge from each corner of each facet to the next one; the fourth of a triangle is [`NONE`].
     pub edges_of: Vec<[u32; 4]>,
-    /// Edges at which the surface ends on a symmetry plane, and the unit normal of that, which points to the body: its image goes on there. Ascending.
+    /// Edges at which the surface ends on a symmetry plane, and the unit normal of that, which points to the
+    /// body: its image goes on there. Ascending.
     pub mirrors: Vec<(u32, [f64; 3])>,
     /// Facets at each of `nodes`, ascending.
     around: Rows<u32>,
 }
 
 impl SpaceSurface {
-    /// The same with the symmetry planes at which it ends: `normals_of` gives the unit normals of the planes that both nodes of an edge lie on, `positions` (m) tell on which side the body is.
+    /// The same with the symmetry planes at which it ends: `normals_of` gives the unit normals of the planes
+    /// that both nodes of an edge lie on, `positions` (m) tell on which side the body is.
     #[must_use]
     pub fn with_mirrors<I: IntoIterator<Item = [f64; 3]>>(self, normals_of: impl Fn([u32; 2]) -> I, positions: &[[f64; 3]]) -> Self {
         let at = |node: u32| positions[node as usize];
@@ -50,7 +55,8 @@ impl SpaceSurface {
             }
             let [a, b, c, d] = self.facets[facet as usize].map(at);
             let out = if c == d { cross(minus(b, a), minus(c, a)) } else { cross(minus(c, a), minus(d, b)) };
-            // The facet is on the body's side of the plane. Where two planes meet, the one that the body behind the facet reaches.
+            // The facet is on the body's side of the plane. Where two planes meet, the one that the body
+            // behind the facet reaches.
             let inward = |normal: [f64; 3]| {
                 let off = |&node: &u32| dot(minus(at(node), at(nodes[0])), normal);
                 let side: f64 = self.facets[facet as usize].corners().iter().map(off).sum();
@@ -98,18 +104,20 @@ impl SpaceSurface {
         Self::linked(facets, &table)
     }
 
-    /// The part of the outside of `cells` that consists of `facets`, kept in their order; each begins with its lowest node.
+    /// The part of the outside of `cells` that consists of `facets`, kept in their order; each begins with
+    /// its lowest node.
     ///
     /// Facets that have no neighbour across an edge among them end there: the edge has one facet.
     ///
     /// # Errors
-    /// A fault when the cells are wrong (see [`exterior`](super::exterior)), when a facet is no outside of them or has the body before it (see
-    /// [`oriented`](super::oriented)), or when one is given twice.
+    /// A fault when the cells are wrong (see [`exterior`](super::exterior)), when a facet is no outside of
+    /// them or has the body before it (see [`oriented`](super::oriented)), or when one is given twice.
     pub fn new<'a>(facets: Vec<[u32; 4]>, cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self, Fault> {
         Self::linked(facets.into_iter().map(Corners::canonical).collect(), &Table::new(cells)?)
     }
 
-    /// A surface of triangles that is no outside of cells: point `k` is node `first + k`. Where more than two triangles have an edge, or two of them in one direction, they end there.
+    /// A surface of triangles that is no outside of cells: point `k` is node `first + k`. Where more than two
+    /// triangles have an edge, or two of them in one direction, they end there.
     #[must_use]
     pub fn of_triangles(triangles: &TriangleSurface, first: u32) -> Self {
         let facets: Vec<[u32; 4]> =
@@ -147,7 +155,8 @@ impl SpaceSurface {
         Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around }
     }
 
-    /// Both surfaces as one; the nodes of the other come after those of this one. Symmetry planes are forgotten.
+    /// Both surfaces as one; the nodes of the other come after those of this one. Symmetry planes are
+    /// forgotten.
     #[must_use]
     pub fn joined(&self, other: &Self) -> Self {
         let (facets_before, edges_before) = (self.facets.len() as u32, self.edges.len() as u32);
@@ -181,7 +190,8 @@ impl SpaceSurface {
         self.nodes.binary_search(&node).map_or(&[], |rank| self.around(rank))
     }
 
-    /// The facets that have both nodes, or with [`NONE`] as the second those that have the first, ascending; with twice [`NONE`] `facet` alone.
+    /// The facets that have both nodes, or with [`NONE`] as the second those that have the first, ascending;
+    /// with twice [`NONE`] `facet` alone.
     pub fn sharing(&self, facet: u32, [a, b]: [u32; 2]) -> impl Iterator<Item = u32> + Clone + use<'_> {
         let around = if a == NONE { &[] } else { self.facets_at(a) };
         let has = move |&other: &u32| b == NONE || self.facets[other as usize].contains(&b);
@@ -245,14 +255,16 @@ impl SpaceSurface {
     }
 }
 
-/// A facet of a cell as its lowest node sees it: the next node, the opposite one ([`NONE`] in a triangle), the one before.
+/// A facet of a cell as its lowest node sees it: the next node, the opposite one ([`NONE`] in a triangle),
+/// the one before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct Seen {
     /// The same from both sides: the smaller of next and before, the opposite one, the larger.
     key: [u32; 3],
     /// Whether the next one is the larger.
     is_turned: bool,
-    /// The cell, and which of its facets it is: side by side with the rest in 20 bytes, because the facets of all cells are there at once.
+    /// The cell, and which of its facets it is: side by side with the rest in 20 bytes, because the facets of
+    /// all cells are there at once.
     cell: u32,
     local: u8,
 }
@@ -344,7 +356,8 @@ impl<'a> Table<'a> {
         &row[first..first + count]
     }
 
-    /// The cell behind an outside facet, and which of its facets it is; `None` when it is not outside or seen from inside.
+    /// The cell behind an outside facet, and which of its facets it is; `None` when it is not outside or seen
+    /// from inside.
     fn owner(&self, facet: &[u32; 4]) -> Option<(u32, u8)> {
         match self.group(*facet) {
             [one] if facet_of(facet.canonical()[0], one) == *facet => Some((one.cell, one.local)),
@@ -352,7 +365,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The outside facet on the other side of the edge a → b of an outside facet: around the edge, through the elements of its fan.
+    /// The outside facet on the other side of the edge a → b of an outside facet: around the edge, through
+    /// the elements of its fan.
     fn across(&self, mut cell: u32, mut local: u8, [a, b]: [u32; 2]) -> Option<[u32; 4]> {
         // A fan has no more elements than there are; it ends at an outside facet.
         for _ in 0..self.cells.len() {
@@ -506,7 +520,8 @@ mod tests {
             let surface = SpaceSurface::outside(hexes(&cells)).unwrap();
             links_are_consistent(&surface);
             prop_assert!(surface.edges.iter().all(|edge| !edge.facets.contains(&NONE)));
-            // Each facet's two triangles with its diagonal 0-2, and each hexahedron by its own facets: inside they cancel only if facets are seen alike.
+            // Each facet's two triangles with its diagonal 0-2, and each hexahedron by its own facets: inside
+            // they cancel only if facets are seen alike.
             let cone = |facet: &[u32; 4]| {
                 let x = facet.map(|node| positions[node as usize]);
                 let det = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| {

@@ -1,7 +1,9 @@
-//! How much of a surface belongs to a node: the one place where a length becomes an area, and a facet its nodes' shares of it.
+//! How much of a surface belongs to a node: the one place where a length becomes an area, and a facet its
+//! nodes' shares of it.
 //!
-//! A triangle is flat. A facet of four nodes is the surface x(ξ, η) = Σ N_a x_a of its bilinear shape functions, flat or not: its normal times area per dξ dη,
-//! ∂x/∂ξ × ∂x/∂η = n₀ + ξ n₁ + η n₂, is linear, so that what a pressure does to it is exact, and areas are taken at 2 × 2 points.
+//! A triangle is flat. A facet of four nodes is the surface x(ξ, η) = Σ N_a x_a of its bilinear shape
+//! functions, flat or not: its normal times area per dξ dη, ∂x/∂ξ × ∂x/∂η = n₀ + ξ n₁ + η n₂, is linear, so
+//! that what a pressure does to it is exact, and areas are taken at 2 × 2 points.
 
 use crate::mesh::Meshed;
 use crate::mesh::surface::{Corners, Facet};
@@ -35,7 +37,8 @@ impl Depth {
         }
     }
 
-    /// Area that each of the two nodes of a segment stands for: ∫ N_a ds, half the length, or 2π ∫ N_a x ds = π L (2 x_a + x_b) / 3.
+    /// Area that each of the two nodes of a segment stands for: ∫ N_a ds, half the length, or 2π ∫ N_a x
+    /// ds = π L (2 x_a + x_b) / 3.
     #[must_use]
     pub fn shares(self, [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
         let length = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt();
@@ -56,11 +59,13 @@ pub trait Tributary<const D: usize>: Meshed<D> {
     /// Area that each node of a piece stands for: ∫ N_a dA, m² (in the plane m²/m, see [`Depth::shares`]).
     fn shares(depth: Depth, facet: Self::Facet, positions: &[[f64; D]]) -> Self::Shares;
 
-    /// What a pressure of one does at each node: −∫ N_a n dA as a vector that points inwards, and a factor on it; the product of the two is meant. A closed surface
-    /// under a constant pressure feels no resultant, and in space no moment, but round-off. Zero where a piece has no size.
+    /// What a pressure of one does at each node: −∫ N_a n dA as a vector that points inwards, and a factor on
+    /// it; the product of the two is meant. A closed surface under a constant pressure feels no resultant,
+    /// and in space no moment, but round-off. Zero where a piece has no size.
     fn presses(depth: Depth, facet: Self::Facet, positions: &[[f64; D]]) -> Self::Presses;
 
-    /// `across` n nᵀ + `along` (I − n nᵀ) with the normal n of a piece: a resistance to motion across it, and along it.
+    /// `across` n nᵀ + `along` (I − n nᵀ) with the normal n of a piece: a resistance to motion across it, and
+    /// along it.
     fn resistance(facet: Self::Facet, positions: &[[f64; D]], along: f64, across: f64) -> [[f64; D]; D];
 }
 
@@ -138,7 +143,8 @@ fn twice_triangle([a, b, c, _]: [[f64; 3]; 4]) -> [f64; 3] {
     cross(from_a(b), from_a(c))
 }
 
-/// Vector area ∫ n dA of a facet with these corners, outwards, m²: ½ Σ x_a × x_(a+1), exact also where it is not flat.
+/// Vector area ∫ n dA of a facet with these corners, outwards, m²: ½ Σ x_a × x_(a+1), exact also where it is
+/// not flat.
 #[must_use]
 pub fn vector_area(corners: [[f64; 3]; 4], is_triangle: bool) -> [f64; 3] {
     if is_triangle {
@@ -148,8 +154,8 @@ pub fn vector_area(corners: [[f64; 3]; 4], is_triangle: bool) -> [f64; 3] {
     cross(p, q).map(|n| 0.25 * n)
 }
 
-/// ∫ N_a n dA at each corner, m²: of a triangle a third of its vector area; else n₀ + ξ_a n₁ / 3 + η_a n₂ / 3 with n₀ = p × q, n₁ = p × r, n₂ = r × q from p = ∂x/∂ξ
-/// and q = ∂x/∂η at the middle and r = ∂²x/∂ξ∂η.
+/// ∫ N_a n dA at each corner, m²: of a triangle a third of its vector area; else n₀ + ξ_a n₁ / 3 + η_a n₂ / 3
+/// with n₀ = p × q, n₁ = p × r, n₂ = r × q from p = ∂x/∂ξ and q = ∂x/∂η at the middle and r = ∂²x/∂ξ∂η.
 #[must_use]
 pub fn vector_shares(corners: [[f64; 3]; 4], is_triangle: bool) -> [[f64; 3]; 4] {
     if is_triangle {
@@ -161,7 +167,8 @@ pub fn vector_shares(corners: [[f64; 3]; 4], is_triangle: bool) -> [[f64; 3]; 4]
     NATURAL.map(|[xi, eta]| std::array::from_fn(|d| (n0[d] + (xi * n1[d] + eta * n2[d]) / 3.0) / 16.0))
 }
 
-/// ∫ N_a dA at each corner, m²: of a triangle a third of its area; else by 2 × 2 points, exact where the facet is flat.
+/// ∫ N_a dA at each corner, m²: of a triangle a third of its area; else by 2 × 2 points, exact where the
+/// facet is flat.
 #[must_use]
 pub fn area_shares(corners: [[f64; 3]; 4], is_triangle: bool) -> [f64; 4] {
     if is_triangle {
@@ -219,7 +226,8 @@ mod tests {
     proptest! {
         #[test]
         fn a_closed_surface_under_pressure_feels_no_resultant_and_no_moment(shift in prop::collection::vec(-0.4..0.4_f64, 39)) {
-            // A hexahedron with a wedge on it and a tetrahedron on that: facets of both kinds, none of them flat.
+            // A hexahedron with a wedge on it and a tetrahedron on that: facets of both kinds, none of them
+            // flat.
             let cells = [
                 CellKind::Hexahedron.cell(&[0, 1, 2, 3, 4, 5, 6, 7]),
                 CellKind::Wedge.cell(&[4, 8, 5, 7, 9, 6]),

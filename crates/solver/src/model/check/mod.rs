@@ -1,8 +1,9 @@
 //! Everything that can be told about a model before it is meshed: numbers, names, references, contradictions.
 //!
-//! Data comes from [`Model`], whoever made it; ranges come from [`describe`] and the registries, so that they stand in one place. All faults
-//! are returned at once, each with the path of its key. Parts are in `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`.
-//! What is no fault and should be known all the same is in `warnings.rs`.
+//! Data comes from [`Model`], whoever made it; ranges come from [`describe`] and the registries, so that they
+//! stand in one place. All faults are returned at once, each with the path of its key. Parts are in
+//! `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`. What is no
+//! fault and should be known all the same is in `warnings.rs`.
 
 mod contact;
 mod discrete;
@@ -40,7 +41,8 @@ const NO_SURFACE: &str =
     "contact, obstacles and pressure see elements with an area only: name another part, or a strip of thin elements beside the bars";
 
 impl Model {
-    /// All faults that can be told without meshing; empty for a sound model. Paths are those of the model file, such as `part[0].ring.inner`.
+    /// All faults that can be told without meshing; empty for a sound model. Paths are those of the model
+    /// file, such as `part[0].ring.inner`.
     #[must_use]
     pub fn check(&self) -> Vec<Fault> {
         let mut check = Check { model: self, faults: Vec::new() };
@@ -353,7 +355,8 @@ impl Check<'_> {
         }
     }
 
-    /// Whether an unknown name may be one of a mesh that is not there: then its fault would only follow from the mesh's.
+    /// Whether an unknown name may be one of a mesh that is not there: then its fault would only follow from
+    /// the mesh's.
     fn may_be_missing(&self, name: &str) -> bool {
         let missing = |part: &&Part| matches!(part.shape, Shape::Group { mesh, .. } if mesh >= self.model.meshes.len());
         if !self.model.parts.iter().any(|part| missing(&part)) {
@@ -377,7 +380,8 @@ impl Check<'_> {
         }
     }
 
-    /// Parts of which a surface is meant (none: all): at least one must have one, and those that are named must.
+    /// Parts of which a surface is meant (none: all): at least one must have one, and those that are named
+    /// must.
     fn with_surface(&mut self, path: &str, parts: &[String]) {
         let model = self.model;
         for (index, name) in parts.iter().enumerate() {

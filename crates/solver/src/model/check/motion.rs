@@ -1,4 +1,5 @@
-//! Faults of what moves or is held: obstacles, rigid parts, constraints, and the curves that they follow. Loads are in `load.rs`.
+//! Faults of what moves or is held: obstacles, rigid parts, constraints, and the curves that they follow.
+//! Loads are in `load.rs`.
 
 use super::Check;
 use crate::contact::messages::OBSTACLE;

@@ -102,7 +102,8 @@ impl Check<'_> {
         }
     }
 
-    /// A flow stress that falls needs more stiffness against flow than a plate or a bar may have. At a point of a solid it has enough: that is a fault of the material.
+    /// A flow stress that falls needs more stiffness against flow than a plate or a bar may have. At a point
+    /// of a solid it has enough: that is a fault of the material.
     fn falling(&mut self, path: &str, part: &Part) {
         let Some(it) = self.model.materials.get(&part.material).filter(|_| part.rigid.is_none()) else { return };
         let Some(softening) = parameters(it).and_then(|parameters| material::softening(&it.law, &parameters)) else { return };
@@ -192,7 +193,8 @@ impl Check<'_> {
         self.placement(path, &part.placement);
     }
 
-    /// Parts of the plane and of space do not go together; nor does a sweep with what has no area, or is a solid as it is.
+    /// Parts of the plane and of space do not go together; nor does a sweep with what has no area, or is a
+    /// solid as it is.
     fn sweep(&mut self, path: &str, part: &Part) {
         let dimension = self.model.dimension();
         let known = |part: &&Part| !self.model.lacks_mesh(part);
@@ -397,7 +399,8 @@ fn made_of(kind: CellKind) -> String {
     format!("it is made of {}", if kind == CellKind::Line { "bars" } else { kind.facts().plural })
 }
 
-/// Memory that an element takes with its share of nodes, results and pictures, bytes: about, as measured (`docs/performance.md`, peak of a run of `quad4` and `j2`).
+/// Memory that an element takes with its share of nodes, results and pictures, bytes: about, as measured
+/// (`docs/performance.md`, peak of a run of `quad4` and `j2`).
 const BYTES_PER_ELEMENT: f64 = 600.0;
 
 impl Model {
@@ -411,7 +414,8 @@ impl Model {
         found.map_or(0, |it| it.cells.len() as u128).saturating_mul(layers as u128)
     }
 
-    /// The fault of a model that needs more memory than `limit`, bytes, which is what `whose` says: so many elements, 600 bytes each.
+    /// The fault of a model that needs more memory than `limit`, bytes, which is what `whose` says: so many
+    /// elements, 600 bytes each.
     #[must_use]
     pub fn memory_fault(&self, limit: f64, whose: &str) -> Option<Fault> {
         let counts = || self.parts.iter().map(|part| self.element_count(part) as f64);

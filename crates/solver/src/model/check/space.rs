@@ -1,4 +1,5 @@
-//! A model of space has nothing that only the plane knows: segments, circles, polylines, ends of lines. Told where they are written, before anything is meshed.
+//! A model of space has nothing that only the plane knows: segments, circles, polylines, ends of lines. Told
+//! where they are written, before anything is meshed.
 
 use super::Check;
 use crate::model::messages::NOT_IN_SPACE;

@@ -1,6 +1,8 @@
-//! What the user should know of a sound model: laws that soften, elements that lock, elements that do not hold a fluid.
+//! What the user should know of a sound model: laws that soften, elements that lock, elements that do not
+//! hold a fluid.
 //!
-//! Only what is certain before a run: a warning that is wrong once is read no more. What needs the mesh is told by `build/idle.rs`.
+//! Only what is certain before a run: a warning that is wrong once is read no more. What needs the mesh is
+//! told by `build/idle.rs`.
 
 use crate::block::stress_state::PLANE_STRESS;
 use crate::contact::messages::OPEN;
@@ -11,11 +13,13 @@ use crate::material::{self, Law, Null, Parameters};
 use crate::model::{Material, Model, ObstacleShape, Part, Shape, TriangleSurface};
 use crate::vector::place;
 
-/// From this Poisson's ratio on elements without averaged dilatation are too stiff for any use: K is fifty times µ.
+/// From this Poisson's ratio on elements without averaged dilatation are too stiff for any use: K is fifty
+/// times µ.
 const LOCKS: f64 = 0.49;
 
 impl Model {
-    /// What the user should know of a model without faults ([`Model::check`]), as far as it can be told without meshing; each thing once.
+    /// What the user should know of a model without faults ([`Model::check`]), as far as it can be told
+    /// without meshing; each thing once.
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
@@ -76,7 +80,8 @@ impl Model {
         })
     }
 
-    /// A fluid without viscosity in elements whose shape only shear stresses hold; a single row that flows along itself needs no such.
+    /// A fluid without viscosity in elements whose shape only shear stresses hold; a single row that flows
+    /// along itself needs no such.
     fn fluid(&self, index: usize, part: &Part, it: &Material) -> Option<Warning> {
         let element = [Quad4::KIND.name, Quad4Full::KIND.name].into_iter().find(|name| self.has_elements(part, name))?;
         let is_row = matches!(&part.shape, Shape::Rectangle(rectangle) if rectangle.elements.contains(&1));

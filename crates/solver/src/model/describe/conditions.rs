@@ -1,4 +1,5 @@
-//! The sections of the model file about what holds nodes and what acts on them: symmetry, constraints, joins, loads.
+//! The sections of the model file about what holds nodes and what acts on them: symmetry, constraints, joins,
+//! loads.
 
 use super::Kind::{Angle, Quantity, Reference, References, Spatial, Table};
 use super::Need::{Default, Optional, Required};

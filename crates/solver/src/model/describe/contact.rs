@@ -1,4 +1,5 @@
-//! The sections of the model file that say what bodies meet: contacts, obstacles, and the keys that both share, described once.
+//! The sections of the model file that say what bodies meet: contacts, obstacles, and the keys that both
+//! share, described once.
 
 use super::Kind::{Angle, Choice, Flag, Name, Points, Quantities, Quantity, Reference, References, Spatial, Stiffness, Table};
 use super::Need::{Default, Optional, Required};

@@ -1,8 +1,10 @@
-//! Every section and key of the model file, described once: name, kind of value, range, default, one line of explanation.
+//! Every section and key of the model file, described once: name, kind of value, range, default, one line of
+//! explanation.
 //!
-//! What a description is made of stands here; the descriptions are in `sections.rs` and, for contacts and obstacles, in `contact.rs`. Names to choose from
-//! come from the registries. The reader, the range checks, "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from them by
-//! iteration. A new key is one line there and its use in the builder of `embate-files`.
+//! What a description is made of stands here; the descriptions are in `sections.rs` and, for contacts and
+//! obstacles, in `contact.rs`. Names to choose from come from the registries. The reader, the range checks,
+//! "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from them by iteration. A
+//! new key is one line there and its use in the builder of `embate-files`.
 
 mod conditions;
 mod contact;
@@ -126,7 +128,8 @@ pub enum Kind {
     Motion,
     /// `true`, `false`, or such a table.
     Rigid,
-    /// A contact stiffness: per node in this dimension (with depth Pa = N/m/m, of solids N/m), or a pressure per depth (Pa/m).
+    /// A contact stiffness: per node in this dimension (with depth Pa = N/m/m, of solids N/m), or a pressure
+    /// per depth (Pa/m).
     Stiffness(Dimension, Range),
     /// A whole number that is not less than the minimum.
     Integer(u64),
@@ -215,7 +218,8 @@ pub fn section(name: &str) -> Option<&'static Section> {
     SECTIONS.iter().copied().find(|section| section.name == name)
 }
 
-/// The key at a path such as `part[0].ring.inner` or `run.end`; indices are ignored. Parameters of materials are not found here.
+/// The key at a path such as `part[0].ring.inner` or `run.end`; indices are ignored. Parameters of materials
+/// are not found here.
 #[must_use]
 pub fn find(path: &str) -> Option<&'static Key> {
     let mut steps = path.split('.').map(|step| step.split('[').next().unwrap_or(step));
@@ -275,7 +279,8 @@ const SENSE: &[(&str, f64, &str)] = &[
     ("thickness", 0.0, "it is the distance that the surfaces keep: below 0 they would go through each other"),
 ];
 
-/// What is wrong with a number outside its range, and what to do: `(message, help)`. `shown` is the value as the user wrote it.
+/// What is wrong with a number outside its range, and what to do: `(message, help)`. `shown` is the value as
+/// the user wrote it.
 #[must_use]
 pub fn out_of_range(name: &str, shown: &str, value: f64, range: Range) -> (String, String) {
     if value.is_nan() {

@@ -1,4 +1,5 @@
-//! The sections of the model file but those of contacts, obstacles and conditions: their keys, and where the names come from that a key chooses from.
+//! The sections of the model file but those of contacts, obstacles and conditions: their keys, and where the
+//! names come from that a key chooses from.
 
 use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, Spatial, Table, Text, Vector};
 use super::Need::{self, Default, Optional, Required};

@@ -1,5 +1,5 @@
-// The page's middle: runs, view, what happens, and which frame is on the screen. Parts of the page change the view
-// through `change`, and listen to `events`.
+// The page's middle: runs, view, what happens, and which frame is on the screen. Parts of the page change the
+// view through `change`, and listen to `events`.
 
 import type { Run, Runs } from "../types";
 import { Events } from "./events";

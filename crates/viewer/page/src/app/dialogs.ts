@@ -1,4 +1,5 @@
-// Dialogs: help with the keys, and the question before a run is stopped. Escape closes them; focus goes back by itself.
+// Dialogs: help with the keys, and the question before a run is stopped. Escape closes them; focus goes back
+// by itself.
 
 import { h } from "./dom";
 

@@ -1,4 +1,5 @@
-// Making elements of the page: one small function instead of a framework. Used by all other files of the page.
+// Making elements of the page: one small function instead of a framework. Used by all other files of the
+// page.
 
 type Value = string | number | boolean | null | undefined | ((event: never) => void);
 export type Child = Node | string | null | undefined | false;

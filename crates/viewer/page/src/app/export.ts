@@ -1,5 +1,5 @@
-// Export: the picture as PNG, the run as WebM, the values of a plot as CSV. Pictures are put together on a plain canvas:
-// title, time, each run's picture, legend.
+// Export: the picture as PNG, the run as WebM, the values of a plot as CSV. Pictures are put together on a
+// plain canvas: title, time, each run's picture, legend.
 
 import type { App } from "./app";
 import { show } from "./dialogs";
@@ -101,7 +101,8 @@ export async function film(app: App, stage: Stage, seconds: number, told: (part:
   const [first, last] = [times[0] ?? 0, times.at(-1) ?? 0];
   recorder.start(500);
   try {
-    // a picture at a time, each as long on the screen as its part of the run; recording pauses while a frame is read
+    // a picture at a time, each as long on the screen as its part of the run; recording pauses while a frame
+    // is read
     for (let i = 0; i < times.length && !left(); i++) {
       recorder.pause();
       app.change({ time: times[i]!, playing: false, follow: false });

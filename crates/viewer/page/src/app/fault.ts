@@ -1,4 +1,5 @@
-// The page that explains what is wrong when nothing can be shown: a folder that is no run, a server that refuses or is gone.
+// The page that explains what is wrong when nothing can be shown: a folder that is no run, a server that
+// refuses or is gone.
 
 import type { FaultyRun } from "../types";
 import { h, prose } from "./dom";

@@ -1,4 +1,5 @@
-// Numbers for people: SI prefixes (250 MPa, 3.2 mm), few digits, a real minus sign. Used by legend, plots, tables and time.
+// Numbers for people: SI prefixes (250 MPa, 3.2 mm), few digits, a real minus sign. Used by legend, plots,
+// tables and time.
 
 const PREFIXES: [number, string][] = [
   [1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"], [1e-12, "p"],

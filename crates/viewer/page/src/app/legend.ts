@@ -1,5 +1,5 @@
-// The legend: the quantity, its unit, and the bar of colours with round numbers. As elements beside the picture, and drawn
-// into exported pictures.
+// The legend: the quantity, its unit, and the bar of colours with round numbers. As elements beside the
+// picture, and drawn into exported pictures.
 
 import { colourAt } from "../colormap";
 import type { App } from "./app";

@@ -1,5 +1,6 @@
-// The connection to a run that is watched while it goes: progress, notices, the newest frame, and the commands that
-// the page may give. A frame is answered when it was drawn, so that a slow page gets fewer. Lost connections are tried again.
+// The connection to a run that is watched while it goes: progress, notices, the newest frame, and the
+// commands that the page may give. A frame is answered when it was drawn, so that a slow page gets fewer.
+// Lost connections are tried again.
 
 import { decodeFrame } from "../wire";
 import type { LiveMessage, Progress, Warning } from "../types";

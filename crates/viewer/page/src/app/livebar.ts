@@ -1,5 +1,6 @@
-// The bar of a run that is watched while it goes: how far it is, its step and what governs it, energy drift, time left, and
-// its buttons. At the end: what happened. Above it the banner of lost connections, and what the page has to say.
+// The bar of a run that is watched while it goes: how far it is, its step and what governs it, energy drift,
+// time left, and its buttons. At the end: what happened. Above it the banner of lost connections, and what
+// the page has to say.
 
 import type { App } from "./app";
 import { confirmStop } from "./dialogs";

@@ -1,5 +1,5 @@
-// One picture: the canvas of a run with its title, legend, probes and what is said when it can't be drawn. Keys on the
-// canvas turn and move it; a click without a movement sets a probe.
+// One picture: the canvas of a run with its title, legend, probes and what is said when it can't be drawn.
+// Keys on the canvas turn and move it; a click without a movement sets a probe.
 
 import type { Frame, Topology } from "../types";
 import { Viewport, type Pick } from "../viewport/viewport";

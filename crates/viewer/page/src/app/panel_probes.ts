@@ -1,4 +1,5 @@
-// Tab "Probes": nodes that the user chose, with the shown quantity now and over time, and the probes of the model.
+// Tab "Probes": nodes that the user chose, with the shown quantity now and over time, and the probes of the
+// model.
 
 import type { App } from "./app";
 import { LINES, PROBE_COLOURS } from "./colours";

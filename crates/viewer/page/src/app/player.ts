@@ -1,5 +1,5 @@
-// Which frame is on the screen: the nearest to the view's time of each run, or the newest of a live one. Reads frames
-// ahead, plays, and hands what is ready to the panes.
+// Which frame is on the screen: the nearest to the view's time of each run, or the newest of a live one.
+// Reads frames ahead, plays, and hands what is ready to the panes.
 
 import type { Frame } from "../types";
 import type { App } from "./app";

@@ -1,5 +1,6 @@
-// One plot over time (uPlot): lines or stacked areas, the present time as a vertical line, values at it in a list below.
-// A click moves the time, dragging magnifies, a double click shows all again. "CSV" saves what is plotted.
+// One plot over time (uPlot): lines or stacked areas, the present time as a vertical line, values at it in a
+// list below. A click moves the time, dragging magnifies, a double click shows all again. "CSV" saves what is
+// plotted.
 
 import uPlot from "uplot";
 import type { App } from "./app";

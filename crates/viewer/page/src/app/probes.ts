@@ -1,5 +1,5 @@
-// Probes: nodes whose value of the shown quantity is plotted. Set by a click in the picture or by number; their values
-// over time come from the server, once for each quantity, and again while a run grows.
+// Probes: nodes whose value of the shown quantity is plotted. Set by a click in the picture or by number;
+// their values over time come from the server, once for each quantity, and again while a run grows.
 
 import type { Probe, Topology } from "../types";
 import type { Pick } from "../viewport/viewport";

@@ -1,4 +1,5 @@
-// Light and dark: as the system says, or as chosen. The choice stands in `data-theme` of the document; colours are in theme.css.
+// Light and dark: as the system says, or as chosen. The choice stands in `data-theme` of the document;
+// colours are in theme.css.
 
 import type { Theme } from "./view";
 

@@ -1,5 +1,5 @@
-// The time bar: scrubber over the run's time, play, steps, loop, speed, and the time in words. While a run goes, the
-// part that is not there yet is seen as empty, and "follow" holds on to the newest.
+// The time bar: scrubber over the run's time, play, steps, loop, speed, and the time in words. While a run
+// goes, the part that is not there yet is seen as empty, and "follow" holds on to the newest.
 
 import type { App } from "./app";
 import { choice, h, iconButton, setText } from "./dom";

@@ -1,5 +1,5 @@
-// The bar at the top (run, quantity, export, link, theme, help, panel) and the tools beside the picture (fit, directions,
-// zoom, mesh lines, arrows).
+// The bar at the top (run, quantity, export, link, theme, help, panel) and the tools beside the picture (fit,
+// directions, zoom, mesh lines, arrows).
 
 import type { Direction } from "../viewport/viewport";
 import type { App } from "./app";

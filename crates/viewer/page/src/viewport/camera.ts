@@ -1,5 +1,6 @@
-// The camera's mathematics: an orthographic camera that is fitted, turned about the model's vertical, moved and brought
-// closer. Works in metres of the model; `viewport` hands the result to three and `controls` moves it.
+// The camera's mathematics: an orthographic camera that is fitted, turned about the model's vertical, moved
+// and brought closer. Works in metres of the model; `viewport` hands the result to three and `controls` moves
+// it.
 
 import { Matrix4, type OrthographicCamera, Vector3 } from "three";
 import type { Vector } from "../types";

@@ -1,4 +1,5 @@
-// Boxes around what is shown, in the tables' coordinates (minus the topology's origin), by which a picture is fitted.
+// Boxes around what is shown, in the tables' coordinates (minus the topology's origin), by which a picture is
+// fitted.
 
 import type { Vector } from "../types";
 

@@ -1,6 +1,6 @@
-// Rigid obstacles: in the plane a line with a hatched band on its solid side, in space translucent facets with their
-// borders and creases. They may move, so their points come with every frame; their connectivity is looked at only when
-// it is another.
+// Rigid obstacles: in the plane a line with a hatched band on its solid side, in space translucent facets
+// with their borders and creases. They may move, so their points come with every frame; their connectivity is
+// looked at only when it is another.
 
 import { type BufferGeometry, type RawShaderMaterial, type Texture } from "three";
 import type { Frame, Obstacles as Shapes, Vector } from "../types";

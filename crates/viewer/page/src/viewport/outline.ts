@@ -1,5 +1,6 @@
-// Which sides of facets are outlines: sides of one facet only, sides between two parts, and in space creases. The answer
-// stands in the highest bit of each corner: that of corner k for the side from it to the next. Read by `shaders`.
+// Which sides of facets are outlines: sides of one facet only, sides between two parts, and in space creases.
+// The answer stands in the highest bit of each corner: that of corner k for the side from it to the next.
+// Read by `shaders`.
 
 const MARK = 0x80000000;
 

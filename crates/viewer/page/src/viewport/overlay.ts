@@ -1,4 +1,5 @@
-// What stands over the bodies: marks of probes with their labels, the directions of the axes, a bar of known length.
+// What stands over the bodies: marks of probes with their labels, the directions of the axes, a bar of known
+// length.
 
 import type { Basis } from "./camera";
 import type { Theme } from "./stage";

@@ -1,5 +1,5 @@
-// What lies under the pointer, or nearest to it within some pixels: facets and bars are drawn once more, into a few pixels,
-// with their numbers as colours.
+// What lies under the pointer, or nearest to it within some pixels: facets and bars are drawn once more, into
+// a few pixels, with their numbers as colours.
 
 import { Group, Mesh, type OrthographicCamera, Scene, UnsignedByteType, WebGLRenderTarget, type WebGLRenderer } from "three";
 import type { Bars } from "./bars";

@@ -1,6 +1,6 @@
-// Programs of the GPU (GLSL ES 3.0). Vertices have no attributes: their number (`gl_VertexID`) leads through tables of
-// facets to nodes and from these to positions and values. Every program gets `COMMON` in front; names in capitals are
-// defined by the materials in `skin`, `bars`, `arrows`, `obstacles`.
+// Programs of the GPU (GLSL ES 3.0). Vertices have no attributes: their number (`gl_VertexID`) leads through
+// tables of facets to nodes and from these to positions and values. Every program gets `COMMON` in front;
+// names in capitals are defined by the materials in `skin`, `bars`, `arrows`, `obstacles`.
 
 /** Reading of tables; positions of nodes as shown. */
 const COMMON = /* glsl */ `
@@ -121,7 +121,8 @@ uniform float halfLine;
 uniform float halfOutline;
 vec2 linesOf() {
   bool triangle = (flags & 16) != 0;
-  // Distances to the sides 0-1, 1-2, 2-3, 3-0; of a triangle (0,0) (1,0) (1,1) the third is the diagonal and there is no fourth.
+  // Distances to the sides 0-1, 1-2, 2-3, 3-0; of a triangle (0,0) (1,0) (1,1) the third is the diagonal and
+  // there is no fourth.
   vec4 side = triangle ? vec4(corner.y, 1.0 - corner.x, corner.x - corner.y, 1e9) : vec4(corner.y, 1.0 - corner.x, 1.0 - corner.y, corner.x);
   vec2 dx = dFdx(corner), dy = dFdy(corner);
   float u = length(vec2(dx.x, dy.x)), v = length(vec2(dx.y, dy.y));

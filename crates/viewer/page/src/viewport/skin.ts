@@ -1,5 +1,6 @@
-// The skin of the bodies (in the plane: all cells) in its levels of detail, coloured by values or parts. Each level has a
-// table of its facets' corners and a list of vertex numbers without hidden parts. Also gives the program of the id pass.
+// The skin of the bodies (in the plane: all cells) in its levels of detail, coloured by values or parts. Each
+// level has a table of its facets' corners and a list of vertex numbers without hidden parts. Also gives the
+// program of the id pass.
 
 import { type BufferGeometry, type RawShaderMaterial } from "three";
 import type { Topology } from "../types";

@@ -1,6 +1,6 @@
-// What all drawn things share: the scene with one group per mirror image, the numbers (uniforms) that all programs read,
-// and layers: one geometry and material, drawn once per image. Built by `viewport`, used by `skin`, `bars`, `arrows`,
-// `obstacles`.
+// What all drawn things share: the scene with one group per mirror image, the numbers (uniforms) that all
+// programs read, and layers: one geometry and material, drawn once per image. Built by `viewport`, used by
+// `skin`, `bars`, `arrows`, `obstacles`.
 
 import {
   BufferAttribute,
@@ -173,7 +173,8 @@ export function makeMaterial(options: MaterialOptions): RawShaderMaterial {
     depthTest: depth,
     depthWrite: depth && (options.writesDepth ?? true),
     blending: options.blends === true ? CustomBlending : NoBlending,
-    // The picture is laid over the paper afterwards by its alpha, which must be the share of the paper that is covered.
+    // The picture is laid over the paper afterwards by its alpha, which must be the share of the paper that
+    // is covered.
     blendSrcAlpha: OneFactor,
     blendDstAlpha: OneMinusSrcAlphaFactor,
     transparent: options.late === true,

@@ -1,5 +1,6 @@
-// Tables of numbers on the GPU: textures of a fixed width that shaders read by row with `texelFetch`. A table grows when
-// more rows are needed and is never smaller than one row. Filled by `skin`, `arrows` and `obstacles`; read by `shaders`.
+// Tables of numbers on the GPU: textures of a fixed width that shaders read by row with `texelFetch`. A table
+// grows when more rows are needed and is never smaller than one row. Filled by `skin`, `arrows` and
+// `obstacles`; read by `shaders`.
 
 import {
   DataTexture,

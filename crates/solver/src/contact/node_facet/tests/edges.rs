@@ -1,4 +1,5 @@
-//! Edges against edges: bars that cross, momenta, energy, what slides from edge to edge, what leaves it to the nodes, and the search against all pairs.
+//! Edges against edges: bars that cross, momenta, energy, what slides from edge to edge, what leaves it to
+//! the nodes, and the search against all pairs.
 
 use super::*;
 use crate::contact::projection::edge_edge::distance;
@@ -6,7 +7,8 @@ use proptest::prelude::*;
 
 const R: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// A bar along x (or turned by a quarter about z along y) of square cross section, on edge: turned by 45 degrees about its axis; its middle is at `middle`.
+/// A bar along x (or turned by a quarter about z along y) of square cross section, on edge: turned by 45
+/// degrees about its axis; its middle is at `middle`.
 fn bar(cells: usize, along: usize, middle: Vector) -> Blocks {
     bar_of(3.0, cells, along, middle)
 }
@@ -69,7 +71,8 @@ fn bars_that_cross_on_edge_come_back_and_go_through_each_other_with_nodes_alone(
 
 #[test]
 fn a_bar_on_edge_is_held_by_a_flat_one_that_is_narrower_than_its_elements() {
-    // The ridge of the upper bar comes down on the face of the lower one, between the nodes of both; and the other way round.
+    // The ridge of the upper bar comes down on the face of the lower one, between the nodes of both; and the
+    // other way round.
     for turned in [false, true] {
         for friction in [0.0, 0.3] {
             let flat = grid([-0.1, -1.5, -0.1], [0.2, 0.6, 0.2], [1, 5, 1], |_| true);
@@ -121,7 +124,8 @@ fn bars_that_cross_come_back_wherever_their_nodes_are() {
 
 #[test]
 fn what_slides_along_edges_goes_from_edge_to_edge_with_its_energy() {
-    // A rigidly held bar below, and one above that is pulled down and slides along it over its nodes, and over its own.
+    // A rigidly held bar below, and one above that is pulled down and slides along it over its nodes, and
+    // over its own.
     let (upper, lower) = (bar(9, 0, [-0.9, -0.8, 2.0 * R * 0.2 + 0.01]), bar(12, 1, [0.0; 3]));
     let first = upper.positions.len();
     let recipe = Recipe { held: true, dt: 2e-3, ..bars(true, 0.0, 2e3) };

@@ -1,9 +1,11 @@
 //! Where the balls under a surface in space are, and how large.
 //!
-//! A facet over an element of the height h gets one ball at the mean of its nodes where the element is a cube. Of a facet with four nodes and the edges L₁, L₂, s = min(h, L₁, L₂), there are
-//! n₁ × n₂ with n = round(L/s) and R ≤ ½ s, each at its depth; of a triangle with the inner radius r there are m² with m = round(2 √2 r/h) ≥ 1 and R ≤ ½ min(h, 2 √2 r/m): on equal
-//! equilateral triangles a ball of the same size comes as near between six of them as between four of a square.
-//! The ball touches the facet from inside, and sticks out of no other facet of the surface at the same nodes: at rims it is smaller.
+//! A facet over an element of the height h gets one ball at the mean of its nodes where the element is a
+//! cube. Of a facet with four nodes and the edges L₁, L₂, s = min(h, L₁, L₂), there are n₁ × n₂ with
+//! n = round(L/s) and R ≤ ½ s, each at its depth; of a triangle with the inner radius r there are m² with
+//! m = round(2 √2 r/h) ≥ 1 and R ≤ ½ min(h, 2 √2 r/m): on equal equilateral triangles a ball of the same size
+//! comes as near between six of them as between four of a square. The ball touches the facet from inside, and
+//! sticks out of no other facet of the surface at the same nodes: at rims it is smaller.
 
 use super::{Ball, Corners, Layer, Placed, Vector, cross, dot, length, minus};
 use crate::mesh::cell::Cell;
@@ -105,12 +107,14 @@ fn balls_of_facet(placed: &Placed<'_>, facet: u32, cell: Cell<'_>, stiffness: f6
     places.iter().map(ball).filter(|ball| ball.radius > 0.0).collect()
 }
 
-/// Shares of the corners where balls are over a facet of four nodes, and the most that their diameter may be, m.
+/// Shares of the corners where balls are over a facet of four nodes, and the most that their diameter may be,
+/// m.
 fn of_square(corners: &[u32], x: &impl Fn(u32) -> Vector, height: f64) -> (Vec<Vec<f64>>, f64) {
     let edge = |k: usize| length(minus(x(corners[(k + 1) % 4]), x(corners[k])));
     let sides = [0.5 * (edge(0) + edge(2)), 0.5 * (edge(1) + edge(3))];
     let least = height.min(sides[0]).min(sides[1]);
-    // A little less, so that round-off does not give equal elements with L/s = 1.5 one ball here and two there.
+    // A little less, so that round-off does not give equal elements with L/s = 1.5 one ball here and two
+    // there.
     let counts = sides.map(|side| (side / least - 1e-6).round().clamp(1.0, MOST));
     let size = height.min(sides[0] / counts[0]).min(sides[1] / counts[1]);
     let place = |k: usize| {

@@ -76,7 +76,8 @@ fn balls_of_every_element_touch_their_facets_and_stick_out_of_none() {
                 assert!((room(ball) / ball.radius - 1.0).abs() < 1e-8, "{nodes} {size:?}: {ball:?} has {}", room(ball));
                 assert!(ball.shares.iter().all(|&share| share >= 0.0));
             }
-            // Every place on the surface has a ball of its element below it: a ball as large as the largest comes no nearer than what the head of the geometry says, at rims less.
+            // Every place on the surface has a ball of its element below it: a ball as large as the largest
+            // comes no nearer than what the head of the geometry says, at rims less.
             let largest = balls.iter().map(|ball| ball.radius).fold(0.0, f64::max);
             let mut deepest = 0.0_f64;
             for k in 0..400 {

@@ -3,7 +3,8 @@ use crate::mesh::cell::CellKind;
 use crate::mesh::surface::Surface;
 use proptest::prelude::*;
 
-/// A grid of hexahedra with some left out, its nodes moved a little: (surface, positions). `flat`: nodes stay.
+/// A grid of hexahedra with some left out, its nodes moved a little: (surface, positions). `flat`: nodes
+/// stay.
 fn blocks(count: [usize; 3], is_there: impl Fn([usize; 3]) -> bool, shift: impl Fn(usize) -> Vector) -> (SpaceSurface, Vec<Vector>) {
     let [nx, ny, nz] = count;
     let node = |i: usize, j: usize, k: usize| ((k * (ny + 1) + j) * (nx + 1) + i) as u32;
@@ -191,8 +192,9 @@ fn an_open_surface_meets_what_is_over_it_and_nothing_beside_it() {
     assert!((flush.gap + 0.1).abs() < 1e-15 && flush.normal == [0.0, 0.0, 1.0]);
 }
 
-/// A block of 4 × 2 × 4 hexahedra, symmetric in x = 0 and z = 0: the surface of all of it, that of the quarter x ≥ 0, z ≥ 0 with its symmetry planes, and positions. `there` tells which
-/// hexahedra of the quarter are there, `shift` how its nodes are moved.
+/// A block of 4 × 2 × 4 hexahedra, symmetric in x = 0 and z = 0: the surface of all of it, that of the
+/// quarter x ≥ 0, z ≥ 0 with its symmetry planes, and positions. `there` tells which hexahedra of the quarter
+/// are there, `shift` how its nodes are moved.
 fn whole_and_quarter(
     there: impl Fn([usize; 3]) -> bool,
     shift: impl Fn([usize; 3]) -> Vector,

@@ -1,7 +1,9 @@
-//! The comparisons of `grid`, eight boxes at a time: slave groups with facet groups, then their nodes with the facets in them.
+//! The comparisons of `grid`, eight boxes at a time: slave groups with facet groups, then their nodes with
+//! the facets in them.
 //!
-//! What the grid laid out for a few slave groups comes in, facets that each node meets go out. Lists are filled without branches on what was
-//! compared: each entry is written, and the next overwrites it unless it counts. Loops stand where closures would not be compiled for the instruction set.
+//! What the grid laid out for a few slave groups comes in, facets that each node meets go out. Lists are
+//! filled without branches on what was compared: each entry is written, and the next overwrites it unless it
+//! counts. Loops stand where closures would not be compiled for the instruction set.
 
 use super::worker::SlaveGroup;
 use super::{GROUP, Group};

@@ -1,4 +1,5 @@
-//! What `grid` takes in: hulls of facets and paths of slave nodes, eight at a time, and groups of those that lie together.
+//! What `grid` takes in: hulls of facets and paths of slave nodes, eight at a time, and groups of those that
+//! lie together.
 
 use super::worker::SlaveGroup;
 use super::{GROUP, Group};

@@ -1,6 +1,8 @@
-//! The slave nodes' side of `grid`: takes them together in groups, looks around in the cells, and writes the pairs.
+//! The slave nodes' side of `grid`: takes them together in groups, looks around in the cells, and writes the
+//! pairs.
 //!
-//! Several workers may look at the same cells at once, each with a share of the slave nodes; what they find together does not depend on the shares.
+//! Several workers may look at the same cells at once, each with a share of the slave nodes; what they find
+//! together does not depend on the shares.
 
 use super::compare::{Compare, Look, Meeting, Scratch};
 use super::gather::Slaves;
@@ -92,7 +94,8 @@ impl<const D: usize> Worker<D> {
         instructions.run(Look { slaves: &mut slaves[..*used], pieces, sorted, order, unbounded, found, scratch });
     }
 
-    /// Writes the pairs of the slave groups with the facets of the groups that they found, from `written` on; returns where they end.
+    /// Writes the pairs of the slave groups with the facets of the groups that they found, from `written` on;
+    /// returns where they end.
     fn compare(&mut self, cells: &Cells<D>, query: &Query<'_, D>, pairs: &mut Vec<Pair>, mut written: usize) -> usize {
         let Self { slaves, used, found, scratch, meetings, .. } = self;
         let Cells { instructions, groups, facets, .. } = cells;
@@ -118,7 +121,8 @@ impl<const D: usize> Worker<D> {
         }
     }
 
-    /// Adds the pieces of `sorted` in which one level's groups lie that may meet the box of a group of slave nodes.
+    /// Adds the pieces of `sorted` in which one level's groups lie that may meet the box of a group of slave
+    /// nodes.
     fn look_at(&mut self, cells: &Cells<D>, level: usize, slaves: usize) {
         let (begin, pieces) = (&cells.begin, &mut self.pieces);
         let (level, extent) = (&cells.levels[level], &self.slaves[slaves].extent);

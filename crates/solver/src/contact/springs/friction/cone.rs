@@ -1,13 +1,18 @@
 //! Friction in space: Coulomb's cone by return mapping in the tangent plane, and ties along both tangents.
 //!
-//! As in the plane ([`super`]) the slip s is elastic up to T = −k m with the mean slip of the update m = s^{n−½} + ½ Δs, ½ Δs = q (ṡ^{n−½} + ṡ_free + C T), where the compliance C is a
-//! symmetric 2 × 2 matrix. Where |T| would exceed T_max it is T = −T_max d, in the direction d of the mean slip itself: with m₀ = s + q (ṡ^{n−½} + ṡ_free) and λ = |m|
+//! As in the plane ([`super`]) the slip s is elastic up to T = −k m with the mean slip of the update
+//! m = s^{n−½} + ½ Δs, ½ Δs = q (ṡ^{n−½} + ṡ_free + C T), where the compliance C is a symmetric 2 × 2 matrix.
+//! Where |T| would exceed T_max it is T = −T_max d, in the direction d of the mean slip itself: with m₀ = s +
+//! q (ṡ^{n−½} + ṡ_free) and λ = |m|
 //!
 //! (λ I + T_max q C) d = m₀,   |d| = 1,
 //!
-//! one equation for λ on the axes of C, which falls and is solved by Newton's method on 1/|d| from T_max/k on (Moré and Sorensen 1983). The elastic slip s^{n+½} is that of s + Δs within
-//! T_max/k. Then −T·Δs ≥ ½ k (|s^{n+½}|² − |s^{n−½}|²) for any C, slip and step: what slides never gains. (With e = T_max/k ≤ λ, σ = s·d the loss over k is 2 (e − λ)(λ − σ) with λ ≤ σ where s + Δs is
-//! inside, and at least 2 (λ − e)(σ − λ), ½ (σ² − e²) or (e − σ)(3e − σ)/2 for σ beyond λ, between, below e where it is not.) What sticks gives back exactly what it took.
+//! one equation for λ on the axes of C, which falls and is solved by Newton's method on 1/|d| from T_max/k on
+//! (Moré and Sorensen 1983). The elastic slip s^{n+½} is that of s + Δs within T_max/k. Then −T·Δs ≥ ½ k
+//! (|s^{n+½}|² − |s^{n−½}|²) for any C, slip and step: what slides never gains. (With e = T_max/k ≤ λ,
+//! σ = s·d the loss over k is 2 (e − λ)(λ − σ) with λ ≤ σ where s + Δs is inside, and at least 2 (λ − e)(σ −
+//! λ), ½ (σ² − e²) or (e − σ)(3e − σ)/2 for σ beyond λ, between, below e where it is not.) What sticks gives
+//! back exactly what it took.
 
 use super::{Slid, Stick};
 use crate::contact::springs::TangentSpace;
@@ -38,7 +43,8 @@ fn back([x, y]: [f64; 2], v: [f64; 2]) -> [f64; 2] {
     [x * v[0] - y * v[1], y * v[0] + x * v[1]]
 }
 
-/// The unit vector d with (λ I + limit · diag(`give`)) d = `along` for the λ ≥ `least` where there is one; its length is more than one at `least`.
+/// The unit vector d with (λ I + limit · diag(`give`)) d = `along` for the λ ≥ `least` where there is one;
+/// its length is more than one at `least`.
 fn direction(along: [f64; 2], give: [f64; 2], limit: f64, mut least: f64) -> [f64; 2] {
     let at = |lambda: f64| [0, 1].map(|k| if along[k] == 0.0 { 0.0 } else { along[k] / (lambda + limit * give[k]) });
     for _ in 0..STEPS {
@@ -91,8 +97,9 @@ pub fn slide(stick: &Stick<3>, slip: [f64; 2], limit: f64) -> Slid<3> {
     Slid { friction, slip: if slides { Dim::<3>::within(slip_new, elastic) } else { slip_new }, slides }
 }
 
-/// The direction p across a friction that slides, and the change of the slip rate along p per friction along p: d and with it T turn with the mean slip, as a spring of the stiffness
-/// T_max / λ would have them do. `None` where nothing slides.
+/// The direction p across a friction that slides, and the change of the slip rate along p per friction along
+/// p: d and with it T turn with the mean slip, as a spring of the stiffness T_max / λ would have them do.
+/// `None` where nothing slides.
 #[must_use]
 pub fn lateral_compliance(stick: &Stick<3>, slip: [f64; 2], friction: &[f64; 2]) -> Option<([f64; 2], f64)> {
     let Stick { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
@@ -110,7 +117,8 @@ pub fn lateral_compliance(stick: &Stick<3>, slip: [f64; 2], friction: &[f64; 2])
     Some(([-friction[1] / size, friction[0] / size], softness))
 }
 
-/// Force of a tie on the slip `slip` (m, at n): springs that pull both ways, or with an infinite stiffness what ends the slip in one step.
+/// Force of a tie on the slip `slip` (m, at n): springs that pull both ways, or with an infinite stiffness
+/// what ends the slip in one step.
 #[must_use]
 pub fn tie(stick: &Stick<3>, slip: [f64; 2]) -> [f64; 2] {
     let Stick { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
@@ -126,7 +134,8 @@ pub fn tie(stick: &Stick<3>, slip: [f64; 2]) -> [f64; 2] {
     back(axis, [0, 1].map(|k| -0.5 * stiffness * sum[k] / (1.0 + 0.25 * stiffness * after * give[k])))
 }
 
-/// Components along two tangents of an elastic slip (m) that lay along another plane: turned the shortest way, so that it keeps its length and its energy.
+/// Components along two tangents of an elastic slip (m) that lay along another plane: turned the shortest
+/// way, so that it keeps its length and its energy.
 #[must_use]
 pub fn carried(slip: [f64; 3], to: [[f64; 3]; 2]) -> [f64; 2] {
     let seen = to.map(|tangent| dot(tangent, slip));

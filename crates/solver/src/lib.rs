@@ -1,4 +1,5 @@
-//! The method: explicit central differences, finite elements, contact. No files, no printing, no global state.
+//! The method: explicit central differences, finite elements, contact. No files, no printing, no global
+//! state.
 //!
 //! The contents are listed in the order in which the data walks through them.
 
@@ -32,6 +33,7 @@ pub mod assembly;
 pub mod step;
 pub mod build;
 mod culprit;
+mod field;
 mod showing;
 pub mod body_columns;
 mod record;

@@ -1,13 +1,15 @@
-//! What a run can show: the cells once, a frame per output time, a row of the history, the summary at the end.
-//! Values only, no formats; goes to the writers of `embate-files`.
+//! What a run can show: the cells once, a frame per output time, a row of the history, the summary at the
+//! end. Values only, no formats; goes to the writers of `embate-files`.
 
 use crate::contact::tracker::Certificate;
 use crate::error::Notice;
+use crate::field::{self, Source};
 use crate::material::Variable;
 pub use crate::mesh::cell::CellKind;
 pub use crate::outline::Outline;
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::LazyLock;
 
 /// The cells of all parts; does not change during a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,13 +53,14 @@ pub enum Location {
     Cell,
 }
 
-/// What a model must have for a field to say something; without it the field is left out unless it is asked for.
+/// What a model must have for a field to say something; without it the field is left out unless it is asked
+/// for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Needs {
     /// Nothing.
     Nothing,
     /// A material with this history variable.
-    History(Variable),
+    History(&'static Variable),
     /// A contact or an obstacle.
     Contact,
     /// A contact or an obstacle with friction.
@@ -67,7 +70,7 @@ pub enum Needs {
 }
 
 /// Description of a field: the same for all its frames.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct FieldKind {
     /// Name in files, `plastic_strain` for example.
     pub name: &'static str,
@@ -81,6 +84,15 @@ pub struct FieldKind {
     pub needs: Needs,
     /// One line: what it is.
     pub doc: &'static str,
+    /// Where its values come from.
+    pub(crate) source: Source,
+}
+
+/// Fields of the same name and components, thus of the same dimension, are the same.
+impl PartialEq for FieldKind {
+    fn eq(&self, other: &Self) -> bool {
+        (self.name, self.components) == (other.name, other.components)
+    }
 }
 
 impl FieldKind {
@@ -144,8 +156,9 @@ impl Frame {
     }
 }
 
-/// A state at an output time, to be taken piece by piece: nodes and cells in the user's order, fields in that of [`FIELDS`]. A [`Frame`] has all of it in memory, a
-/// running simulation makes each piece when it is asked for.
+/// A state at an output time, to be taken piece by piece: nodes and cells in the user's order, fields in that
+/// of [`FIELDS`]. A [`Frame`] has all of it in memory, a running simulation makes each piece when it is asked
+/// for.
 pub trait Shown: Sync {
     /// Time, s.
     fn time(&self) -> f64;
@@ -217,116 +230,18 @@ fn put(all: &[f64], width: usize, places: Range<usize>, values: &mut Vec<f64>) {
     values.extend_from_slice(&all[width * places.start..width * places.end]);
 }
 
-/// What a dimension means for fields: the components of a vector and of a stress (in the plane with the normal stress out of it), and what contact forces are in.
-struct Forms {
-    vector: &'static [&'static str],
-    stress: &'static [&'static str],
-    force: &'static str,
-}
-
-const IN_THE_PLANE: Forms = Forms { vector: &["x", "y"], stress: &["xx", "yy", "zz", "xy"], force: "N/m" };
-const IN_SPACE: Forms = Forms { vector: &["x", "y", "z"], stress: &["xx", "yy", "zz", "xy", "yz", "zx"], force: "N" };
-
-/// A field at the nodes.
-const fn at_nodes(
-    name: &'static str,
-    components: &'static [&'static str],
-    unit: &'static str,
-    needs: Needs,
-    doc: &'static str,
-) -> FieldKind {
-    FieldKind { name, location: Location::Node, components, unit, needs, doc }
-}
-
-/// A field at the cells.
-const fn at_cells(
-    name: &'static str,
-    components: &'static [&'static str],
-    unit: &'static str,
-    needs: Needs,
-    doc: &'static str,
-) -> FieldKind {
-    FieldKind { name, location: Location::Cell, components, unit, needs, doc }
-}
-
-/// Every field that can be written, of models of the plane.
-pub static FIELDS: &[FieldKind] = &fields(&IN_THE_PLANE);
-/// The same of models of space.
-pub static FIELDS_IN_SPACE: &[FieldKind] = &fields(&IN_SPACE);
+/// Every field that can be written, of 2D models.
+pub static FIELDS: LazyLock<Vec<FieldKind>> = LazyLock::new(|| field::kinds(2));
+/// The same of 3D models.
+pub static FIELDS_IN_SPACE: LazyLock<Vec<FieldKind>> = LazyLock::new(|| field::kinds(3));
 
 /// The fields of a dimension.
 #[must_use]
 pub fn fields_of(dimension: usize) -> &'static [FieldKind] {
-    if dimension == 3 { FIELDS_IN_SPACE } else { FIELDS }
+    if dimension == 3 { &FIELDS_IN_SPACE } else { &FIELDS }
 }
 
-const fn fields(forms: &Forms) -> [FieldKind; 18] {
-    let Forms { vector, stress, force } = *forms;
-    [
-        at_nodes("displacement", vector, "m", Needs::Nothing, "current minus initial position"),
-        at_nodes("velocity", vector, "m/s", Needs::Nothing, "velocity at the frame's time"),
-        at_nodes(
-            "contact_force",
-            vector,
-            force,
-            Needs::Contact,
-            "sum of the contact and obstacle forces on the node, per metre of depth (of an axisymmetric model in N, all around)",
-        ),
-        at_nodes(
-            "contact_pressure",
-            &[],
-            "Pa",
-            Needs::Contact,
-            "normal part of the contact force over the node's current length (of an axisymmetric model area) of surface",
-        ),
-        at_nodes("contact_shear", &[], "Pa", Needs::Friction, "tangential part, along the surface with the body on its right"),
-        at_nodes(
-            "contact_gap",
-            &[],
-            "m",
-            Needs::Contact,
-            "distance from what is opposite, negative where it penetrates (inside a body where no node holds it: minus the distance to its surface when the bodies were last looked at); not a number where nothing is near",
-        ),
-        at_nodes("contact_slip", &[], "m", Needs::Contact, "distance that the surfaces have slid on each other"),
-        at_nodes("contact_status", &[], "", Needs::Contact, "0 open, 1 stick, 2 slip (closed without friction counts as slip)"),
-        at_nodes("friction_heat", &[], "J/m^2", Needs::Friction, "friction work so far, half of it on either surface, per initial surface"),
-        at_cells("stress", stress, "Pa", Needs::Nothing, "Cauchy stress, mean over the element's points"),
-        at_cells("von_mises", &[], "Pa", Needs::Nothing, "equivalent stress √(3/2 s:s) of the mean stress"),
-        at_cells("pressure", &[], "Pa", Needs::Nothing, "minus a third of the stress trace"),
-        at_cells(
-            "plastic_strain",
-            &[],
-            "",
-            Needs::History(Variable::PlasticStrain),
-            "equivalent plastic strain, mean over the element's points",
-        ),
-        at_cells(
-            "temperature",
-            &[],
-            "K",
-            Needs::History(Variable::Temperature),
-            "temperature, mean over the element's points; 0 where the material has none",
-        ),
-        at_cells("damage", &[], "", Needs::History(Variable::Damage), "damage, 1 at failure, mean over the element's points"),
-        at_cells(
-            "alive",
-            &[],
-            "",
-            Needs::Failure,
-            "1 where the element is there, 0 where it was eroded: then its other values are those when it failed",
-        ),
-        at_cells(
-            "density",
-            &[],
-            "kg/m^3",
-            Needs::History(Variable::Density),
-            "density of materials with an equation of state, 0 for others",
-        ),
-        at_cells("energy_density", &[], "J/m^3", Needs::Nothing, "stored elastic energy per initial volume"),
-    ]
-}
-
-/// Position of a field in [`FIELDS`] by name.
+/// The field of 2D models called `name`.
 #[must_use]
 pub fn field_kind(name: &str) -> Option<&'static FieldKind> {
     FIELDS.iter().find(|kind| kind.name == name)
@@ -358,7 +273,8 @@ pub struct Erosion {
     pub first: Eroded,
 }
 
-/// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of each.
+/// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of
+/// each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     /// Components of a position: 2 in the plane, 3 in space.
@@ -383,7 +299,8 @@ pub struct Summary {
     pub ledger_residual: f64,
     /// Change of linear momentum over Σ m|v|; `None` where something is held or driven, or loads act.
     pub momentum_drift_linear: Option<f64>,
-    /// Change of angular momentum about the centre of mass at the start c, over Σ m|x − c||v|; `None` where something is held or driven, or loads act.
+    /// Change of angular momentum about the centre of mass at the start c, over Σ m|x − c||v|; `None` where
+    /// something is held or driven, or loads act.
     pub momentum_drift_angular: Option<f64>,
     /// Deepest penetration seen in any contact or obstacle, m.
     pub penetration_max: f64,

@@ -1,4 +1,5 @@
-//! What is recorded of a system: which fields (`showing` has their values), history rows, momentum, the state hash. Values only; formats are elsewhere.
+//! What is recorded of a system: which fields (`showing` has their values), history rows, momentum, the state
+//! hash. Values only; formats are elsewhere.
 
 use crate::archive::{Archive, Keep, Kept};
 use crate::body_columns::BodyColumns;
@@ -6,7 +7,9 @@ use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
 use crate::dimension::Dimension;
 use crate::error::Fault;
+use crate::field::{ALIVE, VON_MISES};
 use crate::hash::Fnv;
+use crate::material::variable::PLASTIC_STRAIN;
 use crate::mesh::ElementGroup;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Model, ProbeAt};
@@ -71,8 +74,8 @@ impl Recorded {
                 Needs::Failure => has_failure,
             };
             // Pictures fall back on these two.
-            let pictured = model.output.pictures && (kind.name == "von_mises" || (kind.name == "plastic_strain" && sensible));
-            let pictured = pictured || (model.output.pictures && kind.name == "alive" && has_failure);
+            let pictured = model.output.pictures && (kind.name == VON_MISES.name || (kind.name == PLASTIC_STRAIN.name && sensible));
+            let pictured = pictured || (model.output.pictures && kind.name == ALIVE.name && has_failure);
             named || pictured || (include.is_empty() && sensible)
         };
         let fields = fields_of(D).iter().filter(wanted).collect();
@@ -250,7 +253,8 @@ where
     cells
 }
 
-/// FNV-1a hash (64 bit) of the bits of all positions and velocities v^{n+1/2}, node by node, then of the obstacles that move; hexadecimal.
+/// FNV-1a hash (64 bit) of the bits of all positions and velocities v^{n+1/2}, node by node, then of the
+/// obstacles that move; hexadecimal.
 pub(crate) fn state_hash<const D: usize>(system: &System<D>) -> String
 where
     Dim<D>: Dimension<D> + BodyColumns<D>,
@@ -258,7 +262,8 @@ where
     let mut hash = Fnv::default();
     let moving = system.bodies.iter().filter(|body| !body.of_elements && !body.is_fixed());
     let states = moving.flat_map(<Dim<D>>::numbers);
-    // Nodes in the order of the curve, then those of obstacles: as they are numbered only for speed, that is no matter here.
+    // Nodes in the order of the curve, then those of obstacles: as they are numbered only for speed, that is
+    // no matter here.
     let nodes = || system.mesh.along_curve().chain(system.mesh.user_nodes.len()..system.positions.len());
     let positions = nodes().flat_map(|node| system.positions[node]);
     let velocities = nodes().flat_map(|node| system.velocities[node]);
@@ -271,7 +276,8 @@ where
 /// Linear and angular momentum of a model on which nothing acts from outside.
 pub(crate) struct Momentum<const D: usize> {
     start: Moments<D>,
-    /// The centre of mass at the start, m: about it the angular momentum is measured, far from the origin too.
+    /// The centre of mass at the start, m: about it the angular momentum is measured, far from the origin
+    /// too.
     centre: [f64; D],
     drift: [f64; 2],
     /// Whether x is a radius: forces around the axis cancel, and only what goes along it is kept.
@@ -350,7 +356,8 @@ impl<const D: usize> Moments<D>
 where
     Dim<D>: Dimension<D> + BodyColumns<D>,
 {
-    /// Σ m v^{n+1/2} and Σ m (x^n − c) × v^{n+1/2} + Σ I ω^{n+1/2} about a point c: the latter is the one that central differences keep exactly.
+    /// Σ m v^{n+1/2} and Σ m (x^n − c) × v^{n+1/2} + Σ I ω^{n+1/2} about a point c: the latter is the one
+    /// that central differences keep exactly.
     fn of(system: &System<D>, centre: [f64; D]) -> Self {
         let mut sum = Self { linear: [0.0; D], angular: [0.0; 3], scale: [0.0; 2] };
         for (node, ((&m, x), v)) in (0..).zip(system.mass.iter().zip(&system.positions).zip(&system.velocities)) {
@@ -376,7 +383,8 @@ where
     }
 }
 
-/// Centre of the masses that `Moments` counts, m; seen from the first node, so that far from the origin no digits are lost.
+/// Centre of the masses that `Moments` counts, m; seen from the first node, so that far from the origin no
+/// digits are lost.
 fn centre_of_mass<const D: usize>(system: &System<D>) -> [f64; D]
 where
     Dim<D>: Dimension<D> + BodyColumns<D>,

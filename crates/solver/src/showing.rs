@@ -1,17 +1,18 @@
-//! A system as it is shown at an output time: positions and fields, in the user's order, piece by piece, so that a large model is never there a second time.
+//! A system as it is shown at an output time: positions and fields, in the user's order, piece by piece, so
+//! that a large model is never there a second time.
 //!
-//! What is shown is asked for by the writers of files ([`Shown`]), or put into a [`Frame`] as a whole; `record` knows which fields there are.
+//! What is shown is asked for by the writers of files ([`Shown`]), or put into a [`Frame`] as a whole;
+//! `record` knows which fields there are.
 
 use crate::block::ElementState;
 use crate::contact::traces::Tractions;
 use crate::contact::traces::{State, Traces};
 use crate::dimension::Dimension;
-use crate::material::Variable;
+use crate::field::{Cell, NodeFields, OfCell, OfNode, Source};
 use crate::mesh::ElementGroup;
 use crate::output::{Field, FieldKind, Frame, Location, Shown};
 use crate::step::System;
-use crate::tensor::{Dim, von_mises};
-use crate::vector::minus;
+use crate::tensor::Dim;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -24,7 +25,7 @@ pub(crate) struct Showing<'a, const D: usize>
 where
     Dim<D>: Dimension<D>,
 {
-    system: &'a System<D>,
+    pub(crate) system: &'a System<D>,
     fields: &'a [&'static FieldKind],
     /// Node of each of the user's numbers.
     nodes: OnceLock<Vec<u32>>,
@@ -62,41 +63,48 @@ where
         })
     }
 
-    /// Values of nodes by the user's numbers.
-    fn by_node<const N: usize>(&self, users: Range<usize>, values: &mut Vec<f64>, value: impl Fn(usize) -> [f64; N]) {
+    /// Pressure and shear stress of a node, Pa; zero where it is on no surface.
+    pub(crate) fn traction(&self, node: usize) -> [f64; 2] {
+        let system = self.system;
+        let of = || <Dim<D>>::tractions(&system.traces, &system.contact_forces, &system.positions);
+        self.tractions.get_or_init(of).get(node).copied().unwrap_or_default()
+    }
+
+    /// Gap and status of a node in contact.
+    pub(crate) fn contact_state(&self, node: usize) -> State {
+        let system = self.system;
+        let of =
+            || Traces::states(&system.springs, system.mesh.user_nodes.len(), system.contacts.iter().flat_map(|contact| contact.inside()));
+        self.states.get_or_init(of).get(node).copied().unwrap_or(State::OPEN)
+    }
+
+    /// Values of nodes by the user's numbers, `width` for each.
+    fn by_node(&self, users: Range<usize>, width: usize, values: &mut Vec<f64>, value: impl Fn(usize, &mut [f64])) {
         let nodes = self.nodes.get_or_init(|| {
             let mut nodes = vec![0; self.system.mesh.user_nodes.len()];
             (0..).zip(&self.system.mesh.user_nodes).for_each(|(node, &user)| nodes[user as usize] = node);
             nodes
         });
-        values.resize(N * users.len(), 0.0);
-        values.as_chunks_mut().0.iter_mut().zip(&nodes[users]).for_each(|(own, &node)| *own = value(node as usize));
+        values.resize(width * users.len(), 0.0);
+        values.chunks_exact_mut(width).zip(&nodes[users]).for_each(|(own, &node)| value(node as usize, own));
     }
 
-    /// Values of one of the fields at nodes, by the user's numbers.
-    fn of_nodes(&self, name: &str, users: Range<usize>, values: &mut Vec<f64>) {
-        let (system, traces) = (self.system, &self.system.traces);
-        let traction = |node: usize| {
-            let of = || <Dim<D>>::tractions(traces, &system.contact_forces, &system.positions);
-            self.tractions.get_or_init(of).get(node).copied().unwrap_or_default()
-        };
-        let state = |node: usize| {
-            let of = || {
-                Traces::states(&system.springs, system.mesh.user_nodes.len(), system.contacts.iter().flat_map(|contact| contact.inside()))
-            };
-            self.states.get_or_init(of).get(node).copied().unwrap_or(State::OPEN)
-        };
-        match name {
-            "displacement" => self.by_node(users, values, |node| minus(system.positions[node], system.mesh.positions[node])),
-            "velocity" => self.by_node(users, values, |node| self.system.velocity(node)),
-            "contact_force" => self.by_node(users, values, |node| system.contact_forces.of(node)),
-            "contact_pressure" => self.by_node(users, values, |node| [traction(node)[0]]),
-            "contact_shear" => self.by_node(users, values, |node| [traction(node)[1]]),
-            "contact_gap" => self.by_node(users, values, |node| [state(node).gap]),
-            "contact_status" => self.by_node(users, values, |node| [state(node).status]),
-            "contact_slip" => self.by_node(users, values, |node| [traces.slip(node)]),
-            "friction_heat" => self.by_node(users, values, |node| [traces.heat(node)]),
-            _ => values.clear(),
+    /// Makes the values of a field at nodes; of one at cells it makes room, and gives the column to fill.
+    fn begin<'v>(&self, kind: &FieldKind, places: Range<usize>, values: &'v mut Vec<f64>) -> Option<Column<'v>>
+    where
+        Dim<D>: NodeFields<D>,
+    {
+        let width = kind.width();
+        match kind.source {
+            Source::Nodes(plane, space) => {
+                let OfNode(of_node) = <Dim<D>>::of_node(plane, space);
+                self.by_node(places, width, values, |node, own| of_node(self, node, own));
+                None
+            }
+            Source::Cells(of_cell) => {
+                values.resize(width * places.len(), 0.0);
+                Some(Column { width, of_cell, values })
+            }
         }
     }
 
@@ -120,10 +128,18 @@ where
             elements.clear();
             elements.extend(run.map(|&cell| cell - of_group.start));
             blocks[own].states(&elements, &mut states[..elements.len()]);
-            for (at, (&element, state)) in (first..).zip(elements.iter().zip(&states)) {
-                let alive = f64::from(u8::from(groups[own].is_alive(element as usize)));
-                for Column { width, of_element, values } in &mut *columns {
-                    of_element(state, alive, &mut values[*width * at..][..*width]);
+            let cells: [Cell<'_>; STATES] = std::array::from_fn(|at| Cell {
+                state: &states[at],
+                is_alive: elements.get(at).is_some_and(|&element| groups[own].is_alive(element as usize)),
+            });
+            for Column { width, of_cell, values } in &mut *columns {
+                let places = values[*width * first..][..*width * elements.len()].chunks_exact_mut(*width).zip(&cells);
+                match *of_cell {
+                    OfCell::Function(of_cell) => places.for_each(|(values, cell)| of_cell(cell, values)),
+                    OfCell::History(variable) => {
+                        let index = blocks[own].index_of(variable);
+                        places.for_each(|(values, cell)| values[0] = index.map_or(0.0, |index| cell.state.variables[index]));
+                    }
                 }
             }
             first += elements.len();
@@ -133,7 +149,7 @@ where
 
 impl<const D: usize> Shown for Showing<'_, D>
 where
-    Dim<D>: Dimension<D>,
+    Dim<D>: NodeFields<D>,
 {
     fn time(&self) -> f64 {
         self.system.time
@@ -161,18 +177,13 @@ where
     }
 
     fn coordinates(&self, nodes: Range<usize>, values: &mut Vec<f64>) {
-        self.by_node(nodes, values, |node| self.system.positions[node]);
+        self.by_node(nodes, D, values, |node, own| own.copy_from_slice(&self.system.positions[node]));
     }
 
     fn values(&self, field: usize, places: Range<usize>, values: &mut Vec<f64>) {
         let kind = self.fields[field];
-        match (kind.location, of_element(kind.name)) {
-            (Location::Node, _) => self.of_nodes(kind.name, places, values),
-            (Location::Cell, Some(of_element)) => {
-                values.resize(kind.width() * places.len(), 0.0);
-                self.of_cells(places, &mut [Column { width: kind.width(), of_element, values }]);
-            }
-            (Location::Cell, None) => values.clear(),
+        if let Some(mut column) = self.begin(kind, places.clone(), values) {
+            self.of_cells(places, std::slice::from_mut(&mut column));
         }
     }
 
@@ -192,14 +203,8 @@ where
         frame.fields = self.fields.iter().map(|&kind| Field { kind, values: spare.next().unwrap_or_default() }).collect();
         let mut columns = Vec::new();
         for Field { kind, values } in &mut frame.fields {
-            match (kind.location, of_element(kind.name)) {
-                (Location::Node, _) => self.of_nodes(kind.name, 0..self.nodes(), values),
-                (Location::Cell, Some(of_element)) => {
-                    values.resize(kind.width() * self.elements().len(), 0.0);
-                    columns.push(Column { width: kind.width(), of_element, values });
-                }
-                (Location::Cell, None) => values.clear(),
-            }
+            let places = if kind.location == Location::Node { self.nodes() } else { self.elements().len() };
+            columns.extend(self.begin(kind, 0..places, values));
         }
         if !columns.is_empty() {
             self.of_cells(0..self.elements().len(), &mut columns);
@@ -213,25 +218,6 @@ where
 struct Column<'v> {
     /// Values of a cell.
     width: usize,
-    of_element: OfElement,
+    of_cell: OfCell,
     values: &'v mut [f64],
-}
-
-/// Takes the values of a field from the state of an element that is there (1) or eroded (0).
-type OfElement = fn(&ElementState, f64, &mut [f64]);
-
-/// How the values of one of [`FIELDS`] at the cells are made.
-fn of_element(name: &str) -> Option<OfElement> {
-    Some(match name {
-        "stress" => |state, _, values| values.copy_from_slice(&state.stress[..values.len()]),
-        "von_mises" => |state, _, values| values[0] = von_mises(&state.stress),
-        "pressure" => |state, _, values| values[0] = -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0,
-        "plastic_strain" => |state, _, values| values[0] = state.variables[Variable::PlasticStrain as usize],
-        "density" => |state, _, values| values[0] = state.variables[Variable::Density as usize],
-        "temperature" => |state, _, values| values[0] = state.variables[Variable::Temperature as usize],
-        "damage" => |state, _, values| values[0] = state.variables[Variable::Damage as usize],
-        "energy_density" => |state, _, values| values[0] = state.energy_density,
-        "alive" => |_, alive, values| values[0] = alive,
-        _ => return None,
-    })
 }

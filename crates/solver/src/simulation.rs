@@ -17,6 +17,7 @@ use crate::body_columns::BodyColumns;
 use crate::build::Builds;
 use crate::contact::tracker::SearchReport;
 use crate::error::{Error, Fault, Notice, Warning};
+use crate::field::NodeFields;
 use crate::hashes::Hashes;
 use crate::model::Model;
 use crate::output::{Cells, Field, Frame, Shown, Summary};
@@ -25,9 +26,9 @@ use embate_lanes::Level;
 use run::Run;
 
 /// What a run asks of a dimension: all that its system does, and what builds and records it.
-pub trait Runs<const D: usize>: Builds<D> + BodyColumns<D> {}
+pub trait Runs<const D: usize>: Builds<D> + BodyColumns<D> + NodeFields<D> {}
 
-impl<T: Builds<D> + BodyColumns<D>, const D: usize> Runs<D> for T {}
+impl<T: Builds<D> + BodyColumns<D> + NodeFields<D>, const D: usize> Runs<D> for T {}
 
 /// How a simulation is run; changes no result.
 #[derive(Clone, Debug, Default, PartialEq)]

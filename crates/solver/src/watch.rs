@@ -1,13 +1,16 @@
-//! What a run is watched for while it goes on: energies that only control or penalties have, elements that become needles, strains beyond what was measured, and
-//! a step that collapses. Each is told once for each part, with time and place, and counted for the summary.
+//! What a run is watched for while it goes on: energies that only control or penalties have, elements that
+//! become needles, strains beyond what was measured, and a step that collapses. Each is told once for each
+//! part, with time and place, and counted for the summary.
 //!
-//! [`Simulation::run`](crate::simulation::Simulation::run) looks between its steps, where the history is written: energies are summed there already, and elements are looked at only
-//! every 256 steps or more. Nothing here changes the run.
+//! [`Simulation::run`](crate::simulation::Simulation::run) looks between its steps, where the history is
+//! written: energies are summed there already, and elements are looked at only every 256 steps or more.
+//! Nothing here changes the run.
 
 use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
 use crate::dimension::Dimension;
 use crate::error::Notice;
-use crate::material::{self, Parameters, Variable};
+use crate::material::variable::PLASTIC_STRAIN;
+use crate::material::{self, Parameters};
 use crate::mesh::geometry::CellGeometry;
 use crate::message::{Example, Message};
 use crate::model::Model;
@@ -75,11 +78,13 @@ static SHORT_STEP: Message = Message {
     cure: "Look at the element that the message names; let it fail (`failure = { time_step = ... }`), or refine less there.",
 };
 
-/// Hourglass energy over internal energy of a part, and energy of contact springs over the largest total energy, from which on they are told.
+/// Hourglass energy over internal energy of a part, and energy of contact springs over the largest total
+/// energy, from which on they are told.
 const HOURGLASS_MOST: f64 = 0.1;
 const SPRINGS_MOST: f64 = 0.2;
-/// For how long they must be there, as a fraction of the run: when bodies meet, springs may hold much of the little energy that there is. A sixth is usual for a
-/// moment where the penalty is as stiff as coarse elements.
+/// For how long they must be there, as a fraction of the run: when bodies meet, springs may hold much of the
+/// little energy that there is. A sixth is usual for a moment where the penalty is as stiff as coarse
+/// elements.
 const LASTS: f64 = 0.01;
 /// Hourglass energy that is less than this of the largest total energy harms nothing.
 const NOTHING: f64 = 1e-3;
@@ -110,7 +115,8 @@ where
         of_parts[group.part][0] += report.hourglass;
         of_parts[group.part][1] += report.stored + report.dissipated;
     }
-    // Less than nothing is as wrong: forces that hold shapes back by the rate have then given more than they took.
+    // Less than nothing is as wrong: forces that hold shapes back by the rate have then given more than they
+    // took.
     of_parts.into_iter().map(|[hourglass, internal]| [hourglass.abs(), internal]).collect()
 }
 
@@ -281,7 +287,7 @@ impl Watch {
                     note(&NEEDLES, element, format!("a shape of {now:.3}"));
                 }
                 if let Some(end) = end {
-                    let strain = block.state(element).variables[Variable::PlasticStrain as usize];
+                    let strain = block.variable(&block.state(element), &PLASTIC_STRAIN).unwrap_or(0.0);
                     if strain > end {
                         note(&BEYOND_TABLE, element, format!("a plastic strain of {strain:.4}, and its table ends at {end:.4},"));
                     }

@@ -1,4 +1,5 @@
-//! Every example as the README runs it, with the numbers that it promises. `examples/NAME/README.md` says where each number comes from.
+//! Every example as the README runs it, with the numbers that it promises. `examples/NAME/README.md` says
+//! where each number comes from.
 
 use crate::estimates::{Pass, column_energy, depth_of_rest};
 use crate::{embate, fresh};
@@ -245,7 +246,7 @@ fn the_model_of_the_readme_runs() {
 #[test]
 fn the_page_on_results_has_every_field_and_key() {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/output.md")).unwrap();
-    for field in embate_solver::output::FIELDS {
+    for field in embate_solver::output::FIELDS.iter() {
         let place = if field.location == embate_solver::output::Location::Node { "node" } else { "cell" };
         let components = if field.components.is_empty() { "scalar".to_string() } else { field.components.join(" ") };
         let unit = if field.unit.is_empty() { "-" } else { field.unit };
@@ -452,7 +453,8 @@ fn rolls_thin_a_strip_with_the_force_of_the_slab_theory() {
     results.is_sound(1e-5);
     let pass = Pass { from: 4e-3, to: 2.8e-3, radius: 100e-3, mu: 0.15 };
     let [plastic, torque, slip] = pass.slab();
-    // What springs back behind the rolls, δ, still presses on them: 2/3 S √(R δ) (Ford, Ellis and Bland 1951).
+    // What springs back behind the rolls, δ, still presses on them: 2/3 S √(R δ) (Ford, Ellis and Bland
+    // 1951).
     let spring_back = (1.0 - 0.33 * 0.33) * pass.strength(0.0) / 70e9 * pass.to;
     let force = plastic + 2.0 / 3.0 * pass.strength(0.0) * (pass.radius * spring_back).sqrt();
     is_near(-results.mean("obstacle.force_y[roll]", 1e-3, 2e-3), force, 0.04 * force);
@@ -508,7 +510,8 @@ fn an_explosive_gives_a_ring_the_velocity_of_gurney() {
         let drift = results.summary["momentum_drift"][direction].as_f64().unwrap();
         assert!(drift < 1e-12, "{direction}: {drift}");
     }
-    // The energy of the gases on their isentrope goes to a ring of constant area and to gases with u ~ r; see the README.
+    // The energy of the gases on their isentrope goes to a ring of constant area and to gases with u ~ r; see
+    // the README.
     let (inner, outer, density, charge) = (0.020_f64, 0.025_f64, 8960.0, 1630.0 * PI * 0.020 * 0.020);
     let (a, b, r1, r2, omega, start) = (371.2e9, 3.231e9, 4.15_f64, 0.95_f64, 0.30, 7e9);
     let constant = start - a / r1 * (-r1).exp() - b / r2 * (-r2).exp();
@@ -531,7 +534,8 @@ fn an_explosive_gives_a_ring_the_velocity_of_gurney() {
 fn a_cup_is_drawn_with_the_force_of_siebel_and_keeps_its_volume() {
     let results = run("cup-drawing", "example-cup-drawing");
     results.is_sound(1e-3);
-    // Ideal work, friction and bending of a flange whose rim is at r, mm and N; the largest on the way is the force of the punch.
+    // Ideal work, friction and bending of a flange whose rim is at r, mm and N; the largest on the way is the
+    // force of the punch.
     let flow = |strain: f64| 565.0 * (0.0071 + strain).powf(0.26);
     let (friction, holder, sheet, cup, blank, edge) = (0.1_f64, 10e3, 1.0, 25.5_f64, 45.0_f64, 6.0);
     let force = |r: f64| {
@@ -546,7 +550,8 @@ fn a_cup_is_drawn_with_the_force_of_siebel_and_keeps_its_volume() {
     let largest = (0..200).map(|k| mean(1e-5 * f64::from(k))).fold(0.0, f64::max);
     is_near(largest, expected, 0.08 * expected);
 
-    // As high as a wall of constant thickness on the same area would be; the rim is ironed to the 1.2 mm between the tools.
+    // As high as a wall of constant thickness on the same area would be; the rim is ironed to the 1.2 mm
+    // between the tools.
     let end = |name: &str| *results.column(name).last().unwrap();
     is_near(end("rim_inside.y") - end("bottom_inside.y"), 29.4e-3, 1.5e-3);
     is_near((end("rim_inside.x") - end("rim_outside.x")).hypot(end("rim_inside.y") - end("rim_outside.y")), 1.22e-3, 0.03e-3);
@@ -586,7 +591,8 @@ fn ten_bodies_of_tetrahedra_come_to_rest_in_a_heap_that_weighs_what_they_weigh()
     let results = run("heap", "example-heap");
     results.is_sound(1e-3);
     let end = |name: &str| *results.column(name).last().unwrap();
-    // Volume of the mesh times density; what the floor has given is the weight times the time, but for what still moves.
+    // Volume of the mesh times density; what the floor has given is the weight times the time, but for what
+    // still moves.
     let (mass, gravity, time) = (1100.0 * 390.005e-6, 9.81, 1.2);
     let weight = mass * gravity;
     is_near(results.mean("obstacle.force_z[floor]", 0.0, time), weight, 0.02 * weight);
@@ -597,8 +603,9 @@ fn ten_bodies_of_tetrahedra_come_to_rest_in_a_heap_that_weighs_what_they_weigh()
     let work = end("energy.external");
     let taken = end("energy.friction") + end("energy.contact_damping");
     assert!(taken > 0.95 * work && end("energy.kinetic") < 0.02 * work, "{taken} J of {work} J");
-    // Above the floor, inside the bin, and on top of each other: ten bodies side by side would have their middle at 18 mm or less.
-    // Between bodies edges count, too, which are deeper in each other than nodes while they fall on each other.
+    // Above the floor, inside the bin, and on top of each other: ten bodies side by side would have their
+    // middle at 18 mm or less. Between bodies edges count, too, which are deeper in each other than nodes
+    // while they fall on each other.
     for (name, most) in [("obstacle.penetration[floor]", 1e-3), ("obstacle.penetration[bin]", 1e-3), ("contact.penetration[all]", 2e-3)] {
         let deepest = results.column(name).into_iter().fold(0.0, f64::max);
         assert!(deepest < most, "{name}: {deepest} m");

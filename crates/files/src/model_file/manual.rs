@@ -1,4 +1,5 @@
-//! The reference of the model file, `docs/model-file.md`: the tables come from the descriptions of sections and keys and from the registries.
+//! The reference of the model file, `docs/model-file.md`: the tables come from the descriptions of sections
+//! and keys and from the registries.
 
 use super::reader::{header, written};
 use super::{units, value};
@@ -201,7 +202,7 @@ fn registries(out: &mut String) {
         let _ = writeln!(out, "| `{}` | {} |", kind.name, kind.doc);
     }
     out.push_str("\n## Fields\n\n| field | unit | meaning |\n|---|---|---|\n");
-    for kind in output::FIELDS {
+    for kind in output::FIELDS.iter() {
         let _ = writeln!(out, "| `{}` | {} | {} |", kind.name, kind.unit, kind.doc);
     }
     out.push('\n');

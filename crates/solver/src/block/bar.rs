@@ -1,11 +1,14 @@
 //! Bars between two nodes, in the plane and in space: trusses and cables.
 //!
-//! A bar bears a force N = σ A along the line between its nodes; σ is the Cauchy stress of its law under uniaxial stress, in axes that go with the bar, so a rotation is no
-//! strain, whatever its size. The strain of a step is Δε = 2 (l − l_old)/(l + l_old): sums of it are ln(l/l₀) to second order in the steps, and a bar that comes back to its
-//! length comes back to its strain. Hyperelastic laws get λ = l/l₀. The cross-section follows the strain across. Work of a step: ½ (σ_old + σ_new) Δε times the volume half way.
+//! A bar bears a force N = σ A along the line between its nodes; σ is the Cauchy stress of its law under
+//! uniaxial stress, in axes that go with the bar, so a rotation is no strain, whatever its size. The strain
+//! of a step is Δε = 2 (l − l_old)/(l + l_old): sums of it are ln(l/l₀) to second order in the steps, and a
+//! bar that comes back to its length comes back to its strain. Hyperelastic laws get λ = l/l₀. The
+//! cross-section follows the strain across. Work of a step: ½ (σ_old + σ_new) Δε times the volume half way.
 //!
-//! Half of the mass is at each node. Stable step: Δt² = m l / (A (E + |σ|)) with the current E = 9Kµ/(3K + µ); |σ| stands for the stiffness of a taut bar across its line.
-//! Kinematics and forces are plain sums per bar in fixed order, the law runs in lanes: the same bits everywhere.
+//! Half of the mass is at each node. Stable step: Δt² = m l / (A (E + |σ|)) with the current E = 9Kµ/(3K +
+//! µ); |σ| stands for the stiffness of a taut bar across its line. Kinematics and forces are plain sums per
+//! bar in fixed order, the law runs in lanes: the same bits everywhere.
 
 use super::damping;
 use super::initial::{self, Initial, Wrong};
@@ -200,7 +203,7 @@ impl<const D: usize> Seen for Look<'_, D> {
     fn stress(&self) -> [Batch; 6] {
         std::array::from_fn(|c| if c < PLANE { self.bars.stress[self.batch * PLANE + c] } else { Batch::default() })
     }
-    fn variable(&self, variable: Variable) -> Batch {
+    fn variable(&self, variable: &Variable) -> Batch {
         let place = self.bars.law.place(variable);
         place.map_or(Batch::default(), |index| self.bars.history[self.batch * self.bars.law.state_width() + index])
     }
@@ -288,8 +291,8 @@ where
         let stress = [along(0, 0), along(1, 1), along(2, 2), along(0, 1), along(1, 2), along(0, 2)];
         let mut state = ElementState { stress, ..ElementState::default() };
         let width = self.law.state_width();
-        for &(variable, index) in self.law.variables() {
-            state.variables[variable as usize] = self.history[element / BATCH * width + index].0[element % BATCH];
+        for (value, variable) in state.variables.iter_mut().zip(self.law.variables()) {
+            *value = self.history[element / BATCH * width + variable.place].0[element % BATCH];
         }
         state.energy_density = bar.stored / (self.area * bar.initial);
         state

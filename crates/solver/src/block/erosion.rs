@@ -1,7 +1,9 @@
 //! Eroded elements: which fail, and how they leave a block without costing the others anything.
 //!
-//! Kernels have no branch for them: the lane of an eroded element becomes a copy of a live element, as the lanes that fill the last batch are, so nothing in it can go wrong; its forces and
-//! energies count zero times. When that live element is eroded too, its copies become copies of another. The state that an element had at the end is kept for output.
+//! Kernels have no branch for them: the lane of an eroded element becomes a copy of a live element, as the
+//! lanes that fill the last batch are, so nothing in it can go wrong; its forces and energies count zero
+//! times. When that live element is eroded too, its copies become copies of another. The state that an
+//! element had at the end is kept for output.
 
 use super::batch::ElementBatch;
 use super::store::{CHUNK, ElementStore};
@@ -20,8 +22,8 @@ pub(super) struct Eroded {
     pub(super) left: Report,
     /// State of each at the end.
     pub(super) last: BTreeMap<usize, ElementState>,
-    /// The live element that the lanes of a chunk without one are copies of; `None`: there is none, and the chunk rests. Of other chunks it is the last element,
-    /// as at the start.
+    /// The live element that the lanes of a chunk without one are copies of; `None`: there is none, and the
+    /// chunk rests. Of other chunks it is the last element, as at the start.
     sources: BTreeMap<usize, Option<usize>>,
 }
 
@@ -73,7 +75,7 @@ where
         std::array::from_fn(|c| if c < components { self.mean(&self.block.stress, components, c) } else { Batch::default() })
     }
 
-    fn variable(&self, variable: Variable) -> Batch {
+    fn variable(&self, variable: &Variable) -> Batch {
         let place = self.block.law.place(variable);
         place.map_or(Batch::default(), |index| self.mean(&self.block.history, self.block.law.state_width(), index))
     }
@@ -181,7 +183,8 @@ where
         }
     }
 
-    /// Makes all lanes of eroded elements copies again, when the state was filled from outside: of their initial geometry too.
+    /// Makes all lanes of eroded elements copies again, when the state was filled from outside: of their
+    /// initial geometry too.
     pub(super) fn fill_all_up(&mut self) -> Kept {
         let is_possible = |lane: usize| {
             let live = self.elements[lane / BATCH].live.0[lane % BATCH];

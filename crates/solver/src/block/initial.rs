@@ -1,13 +1,15 @@
 //! What the points of a block hold at the start: stress and temperature.
 //!
-//! Values come from the part of the model; a stress is asked of the law before it is kept: strained by nothing, the law must leave it as it is (a stress beyond
-//! the yield surface would be gone before the first step). The elastic energy ½ σ:C⁻¹:σ of what is kept is in the books from the start.
+//! Values come from the part of the model; a stress is asked of the law before it is kept: strained by
+//! nothing, the law must leave it as it is (a stress beyond the yield surface would be gone before the first
+//! step). The elastic energy ½ σ:C⁻¹:σ of what is kept is in the books from the start.
 
 use super::kernel::{ElementGeometry, Facts};
 use super::store::ElementStore;
 use super::strain::Tensor;
+use crate::material::Family;
 use crate::material::points::{PointLaw, Points, RESPONSE, Room};
-use crate::material::{Family, Variable};
+use crate::material::variable::TEMPERATURE;
 use crate::model::InitialStress;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{BATCH, Batch, Level};
@@ -43,7 +45,7 @@ impl Wrong {
 
 /// Writes a temperature into the history of points.
 pub(super) fn warm(law: &dyn PointLaw, history: &mut [Batch], temperature: f64) -> Result<(), Wrong> {
-    let Some(index) = law.place(Variable::Temperature) else {
+    let Some(index) = law.place(&TEMPERATURE) else {
         let message = "its law knows no temperature".to_string();
         return Err(Wrong { key: "temperature_initial", message, help: "leave it out, or take a law with a temperature: `johnson_cook`" });
     };
@@ -62,8 +64,8 @@ pub(super) fn keeps_stress(law: &dyn PointLaw) -> Result<(), Wrong> {
     ))
 }
 
-/// Asks the law if it leaves a point's `stress` as it is: the lane and the stresses before and after, xx yy zz xy (yz zx), where it does not.
-/// `rotation`: no rotation, as it is stored.
+/// Asks the law if it leaves a point's `stress` as it is: the lane and the stresses before and after, xx yy
+/// zz xy (yz zx), where it does not. `rotation`: no rotation, as it is stored.
 pub(super) fn released(law: &dyn PointLaw, stress: &[Batch], history: &[Batch], rotation: &[Batch]) -> Option<(usize, [[f64; 6]; 2])> {
     let mut after = stress.to_vec();
     law.respond(

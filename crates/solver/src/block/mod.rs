@@ -1,12 +1,14 @@
-//! A block is one element kind times one material: it gathers node motion, updates strain and stress, and leaves forces.
+//! A block is one element kind times one material: it gathers node motion, updates strain and stress, and
+//! leaves forces.
 //!
-//! The state of the elements lives in the store (`store.rs`), in batches of eight (`batch.rs`); it is the same type for every
-//! element and every law. A step goes chunk by chunk (`local.rs`: nodes side by side, forces summed where they arise), and
-//! in it strip by strip (`strip.rs`): the kernel of the element strains the points (`strain.rs`), the law responds
-//! (`crate::material::points`), and the kernel makes forces of the stresses (`forces.rs`). Only kernels are compiled for
-//! each element (`kernel.rs`), and laws for themselves, so there are as many as elements plus laws, not their product.
-//! A block is a `Box<dyn Block>`: one virtual call per block and step, and three per strip of 64 elements.
-//! Forces go to the assembly, which sums those of all chunks in fixed order.
+//! The state of the elements lives in the store (`store.rs`), in batches of eight (`batch.rs`); it is the
+//! same type for every element and every law. A step goes chunk by chunk (`local.rs`: nodes side by side,
+//! forces summed where they arise), and in it strip by strip (`strip.rs`): the kernel of the element strains
+//! the points (`strain.rs`), the law responds (`crate::material::points`), and the kernel makes forces of the
+//! stresses (`forces.rs`). Only kernels are compiled for each element (`kernel.rs`), and laws for themselves,
+//! so there are as many as elements plus laws, not their product. A block is a `Box<dyn Block>`: one virtual
+//! call per block and step, and three per strip of 64 elements. Forces go to the assembly, which sums those
+//! of all chunks in fixed order.
 
 mod bar;
 mod batch;
@@ -31,8 +33,8 @@ pub use store::CHUNK;
 
 use crate::archive::{Archive, Kept, keep_all};
 use crate::failure::Criterion;
-use crate::material::Variable;
 use crate::material::points::PointLaw;
+use crate::material::{VARIABLES_MOST, Variable};
 use crate::reductions;
 use embate_lanes::{Level, Team};
 
@@ -103,8 +105,9 @@ impl Report {
 pub struct ElementState {
     /// Cauchy stress xx yy zz xy (yz zx), mean over the points, Pa.
     pub stress: [f64; 6],
-    /// What the law remembers and shows, mean over the points; zero where it has none. By [`Variable`].
-    pub variables: [f64; Variable::COUNT],
+    /// The history variables in the order in which the law declares them ([`PointLaw::variables`]), mean over
+    /// the points; zero beyond. By variable: [`Block::variable`].
+    pub variables: [f64; VARIABLES_MOST],
     /// Stored elastic energy per initial volume, J/m³.
     pub energy_density: f64,
 }
@@ -115,20 +118,25 @@ keep_all!(ElementState { stress, variables, energy_density });
 pub trait Block<const D: usize>: Send + Sync {
     /// Number of elements.
     fn elements(&self) -> usize;
-    /// The node of each slot in which [`Block::advance`] leaves forces, or [`NO_NODE`]. A node's slots follow each other in the order of the elements.
+    /// The node of each slot in which [`Block::advance`] leaves forces, or [`NO_NODE`]. A node's slots follow
+    /// each other in the order of the elements.
     fn slots(&self) -> &[u32];
-    /// Advances all points to the end of the step and writes to the slots what pulls on their nodes, N/m in the plane.
-    /// The first time is that of time zero, without a step. The result does not depend on `level` or on the threads of the `team`.
+    /// Advances all points to the end of the step and writes to the slots what pulls on their nodes, N/m in
+    /// the plane. The first time is that of time zero, without a step. The result does not depend on `level`
+    /// or on the threads of the `team`.
     fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], team: &mut Team) -> Report;
-    /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail. Lines have slots of their own, and keep nothing besides.
+    /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail. Lines
+    /// have slots of their own, and keep nothing besides.
     fn keep_forces(&mut self) {}
-    /// Force of an element on the node at a corner, N/m in the plane, as of the last [`Block::advance`] with these slots; zero if it was not kept.
+    /// Force of an element on the node at a corner, N/m in the plane, as of the last [`Block::advance`] with
+    /// these slots; zero if it was not kept.
     fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D];
     /// Mass of an element, kg/m in the plane.
     fn mass(&self, element: usize) -> f64;
     /// Share of corner `corner` in the mass of `element` (row sum of the consistent mass), kg/m in the plane.
     fn corner_mass(&self, element: usize, corner: usize) -> f64;
-    /// Frees the memory of the corner masses, once nodes have theirs: what is left of them, as of [`Block::mass`], may be not a number.
+    /// Frees the memory of the corner masses, once nodes have theirs: what is left of them, as of
+    /// [`Block::mass`], may be not a number.
     fn release_corner_masses(&mut self) {}
     /// Square of an element's stable step, s², in the state of the last [`Block::advance`].
     fn time_step_squared(&self, element: usize) -> f64;
@@ -142,7 +150,8 @@ pub trait Block<const D: usize>: Send + Sync {
     fn time_steps_squared(&self) -> Vec<f64> {
         (0..self.elements()).map(|element| self.time_step_squared(element)).collect()
     }
-    /// The first element that has not been eroded and whose stable step has this square, s²; not a number is found too.
+    /// The first element that has not been eroded and whose stable step has this square, s²; not a number is
+    /// found too.
     fn governing_element(&self, squared: f64) -> Option<usize> {
         let governs = |&element: &usize| self.is_alive(element) && self.time_step_squared(element).total_cmp(&squared).is_eq();
         (0..self.elements()).find(governs)
@@ -157,11 +166,20 @@ pub trait Block<const D: usize>: Send + Sync {
     fn bulk_modulus(&self) -> f64 {
         self.law().map_or(0.0, |law| law.stiffness()[0])
     }
-    /// Whether the law shows this.
-    fn has(&self, variable: Variable) -> bool {
-        self.law().is_some_and(|law| law.place(variable).is_some())
+    /// Where a variable is among [`ElementState::variables`]; `None`: the law has none such.
+    fn index_of(&self, variable: &Variable) -> Option<usize> {
+        self.law()?.variables().iter().position(|own| own.variable == variable)
     }
-    /// Makes an element heavier by a factor, for a longer stable step; before the first [`Block::advance`] that counts.
+    /// Whether the law has this variable.
+    fn has(&self, variable: &Variable) -> bool {
+        self.index_of(variable).is_some()
+    }
+    /// A variable in the state of one of the elements; `None`: the law has none such.
+    fn variable(&self, state: &ElementState, variable: &Variable) -> Option<f64> {
+        self.index_of(variable).map(|index| state.variables[index])
+    }
+    /// Makes an element heavier by a factor, for a longer stable step; before the first [`Block::advance`]
+    /// that counts.
     fn scale_mass(&mut self, element: usize, factor: f64);
     /// Gives the points what they hold at the start; before the first [`Block::advance`].
     ///
@@ -170,12 +188,14 @@ pub trait Block<const D: usize>: Send + Sync {
     fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong>;
     /// Whether an element has not been eroded.
     fn is_alive(&self, element: usize) -> bool;
-    /// Elements that fail by one of the criteria in the state of the last [`Block::advance`], ascending, with the index of the first such criterion.
+    /// Elements that fail by one of the criteria in the state of the last [`Block::advance`], ascending, with
+    /// the index of the first such criterion.
     fn failed(&self, criteria: &[Criterion], parallel: bool) -> Vec<(u32, u32)>;
     /// Smallest Jacobian determinant of an element over its points.
     fn determinant(&self, element: usize, positions: &[[f64; D]]) -> f64;
-    /// Takes elements (ascending) out: they pull no more, have no step and store nothing, but keep their mass. What they dissipated stays in the reports. Returns the
-    /// elastic energy that each had stored, J/m; their forces are gone from the slots.
+    /// Takes elements (ascending) out: they pull no more, have no step and store nothing, but keep their
+    /// mass. What they dissipated stays in the reports. Returns the elastic energy that each had stored, J/m;
+    /// their forces are gone from the slots.
     fn erode(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64>;
     /// What the last [`Block::advance`] told, without the elements that were eroded since.
     fn report(&self, positions: &[[f64; D]]) -> Report;

@@ -1,8 +1,9 @@
 //! The elements of a block with their state, in plain batches; erased as [`Block`].
 //!
-//! Nothing here is compiled for an element or a law: both are asked through [`ElementKernel`] and [`PointLaw`], a strip of
-//! elements at a time. A step goes strip by strip: strain, law, forces, so that what passes from one to the next stays in the first-level cache. Strips belong to chunks, which
-//! are shared by threads and do not depend on their number.
+//! Nothing here is compiled for an element or a law: both are asked through [`ElementKernel`] and
+//! [`PointLaw`], a strip of elements at a time. A step goes strip by strip: strain, law, forces, so that what
+//! passes from one to the next stays in the first-level cache. Strips belong to chunks, which are shared by
+//! threads and do not depend on their number.
 
 use super::batch::{ElementBatch, Resistance};
 use super::damping::Damp;
@@ -23,7 +24,8 @@ use crate::tensor::{Dim, Space};
 use embate_lanes::{BATCH, Batch, Chunks, Level, Team};
 use std::sync::{Mutex, PoisonError};
 
-/// Batches that one task advances: small enough to share, large enough to be worth it; fixed, so that sums do not depend on threads.
+/// Batches that one task advances: small enough to share, large enough to be worth it; fixed, so that sums do
+/// not depend on threads.
 pub const CHUNK: usize = 64;
 
 /// The elements of a block with their state.
@@ -35,7 +37,8 @@ pub(super) struct ElementStore<const D: usize> {
     pub(super) nodes: LocalNodes,
     /// Cauchy stress of the points, Pa.
     pub(super) stress: Vec<Batch>,
-    /// Time β of the damping in proportion to the stiffness, s, and its stresses at the points; none: 0, and no stresses.
+    /// Time β of the damping in proportion to the stiffness, s, and its stresses at the points; none: 0, and
+    /// no stresses.
     pub(super) damping: f64,
     pub(super) damped: Vec<Batch>,
     /// What the law remembers of the points.
@@ -50,7 +53,8 @@ pub(super) struct ElementStore<const D: usize> {
     /// Forces of the elements in the last step, where they are kept.
     pub(super) kept: Vec<Batch>,
     pub(super) keeps_forces: bool,
-    /// Share of each corner in the element's mass: a batch per corner and batch of elements; only until nodes have their masses.
+    /// Share of each corner in the element's mass: a batch per corner and batch of elements; only until nodes
+    /// have their masses.
     pub(super) corner_mass: Vec<Batch>,
     /// Initial volume of each element, one batch per batch of elements.
     pub(super) volume_initial: Vec<Batch>,
@@ -255,7 +259,8 @@ where
     }
 }
 
-/// Length of a list with `width` batches per batch of elements: one per chunk where the width is zero, so that it can be cut into chunks all the same.
+/// Length of a list with `width` batches per batch of elements: one per chunk where the width is zero, so
+/// that it can be cut into chunks all the same.
 fn length(batches: usize, width: usize) -> usize {
     if width == 0 { batches.div_ceil(CHUNK) } else { batches * width }
 }
@@ -422,8 +427,8 @@ where
         for c in 0..components {
             state.stress[c] = mean(&self.stress, components, c);
         }
-        for &(variable, index) in self.law.variables() {
-            state.variables[variable as usize] = mean(&self.history, width, index);
+        for (value, variable) in state.variables.iter_mut().zip(self.law.variables()) {
+            *value = mean(&self.history, width, variable.place);
         }
         state.energy_density = self.elements[batch].stored.0[lane] / self.volume_initial[batch].0[lane];
         state

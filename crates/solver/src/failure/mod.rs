@@ -1,7 +1,8 @@
 //! When an element fails: criteria on its mean state, and the registry that everything else iterates over.
 //!
-//! A material lists limits (`failure`); after the law has answered, a block asks its criteria about each batch of eight elements (`Seen`), and the step erodes
-//! what fails. The mean over the points decides, the same value that files show. To add a criterion: one file, one line in [`CRITERIA`].
+//! A material lists limits (`failure`); after the law has answered, a block asks its criteria about each
+//! batch of eight elements (`Seen`), and the step erodes what fails. The mean over the points decides, the
+//! same value that files show. To add a criterion: one file, one line in [`CRITERIA`].
 
 mod damage;
 mod plastic_strain;
@@ -17,8 +18,8 @@ use embate_lanes::{BATCH, Batch};
 pub struct CriterionKind {
     /// Its key in the model file, and the limit.
     pub limit: Parameter,
-    /// What the law must remember for it.
-    pub needs: Option<Variable>,
+    /// The history variable that the law must have for it.
+    pub needs: Option<&'static Variable>,
     /// Which of eight elements fail at a limit.
     pub fails: fn(&dyn Seen, f64) -> [bool; BATCH],
 }
@@ -39,13 +40,14 @@ pub struct Criterion {
 pub trait Seen {
     /// Cauchy stress xx yy zz xy yz zx, Pa; the last two are zero in the plane.
     fn stress(&self) -> [Batch; 6];
-    /// What the law remembers; zero where it has no such thing.
-    fn variable(&self, variable: Variable) -> Batch;
+    /// A history variable; zero where the law has none such.
+    fn variable(&self, variable: &Variable) -> Batch;
     /// Squares of the stable steps, s².
     fn time_step_squared(&self) -> Batch;
 }
 
-/// Lanes of eight elements that are `live` and fail, each with the number of the first criterion that it misses.
+/// Lanes of eight elements that are `live` and fail, each with the number of the first criterion that it
+/// misses.
 pub(crate) fn failing(criteria: &[Criterion], seen: &dyn Seen, live: impl Fn(usize) -> bool) -> impl Iterator<Item = (usize, u32)> {
     let fails: Vec<[bool; BATCH]> = criteria.iter().map(|criterion| (criterion.kind.fails)(seen, criterion.limit)).collect();
     let first: [Option<usize>; BATCH] = std::array::from_fn(|lane| fails.iter().position(|fails| fails[lane]).filter(|_| live(lane)));
@@ -61,10 +63,11 @@ pub fn by_name(name: &str) -> Option<&'static CriterionKind> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::variable::{DAMAGE, PLASTIC_STRAIN};
 
     struct State {
         stress: [f64; 6],
-        variables: [f64; Variable::COUNT],
+        variables: &'static [(&'static Variable, f64)],
         time_step: f64,
     }
 
@@ -72,8 +75,8 @@ mod tests {
         fn stress(&self) -> [Batch; 6] {
             self.stress.map(Batch::splat)
         }
-        fn variable(&self, variable: Variable) -> Batch {
-            Batch::splat(self.variables[variable as usize])
+        fn variable(&self, variable: &Variable) -> Batch {
+            Batch::splat(self.variables.iter().find(|(own, _)| *own == variable).map_or(0.0, |&(_, value)| value))
         }
         fn time_step_squared(&self) -> Batch {
             Batch::splat(self.time_step * self.time_step)
@@ -82,7 +85,8 @@ mod tests {
 
     #[test]
     fn each_criterion_fails_at_its_limit_and_not_before() {
-        let state = State { stress: [3.0, 1.0, 0.5, 2.0, 0.0, 0.0], variables: [0.2, 300.0, 0.9, 7800.0], time_step: 1e-8 };
+        const VARIABLES: &[(&Variable, f64)] = &[(&PLASTIC_STRAIN, 0.2), (&DAMAGE, 0.9)];
+        let state = State { stress: [3.0, 1.0, 0.5, 2.0, 0.0, 0.0], variables: VARIABLES, time_step: 1e-8 };
         let at = |name: &str, limit: f64| (by_name(name).unwrap().fails)(&state, limit)[0];
         assert!(at("plastic_strain", 0.2) && !at("plastic_strain", 0.21));
         // 2 + √(1 + 4)
@@ -94,7 +98,7 @@ mod tests {
     #[test]
     fn stress_across_the_plane_counts_and_pressure_does_not() {
         let fails = |stress: [f64; 6]| {
-            let state = State { stress, variables: [0.0; Variable::COUNT], time_step: 1.0 };
+            let state = State { stress, variables: &[], time_step: 1.0 };
             (by_name("principal_stress").unwrap().fails)(&state, 1.0)[0]
         };
         assert!(fails([0.0, 0.0, 1.5, 0.0, 0.0, 0.0]) && !fails([-9.0, -9.0, -9.0, 0.0, 0.0, 0.0]));
@@ -103,7 +107,7 @@ mod tests {
     #[test]
     fn in_space_every_shear_counts() {
         let largest = |stress: [f64; 6], limit: f64| {
-            let state = State { stress, variables: [0.0; Variable::COUNT], time_step: 1.0 };
+            let state = State { stress, variables: &[], time_step: 1.0 };
             (by_name("principal_stress").unwrap().fails)(&state, limit)[0]
         };
         // The same tension of 3 along x, along y − z, and along x + y + z.
@@ -114,7 +118,7 @@ mod tests {
 
     #[test]
     fn an_element_without_a_step_fails_for_its_step() {
-        let state = State { stress: [0.0; 6], variables: [0.0; Variable::COUNT], time_step: f64::NAN };
+        let state = State { stress: [0.0; 6], variables: &[], time_step: f64::NAN };
         assert!((by_name("time_step").unwrap().fails)(&state, 1e-9)[0]);
     }
 }

@@ -1,7 +1,7 @@
 //! Failure at an equivalent plastic strain: the usual limit of ductile metals.
 
 use super::CriterionKind;
-use crate::material::Variable;
+use crate::material::variable::PLASTIC_STRAIN;
 use crate::quantity::{Dimension, Parameter, Range};
 
 pub(super) const KIND: CriterionKind = CriterionKind {
@@ -12,6 +12,6 @@ pub(super) const KIND: CriterionKind = CriterionKind {
         Range::Positive,
         "Equivalent plastic strain at which an element fails.",
     ),
-    needs: Some(Variable::PlasticStrain),
-    fails: |seen, limit| seen.variable(Variable::PlasticStrain).0.map(|strain| strain >= limit),
+    needs: Some(&PLASTIC_STRAIN),
+    fails: |seen, limit| seen.variable(&PLASTIC_STRAIN).0.map(|strain| strain >= limit),
 };

@@ -1,18 +1,20 @@
-//! Von Mises plasticity with mixed hardening: saturating isotropic hardening and up to three backstresses that fade (Armstrong and Frederick, Chaboche).
+//! Von Mises plasticity with mixed hardening: saturating isotropic hardening and up to three backstresses
+//! that fade (Armstrong and Frederick, Chaboche).
 //!
 //! ξ = s − Σ α_k, q = √(3/2 ξ:ξ); flow where q > σ_y(ε_p) = σ_y0 + Q (1 − e^{−b ε_p}), along N = 3/2 ξ/q;
-//! α̇_k = ⅔ C_k ε̇_p N − γ_k ε̇_p α_k: with γ_k = 0 linear kinematic hardening (Prager), else a backstress that saturates at C_k / γ_k.
-//! Return (backward Euler): α_k ← a_k (α_k + ⅔ C_k Δε_p N), a_k = 1 / (1 + γ_k Δε_p), so that ξ keeps the direction of η = s_trial − Σ a_k α_k and
-//! Δε_p solves q(η) − (3µ + Σ a_k C_k) Δε_p = σ_y(ε_p + Δε_p).
-//! Energy: each backstress stores ¾ α_k:α_k / C_k, counted as stored; dissipated are the isotropic flow stress and the recall,
-//! ½ (ξ_old + ξ_new):Δε_p + Σ ¾ (γ_k / C_k) Δε_p α_k,new:(α_k,old + α_k,new). With `trial.rs` that closes to the last digit.
-//! Source: Chaboche, Int. J. Plasticity 2 (1986) 149-188; return: Hartmann and Haupt, Int. J. Numer. Meth. Engng 36 (1993) 3801-3814.
+//! α̇_k = ⅔ C_k ε̇_p N − γ_k ε̇_p α_k: with γ_k = 0 linear kinematic hardening (Prager), else a backstress
+//! that saturates at C_k / γ_k. Return (backward Euler): α_k ← a_k (α_k + ⅔ C_k Δε_p N), a_k = 1 / (1 + γ_k
+//! Δε_p), so that ξ keeps the direction of η = s_trial − Σ a_k α_k and Δε_p solves q(η) − (3µ + Σ a_k C_k)
+//! Δε_p = σ_y(ε_p + Δε_p). Energy: each backstress stores ¾ α_k:α_k / C_k, counted as stored; dissipated are
+//! the isotropic flow stress and the recall, ½ (ξ_old + ξ_new):Δε_p + Σ ¾ (γ_k / C_k) Δε_p α_k,new:(α_k,old +
+//! α_k,new). With `trial.rs` that closes to the last digit. Source: Chaboche, Int. J. Plasticity 2 (1986)
+//! 149-188; return: Hartmann and Haupt, Int. J. Numer. Meth. Engng 36 (1993) 3801-3814.
 
 use super::hardening::{Flow, Hardening, Voce, YIELD};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{
-    DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, State, Tensors, Variable, YOUNG,
-    bulk_and_shear,
+    DENSITY, Family, History, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, State, Tensors, YOUNG,
+    bulk_and_shear, variable,
 };
 use crate::material::messages::PARAMETERS;
 use crate::model::messages::LIST_LENGTH;
@@ -96,7 +98,7 @@ impl Law for Chaboche {
     const FAMILY: Family = Family::Rate;
     /// Equivalent plastic strain, isotropic flow stress and its slope there; backstresses.
     type State<L: Lane, T: SymmetricTensor<L>> = ([L; 3], Tensors<L, T, PARTS>);
-    const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];
+    const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
     const NEEDS_ROTATION: bool = true;
 
     fn new(parameters: &Parameters<'_>) -> Self {
@@ -191,8 +193,10 @@ impl Law for Chaboche {
 }
 
 impl Chaboche {
-    /// Least slope of the curve of a virgin point in tension, f = b Q e^{−b ε_p} + Σ C_k e^{−γ_k ε_p}, Pa; zero where it is negative nowhere. f e^{b ε_p} is a sum of
-    /// exponentials and so convex: f is below zero in one interval. What of it begins after the slowest has fallen to a millionth is as small and does not count.
+    /// Least slope of the curve of a virgin point in tension, f = b Q e^{−b ε_p} + Σ C_k e^{−γ_k ε_p}, Pa;
+    /// zero where it is negative nowhere. f e^{b ε_p} is a sum of exponentials and so convex: f is below zero
+    /// in one interval. What of it begins after the slowest has fallen to a millionth is as small and does
+    /// not count.
     fn slope_least(&self) -> f64 {
         let Voce { gain, rate, .. } = self.isotropic;
         if gain >= 0.0 {
@@ -248,11 +252,13 @@ impl Chaboche {
         end
     }
 
-    /// Δε_p where it `yields`, from q = q(η) of the trial, and the isotropic flow stress with its slope after it.
+    /// Δε_p where it `yields`, from q = q(η) of the trial, and the isotropic flow stress with its slope after
+    /// it.
     #[inline(always)]
     fn step<L: Lane, T: SymmetricTensor<L>>(&self, deviator: T, old: &[T; PARTS], q: L, at_start: [L; 3], yields: L::Mask) -> (L, [L; 2]) {
         let (stiffness, factor, one) = (L::splat(3.0 * self.shear), L::splat(1.5), L::splat(1.0));
-        // q(η) never exceeds the sum of the trial stress and the old backstresses, and that not the root of as many times their squares.
+        // q(η) never exceeds the sum of the trial stress and the old backstresses, and that not the root of
+        // as many times their squares.
         let mut squares = deviator.contract(deviator);
         let (mut pull, mut modulus) = (T::isotropic(L::splat(0.0)), 0.0);
         let mut shifted = deviator;

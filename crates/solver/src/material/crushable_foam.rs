@@ -1,17 +1,21 @@
-//! Crushable foam after Deshpande and Fleck: it yields under pressure too, and hardens along a curve measured in uniaxial compression.
+//! Crushable foam after Deshpande and Fleck: it yields under pressure too, and hardens along a curve measured
+//! in uniaxial compression.
 //!
-//! Φ² = (q² + α² σ_m²) / (1 + (α/3)²) ≤ Y(ε̂)², σ_m = ⅓ tr σ. The shape follows from the plastic Poisson's ratio ν_p: α² = 9 (1 − 2ν_p) / (2 (1 + ν_p));
-//! ν_p = 0, most foams, gives α = 3/√2: nothing moves sideways while it is crushed. In uniaxial stress Φ is |σ| and ε̂ the plastic strain,
-//! so Y is the measured curve of true stress over logarithmic plastic strain. Flow is associated: σ:Δε_p = Y Δε̂, never negative.
-//! Return (backward Euler) with c = 1 + (α/3)² and g = Δε̂ / (c Y): q ← q / (1 + 3µ g), σ_m ← σ_m / (1 + K α² g); Δε̂ solves Φ = Y(ε̂ + Δε̂).
-//! Where σ_m then exceeds the tension cutoff it is cut, as the surface bends inwards there; the volume that this opens is dissipation too.
-//! The elastic moduli stay those of the foam at rest. Dissipation as in `trial.rs`, with both parts.
-//! Source: Deshpande and Fleck, Journal of the Mechanics and Physics of Solids 48 (2000) 1253-1283.
+//! Φ² = (q² + α² σ_m²) / (1 + (α/3)²) ≤ Y(ε̂)², σ_m = ⅓ tr σ. The shape follows from the plastic Poisson's
+//! ratio ν_p: α² = 9 (1 − 2ν_p) / (2 (1 + ν_p)); ν_p = 0, most foams, gives α = 3/√2: nothing moves sideways
+//! while it is crushed. In uniaxial stress Φ is |σ| and ε̂ the plastic strain, so Y is the measured curve of
+//! true stress over logarithmic plastic strain. Flow is associated: σ:Δε_p = Y Δε̂, never negative. Return
+//! (backward Euler) with c = 1 + (α/3)² and g = Δε̂ / (c Y): q ← q / (1 + 3µ g), σ_m ← σ_m / (1 + K α² g);
+//! Δε̂ solves Φ = Y(ε̂ + Δε̂). Where σ_m then exceeds the tension cutoff it is cut, as the surface bends
+//! inwards there; the volume that this opens is dissipation too. The elastic moduli stay those of the foam at
+//! rest. Dissipation as in `trial.rs`, with both parts. Source: Deshpande and Fleck, Journal of the Mechanics
+//! and Physics of Solids 48 (2000) 1253-1283.
 
 use super::hardening::{Flow, Hardening, PLASTIC_STRAIN, STRESS, Table};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{
-    DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, Variable, YOUNG, bulk_and_shear,
+    DENSITY, Family, History, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Softening, YOUNG, bulk_and_shear,
+    variable,
 };
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::tensor::SymmetricTensor;
@@ -64,7 +68,7 @@ impl Law for CrushableFoam {
     const FLOWS_IN_VOLUME: bool = true;
     /// ε̂.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
-    const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];
+    const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
@@ -140,7 +144,8 @@ impl CrushableFoam {
         let (softer, stiffer) = (L::splat(1.0 / shear.min(bulk)), L::splat(0.25 * self.scale() / shear.max(bulk)));
         let (shear, bulk) = (L::splat(shear), L::splat(bulk));
         let (square, square_mean) = (q * q, shape * mean * mean);
-        // Φ_trial ≥ Φ (1 + k g) with the softer stiffness k bounds the step, for a curve that falls with Φ = 0; the tangent starts it.
+        // Φ_trial ≥ Φ (1 + k g) with the softer stiffness k bounds the step, for a curve that falls with
+        // Φ = 0; the tangent starts it.
         let least = if self.falls { zero } else { flow };
         let high = L::splat(self.scale()) * (equivalent - least) * softer;
         let falling = (square * shear + square_mean * bulk) * (per_scale * per_scale);

@@ -1,15 +1,20 @@
-//! Drucker and Prager's plasticity of soil, rock and concrete: what it bears grows with the pressure, and flow may widen it.
+//! Drucker and Prager's plasticity of soil, rock and concrete: what it bears grows with the pressure, and
+//! flow may widen it.
 //!
-//! q + A σ_m ≤ k, A = 6 sin φ / (3 − sin φ), k = 6 c cos φ / (3 − sin φ): the cone through the compressive edges of Mohr and Coulomb's pyramid, with
-//! cohesion c and friction angle φ; σ_m = ⅓ tr σ, tension positive. Flow along N + ⅓ B I, N = 3/2 s/q, B = 6 sin ψ / (3 − sin ψ) with the angle of
-//! dilation ψ ≤ φ: no volume from nothing, and the dissipation γ (k − (A − B) σ_m) is not negative anywhere on the cone.
-//! Return: γ = (q + A σ_m − k) / (3µ + K A B), q ← q − 3µ γ, σ_m ← σ_m − K B γ. Where that makes q negative, the stress returns to the apex,
-//! q = 0 and σ_m = k/A, with a plastic strain whose deviator is that of the trial. Perfectly plastic; dissipation as in `trial.rs`, with both parts.
-//! Source: Drucker and Prager, Quarterly of Applied Mathematics 10 (1952) 157-165; de Souza Neto, Perić and Owen, Computational Methods for
-//! Plasticity (2008), section 8.3.
+//! q + A σ_m ≤ k, A = 6 sin φ / (3 − sin φ), k = 6 c cos φ / (3 − sin φ): the cone through the compressive
+//! edges of Mohr and Coulomb's pyramid, with cohesion c and friction angle φ; σ_m = ⅓ tr σ, tension positive.
+//! Flow along N + ⅓ B I, N = 3/2 s/q, B = 6 sin ψ / (3 − sin ψ) with the angle of dilation ψ ≤ φ: no volume
+//! from nothing, and the dissipation γ (k − (A − B) σ_m) is not negative anywhere on the cone. Return:
+//! γ = (q + A σ_m − k) / (3µ + K A B), q ← q − 3µ γ, σ_m ← σ_m − K B γ. Where that makes q negative, the
+//! stress returns to the apex, q = 0 and σ_m = k/A, with a plastic strain whose deviator is that of the
+//! trial. Perfectly plastic; dissipation as in `trial.rs`, with both parts. Source: Drucker and Prager,
+//! Quarterly of Applied Mathematics 10 (1952) 157-165; de Souza Neto, Perić and Owen, Computational Methods
+//! for Plasticity (2008), section 8.3.
 
 use super::trial::Trial;
-use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Variable, YOUNG, bulk_and_shear};
+use super::{
+    DENSITY, Family, History, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, YOUNG, bulk_and_shear, variable,
+};
 use crate::angle::cos_sin;
 use crate::material::messages::PARAMETERS;
 use crate::quantity::{Dimension, Parameter, Range};
@@ -62,7 +67,7 @@ impl Law for DruckerPrager {
     const FLOWS_IN_VOLUME: bool = true;
     /// Equivalent strain of the plastic deviator, Σ γ.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
-    const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];
+    const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);

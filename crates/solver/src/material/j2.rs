@@ -1,15 +1,17 @@
 //! J2 (von Mises) plasticity with isotropic hardening of any kind, rate form, radial return.
 //!
-//! Trial stress as in `elastic`; q = √(3/2 s:s). Where q > σ_y(ε_p), the flow stress at the end of the step is met (backward Euler):
-//! q_trial − 3µ Δε_p = σ_y(ε_p + Δε_p) R(Δε_p / Δt), s ← s (1 − 3µ Δε_p / q_trial),
-//! with R = 1 or after Cowper and Symonds (see `hardening/rate.rs`). Linear hardening has a closed form, Δε_p = (q_trial − σ_y) / (3µ + H), and
-//! dissipates ∫ σ_y dε_p = (σ_y(ε_p) + ½ H Δε_p) Δε_p; the others are solved to 1e-12 of q_trial and dissipate as `trial.rs` says.
-//! Where the flow stress falls, 3µ + dσ_y/dε_p stays positive (`softening.rs`), so there is one solution without rate; falling linear hardening goes the way of the others.
-//! Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes, Computational Inelasticity (1998), box 3.2.
+//! Trial stress as in `elastic`; q = √(3/2 s:s). Where q > σ_y(ε_p), the flow stress at the end of the step
+//! is met (backward Euler): q_trial − 3µ Δε_p = σ_y(ε_p + Δε_p) R(Δε_p / Δt), s ← s (1 − 3µ Δε_p / q_trial),
+//! with R = 1 or after Cowper and Symonds (see `hardening/rate.rs`). Linear hardening has a closed form,
+//! Δε_p = (q_trial − σ_y) / (3µ + H), and dissipates ∫ σ_y dε_p = (σ_y(ε_p) + ½ H Δε_p) Δε_p; the others are
+//! solved to 1e-12 of q_trial and dissipate as `trial.rs` says. Where the flow stress falls, 3µ + dσ_y/dε_p
+//! stays positive (`softening.rs`), so there is one solution without rate; falling linear hardening goes the
+//! way of the others. Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes,
+//! Computational Inelasticity (1998), box 3.2.
 
 use super::hardening::{Flow, Hardening, Kept, Linear, Ludwik, Rate, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
-use super::{Family, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Softening, Variable, bulk_and_shear};
+use super::{Family, History, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
 
@@ -38,7 +40,7 @@ impl<H: Hardening> Law for J2With<H> {
     const FAMILY: Family = Family::Rate;
     /// Equivalent plastic strain; flow stress and slope there.
     type State<L: Lane, T: SymmetricTensor<L>> = ([L; 1], H::Kept<L>);
-    const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0)];
+    const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
@@ -126,7 +128,8 @@ impl<H: Hardening> J2With<H> {
         (newton.at, end)
     }
 
-    /// The same with the rate. The unknown is u = (rate / C)^{1/P}: with it the equation is smooth, where Δε_p itself begins with an infinite slope.
+    /// The same with the rate. The unknown is u = (rate / C)^{1/P}: with it the equation is smooth, where
+    /// Δε_p itself begins with an infinite slope.
     #[inline(always)]
     fn step_with_rate<L: Lane>(&self, rate: &Rate, time_step: L, q: L, plastic: L, [flow, slope]: [L; 2], yields: L::Mask) -> (L, [L; 2]) {
         let (stiffness, one, zero) = (L::splat(3.0 * self.shear), L::splat(1.0), L::splat(0.0));

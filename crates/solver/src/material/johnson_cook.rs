@@ -1,16 +1,20 @@
 //! Johnson and Cook's plasticity of metals: hardening, rate, heat and damage, for impact.
 //!
-//! σ_y = (A + B ε_p^n)(1 + C ln max(ε̇_p / ε̇_0, 1))(1 − T*^m), T* = (T − T_r) / (T_m − T_r) within 0 and 1: at the melting point no shear is left.
-//! The term B ε_p^n has the same chord at its start as in `hardening/ludwik.rs`. The flow stress at the end of the step is met (radial return,
-//! Newton to 1e-12) at the temperature of its start; then the step heats by ΔT = χ D / (ρ c), with the dissipation D of `trial.rs` and the initial
-//! density ρ, as nothing conducts in so short a time (Simo and Miehe's isothermal split).
-//! Damage grows by Δε_p / ε_f, ε_f = (D1 + D2 e^{D3 σ*}) (1 + D4 ln max(ε̇_p/ε̇_0, 1)) (1 + D5 T*), with the triaxiality σ* = σ_m / q (tension
-//! positive, so that D3 of metals is negative) of at most 1.5. It weakens nothing: at 1 the material has come to its end.
-//! Source: Johnson and Cook, 7th Int. Symp. Ballistics (1983) 541-547; damage: Engineering Fracture Mechanics 21 (1985) 31-48.
+//! σ_y = (A + B ε_p^n)(1 + C ln max(ε̇_p / ε̇_0, 1))(1 − T*^m), T* = (T − T_r) / (T_m − T_r) within 0 and 1:
+//! at the melting point no shear is left. The term B ε_p^n has the same chord at its start as in
+//! `hardening/ludwik.rs`. The flow stress at the end of the step is met (radial return, Newton to 1e-12) at
+//! the temperature of its start; then the step heats by ΔT = χ D / (ρ c), with the dissipation D of
+//! `trial.rs` and the initial density ρ, as nothing conducts in so short a time (Simo and Miehe's isothermal
+//! split). Damage grows by Δε_p / ε_f, ε_f = (D1 + D2 e^{D3 σ*}) (1 + D4 ln max(ε̇_p/ε̇_0, 1)) (1 + D5 T*),
+//! with the triaxiality σ* = σ_m / q (tension positive, so that D3 of metals is negative) of at most 1.5. It
+//! weakens nothing: at 1 the material has come to its end. Source: Johnson and Cook, 7th Int. Symp.
+//! Ballistics (1983) 541-547; damage: Engineering Fracture Mechanics 21 (1985) 31-48.
 
 use super::hardening::{Flow, Power, YIELD};
 use super::trial::{LIMIT, Newton, Trial};
-use super::{DENSITY, Family, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, Variable, YOUNG, bulk_and_shear};
+use super::{
+    DENSITY, Family, History, Kinematics, Law, LawKind, POISSON, ParameterFault, Parameters, Response, YOUNG, bulk_and_shear, variable,
+};
 use crate::material::messages::PARAMETERS;
 use crate::model::messages::LIST_LENGTH;
 use crate::quantity::{Dimension, Parameter, Range};
@@ -108,7 +112,7 @@ impl Law for JohnsonCook {
     const FAMILY: Family = Family::Rate;
     /// Equivalent plastic strain, temperature, damage; the term B ε_p^n and its slope there.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 5];
-    const VARIABLES: &'static [(Variable, usize)] = &[(Variable::PlasticStrain, 0), (Variable::Temperature, 1), (Variable::Damage, 2)];
+    const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0), variable::TEMPERATURE.at(1), variable::DAMAGE.at(2)];
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
@@ -172,7 +176,8 @@ impl Law for JohnsonCook {
             let q = trial.square.sqrt();
             let (inverse, stiffness) = (one / q, L::splat(3.0 * self.shear));
             let unit = (L::splat(self.rate_reference) * kinematics.time_step).max(L::splat(1e-100));
-            // At the yield stress of the rate 0; and where it flows already, about as fast as the strain goes on.
+            // At the yield stress of the rate 0; and where it flows already, about as fast as the strain goes
+            // on.
             let start = one / (stiffness + slope);
             let (slow, along) = ((q - flow) * start, trial.along(kinematics.strain_increment, inverse) * stiffness * start);
             let start = L::select(zero.less(along), slow.min(along), slow);

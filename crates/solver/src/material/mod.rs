@@ -1,8 +1,9 @@
 //! Material laws: the contract that each fulfils, and the registry that everything else iterates over.
 //!
-//! A law is written once, for any dimension and stress state, against [`SymmetricTensor`]. Its input is one [`Kinematics`] value from the block;
-//! it returns the Cauchy stress and what the ledger and the stable step need. To add a law: one file, one line in `laws!`.
-//! Blocks see laws erased, as [`points::PointLaw`]: the kernel of a law is compiled once, not once per element.
+//! A law is written once, for any dimension and stress state, against [`SymmetricTensor`]. Its input is one
+//! [`Kinematics`] value from the block; it returns the Cauchy stress and what the ledger and the stable step
+//! need. To add a law: one file, one line in `laws!`. Blocks see laws erased, as [`points::PointLaw`]: the
+//! kernel of a law is compiled once, not once per element.
 
 pub mod eos;
 pub mod hardening;
@@ -14,11 +15,13 @@ mod softening;
 mod state;
 mod trial;
 mod unloaded;
+pub mod variable;
 
 pub use j2::J2With;
 pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
 pub use softening::Softening;
-pub use state::{Orientation, State, Tensors, Variable};
+pub use state::{Orientation, State, Tensors};
+pub use variable::{History, Variable};
 
 use crate::message::Message;
 use crate::quantity::Parameter;
@@ -41,29 +44,35 @@ pub struct LawKind {
 /// Which deformation measures a law works on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Stress rate from the rate of deformation: gets the old stress, already rotated, and the strain increment. It has no energy
-    /// function; the block accumulates the stress work and subtracts what the law dissipates.
+    /// Stress rate from the rate of deformation: gets the old stress, already rotated, and the strain
+    /// increment. It has no energy function; the block accumulates the stress work and subtracts what the law
+    /// dissipates.
     Rate,
     /// Stress from the left Cauchy-Green tensor and the volume ratio; reports its stored energy.
     Hyperelastic,
 }
 
-/// What the block tells a law about one point; only the measures of its family, and those that it asks for, are set.
+/// What the block tells a law about one point; only the measures of its family, and those that it asks for,
+/// are set.
 #[derive(Clone, Copy, Debug)]
 pub struct Kinematics<L: Lane, T: SymmetricTensor<L>> {
     /// Step that led here, s; zero in the first evaluation.
     pub time_step: L,
-    /// Rate: Δε, symmetric part of the displacement increment's gradient in the mid-step configuration, rotated to the end of the step.
+    /// Rate: Δε, symmetric part of the displacement increment's gradient in the mid-step configuration,
+    /// rotated to the end of the step.
     pub strain_increment: T,
-    /// Rate: rotation over the step, for tensors in the law's own state (the stress is rotated already); set with [`Law::NEEDS_ROTATION`].
+    /// Rate: rotation over the step, for tensors in the law's own state (the stress is rotated already); set
+    /// with [`Law::NEEDS_ROTATION`].
     pub rotation: T::Rotation,
     /// Rate: old Cauchy stress, rotated to the end of the step, Pa.
     pub stress_rotated: T,
     /// Hyperelastic: b = F Fᵀ.
     pub left_cauchy_green: T,
-    /// Hyperelastic: J = det F. Rate: current volume of the element over its initial volume; set with [`Law::NEEDS_VOLUME`].
+    /// Hyperelastic: J = det F. Rate: current volume of the element over its initial volume; set with
+    /// [`Law::NEEDS_VOLUME`].
     pub volume_ratio: L,
-    /// Work that the bulk viscosity took from the element in the step before, J per m³ of initial volume; set with [`Law::NEEDS_VOLUME`].
+    /// Work that the bulk viscosity took from the element in the step before, J per m³ of initial volume; set
+    /// with [`Law::NEEDS_VOLUME`].
     pub viscous_heat: L,
 }
 
@@ -99,15 +108,17 @@ pub trait Law: Copy + Send + Sync + 'static {
     const FAMILY: Family;
     /// History values of a point: `[L; N]`, [`Tensors`], [`Orientation`], or a pair of such.
     type State<L: Lane, T: SymmetricTensor<L>>: State<L>;
-    /// History values that are shown to the user, with their places in the state.
-    const VARIABLES: &'static [(Variable, usize)] = &[];
+    /// History variables that are output as fields, with their places in the state.
+    const VARIABLES: &'static [History] = &[];
     /// Whether it has tensors in its state that turn with the material.
     const NEEDS_ROTATION: bool = false;
     /// Whether a rate law needs the volume ratio and the heat of the bulk viscosity.
     const NEEDS_VOLUME: bool = false;
-    /// Whether it takes energy for good; what is shown of its history (plastic strain, damage) grows with such.
+    /// Whether it takes energy for good; what is shown of its history (plastic strain, damage) grows with
+    /// such.
     const DISSIPATES: bool = !Self::VARIABLES.is_empty();
-    /// Whether it answers alike in all directions at rest. Where it does not, bulk and shear stiffness are bounds of the waves.
+    /// Whether it answers alike in all directions at rest. Where it does not, bulk and shear stiffness are
+    /// bounds of the waves.
     const ISOTROPIC: bool = true;
     /// Whether its flow changes the mean stress, which no equation of state may then replace.
     const FLOWS_IN_VOLUME: bool = false;
@@ -120,7 +131,8 @@ pub trait Law: Copy + Send + Sync + 'static {
     /// Reads its parameters, which have been checked against [`Law::KIND`].
     fn new(parameters: &Parameters<'_>) -> Self;
 
-    /// What is wrong with its parameters beyond the range of each: lists of unequal lengths, tables out of order.
+    /// What is wrong with its parameters beyond the range of each: lists of unequal lengths, tables out of
+    /// order.
     fn faults(_parameters: &Parameters<'_>) -> Vec<ParameterFault> {
         Vec::new()
     }
@@ -152,7 +164,8 @@ pub trait Law: Copy + Send + Sync + 'static {
     }
 }
 
-/// p²/2K + s:s/4µ with the stiffnesses K and µ (Pa) of a stress xx yy zz xy yz zx (Pa), J/m³; without shear stiffness the first alone.
+/// p²/2K + s:s/4µ with the stiffnesses K and µ (Pa) of a stress xx yy zz xy yz zx (Pa), J/m³; without shear
+/// stiffness the first alone.
 fn elastic_energy([bulk, shear]: [f64; 2], stress: [f64; 6]) -> f64 {
     let (mean, deviator) = (Solid(stress).trace() / 3.0, Solid(stress).deviator());
     let square = deviator.contract(deviator);
@@ -176,6 +189,8 @@ macro_rules! laws {
         pub const LAWS: &[LawKind] = &[$($(<$law as Law>::KIND),+),*];
 
         const OF_LAWS: &[&[&Message]] = &[$($(<$law as Law>::MESSAGES),+),*];
+
+        const VARIABLES_OF_LAWS: &[&[History]] = &[$($(<$law as Law>::VARIABLES),+),*];
 
         /// Calls `visitor` with the law called `name`; `None` when there is none.
         pub fn with_law<V: LawVisitor>(name: &str, visitor: V) -> Option<V::Output> {
@@ -204,6 +219,15 @@ laws! {
     null: Null;
 }
 
+/// Largest number of variables that a material can output: those of its law and of its equation of state.
+pub const VARIABLES_MOST: usize = variable::most(VARIABLES_OF_LAWS) + eos::VARIABLES.len();
+
+/// The variables of all laws, each once, in the order of the registry.
+#[must_use]
+pub fn variables() -> Vec<&'static Variable> {
+    variable::union(VARIABLES_OF_LAWS)
+}
+
 /// Kinds of messages that laws alone tell.
 pub(crate) fn messages() -> impl Iterator<Item = &'static Message> {
     OF_LAWS.iter().flat_map(|of_law| of_law.iter().copied())
@@ -222,7 +246,8 @@ pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
     with_law(name, Check(parameters)).unwrap_or_default()
 }
 
-/// How the flow stress of the law called `name` falls with plastic strain; `None` where it does not. Parameters are sound.
+/// How the flow stress of the law called `name` falls with plastic strain; `None` where it does not.
+/// Parameters are sound.
 #[must_use]
 pub fn softening(name: &str, parameters: &Parameters<'_>) -> Option<Softening> {
     struct Ask<'a>(&'a Parameters<'a>);
@@ -235,7 +260,8 @@ pub fn softening(name: &str, parameters: &Parameters<'_>) -> Option<Softening> {
     with_law(name, Ask(parameters)).flatten()
 }
 
-/// Plastic strain at which the table of the law called `name` ends; `None` where it has none. Parameters are sound.
+/// Plastic strain at which the table of the law called `name` ends; `None` where it has none. Parameters are
+/// sound.
 #[must_use]
 pub fn table_end(name: &str, parameters: &Parameters<'_>) -> Option<f64> {
     struct Ask<'a>(&'a Parameters<'a>);
@@ -248,7 +274,8 @@ pub fn table_end(name: &str, parameters: &Parameters<'_>) -> Option<f64> {
     with_law(name, Ask(parameters)).flatten()
 }
 
-/// Bulk and shear stiffness at rest of the law called `name`, Pa; `None` when there is no such law. Parameters are sound.
+/// Bulk and shear stiffness at rest of the law called `name`, Pa; `None` when there is no such law.
+/// Parameters are sound.
 #[must_use]
 pub fn stiffness(name: &str, parameters: &Parameters<'_>) -> Option<[f64; 2]> {
     struct Ask<'a>(&'a Parameters<'a>);
@@ -286,19 +313,22 @@ fn facts(name: &str) -> Option<Facts> {
     with_law(name, Ask)
 }
 
-/// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there is no such law.
+/// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there
+/// is no such law.
 #[must_use]
 pub fn equation_of_state(name: &str) -> Option<[bool; 2]> {
     facts(name).map(|law| [law.needs_equation_of_state, law.family == Family::Rate && !law.flows_in_volume])
 }
 
-/// Whether the law called `name` is that of an isotropic solid in rate form, whose K and µ are an elastic stiffness; `None` when there is no such law.
+/// Whether the law called `name` is that of an isotropic solid in rate form, whose K and µ are an elastic
+/// stiffness; `None` when there is no such law.
 #[must_use]
 pub fn has_elastic_stiffness(name: &str) -> Option<bool> {
     facts(name).map(|law| law.family == Family::Rate && law.is_isotropic && !law.needs_equation_of_state)
 }
 
-/// Whether bars can be of the law called `name`: it answers alike in all directions, and is no fluid; `None` when there is no such law.
+/// Whether bars can be of the law called `name`: it answers alike in all directions, and is no fluid; `None`
+/// when there is no such law.
 #[must_use]
 pub fn bears_uniaxial_stress(name: &str) -> Option<bool> {
     facts(name).map(|law| law.is_isotropic && !law.needs_equation_of_state)

@@ -1,6 +1,7 @@
-//! Laws as blocks see them: erased, many points at a time. The kernel of a law is compiled once for all elements and stress states.
+//! Laws as blocks see them: erased, many points at a time. The kernel of a law is compiled once for all
+//! elements and stress states.
 
-use super::{Family, Kinematics, Law, LawVisitor, Parameters, State, Variable, with_law};
+use super::{Family, History, Kinematics, Law, LawVisitor, Parameters, State, Variable, with_law};
 use crate::model::Material;
 use crate::tensor::{Dim, Plane, Space, SymmetricTensor, Turn};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
@@ -26,8 +27,9 @@ pub struct Points<'a> {
     pub stress: &'a mut [Batch],
     /// History, [`PointLaw::state_width`] per point.
     pub state: &'a mut [Batch],
-    /// [`RESPONSE`] per point. Stored: of a hyperelastic law its energy per initial volume, of a rate law (σ_old + σ_new):Δε, twice the work of the
-    /// step per volume, J/m³; dissipated in the step per current volume, J/m³; bulk and shear stiffness, Pa.
+    /// [`RESPONSE`] per point. Stored: of a hyperelastic law its energy per initial volume, of a rate law
+    /// (σ_old + σ_new):Δε, twice the work of the step per volume, J/m³; dissipated in the step per current
+    /// volume, J/m³; bulk and shear stiffness, Pa.
     pub response: &'a mut [Batch],
     /// Room that adapters may use.
     pub room: &'a mut Room,
@@ -58,15 +60,16 @@ pub trait PointLaw: Send + Sync {
     fn needs_rotation(&self) -> bool;
     /// See [`Law::NEEDS_VOLUME`].
     fn needs_volume(&self) -> bool;
-    /// History values that the user sees.
-    fn variables(&self) -> &[(Variable, usize)];
-    /// Place of a value in the history of a point, if the user sees it.
-    fn place(&self, variable: Variable) -> Option<usize> {
-        self.variables().iter().find(|&&(own, _)| own == variable).map(|&(_, index)| index)
+    /// History variables that are output, at most [`super::VARIABLES_MOST`].
+    fn variables(&self) -> &[History];
+    /// Place of a variable in the history of a point, if it is output.
+    fn place(&self, variable: &Variable) -> Option<usize> {
+        self.variables().iter().find(|own| own.variable == variable).map(|own| own.place)
     }
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];
-    /// Whether the bulk and shear stiffness that it reports are those of an isotropic elastic body, which it is never stiffer than; else they bound the speed of the waves alone.
+    /// Whether the bulk and shear stiffness that it reports are those of an isotropic elastic body, which it
+    /// is never stiffer than; else they bound the speed of the waves alone.
     fn is_elastic(&self) -> bool {
         false
     }
@@ -78,7 +81,8 @@ pub trait PointLaw: Send + Sync {
     fn energy(&self, stress: [f64; 6]) -> f64;
     /// Writes the history of a point at the start.
     fn start(&self, state: &mut [Batch]);
-    /// Place of the thickness ratio λ = t/t₀ (plane stress) or of the ratio of cross-sections (uniaxial stress) in the history.
+    /// Place of the thickness ratio λ = t/t₀ (plane stress) or of the ratio of cross-sections (uniaxial
+    /// stress) in the history.
     fn thickness(&self) -> Option<usize> {
         None
     }
@@ -86,7 +90,8 @@ pub trait PointLaw: Send + Sync {
     fn respond(&self, level: Level, points: Points<'_>);
 }
 
-/// The law of a material for points of the plane or of space, with its equation of state; `None` when one of them is unknown.
+/// The law of a material for points of the plane or of space, with its equation of state; `None` when one of
+/// them is unknown.
 #[must_use]
 pub fn of<const D: usize>(material: &Material) -> Option<Box<dyn PointLaw>>
 where
@@ -147,7 +152,7 @@ where
     fn needs_volume(&self) -> bool {
         M::NEEDS_VOLUME
     }
-    fn variables(&self) -> &[(Variable, usize)] {
+    fn variables(&self) -> &[History] {
         M::VARIABLES
     }
     fn stiffness(&self) -> [f64; 2] {

@@ -1,4 +1,4 @@
-//! History of a point: how laws keep numbers and tensors between steps, and which of them the user sees.
+//! History of a point: how laws keep numbers and tensors between steps.
 
 use crate::tensor::{SymmetricTensor, Turn};
 use embate_lanes::{Batch, Lane};
@@ -38,7 +38,8 @@ impl<L: Lane, const S: usize> State<L> for [L; S] {
     }
 }
 
-/// `N` tensors as history. A rate law turns them with the material itself, by [`super::Kinematics::rotation`].
+/// `N` tensors as history. A rate law turns them with the material itself, by
+/// [`super::Kinematics::rotation`].
 #[derive(Clone, Copy, Debug)]
 pub struct Tensors<L: Lane, T: SymmetricTensor<L>, const N: usize>(pub [T; N], PhantomData<L>);
 
@@ -72,7 +73,8 @@ impl<L: Lane, T: SymmetricTensor<L>, const N: usize> State<L> for Tensors<L, T, 
     }
 }
 
-/// How the material lies: the rotation of its axes since they were x, y, z. Not turned at the start unless the law says otherwise.
+/// How the material lies: the rotation of its axes since they were x, y, z. Not turned at the start unless
+/// the law says otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct Orientation<L: Lane, T: SymmetricTensor<L>>(pub T::Rotation);
 
@@ -108,22 +110,4 @@ impl<L: Lane, A: State<L>, B: State<L>> State<L> for (A, B) {
         self.0.store(to, at);
         self.1.store(&mut to[A::COUNT..], at);
     }
-}
-
-/// A history value that is shown as a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Variable {
-    /// Equivalent plastic strain.
-    PlasticStrain,
-    /// Temperature, K.
-    Temperature,
-    /// Damage, 0 to 1.
-    Damage,
-    /// Density, kg/m³, where an equation of state keeps it.
-    Density,
-}
-
-impl Variable {
-    /// How many there are.
-    pub const COUNT: usize = 4;
 }

@@ -1,13 +1,15 @@
-//! A law without load across: plane stress (σ_zz = 0) and uniaxial stress (σ_yy = σ_zz = 0) around any law. The strain across is found such that the stress
-//! across vanishes.
+//! A law without load across: plane stress (σ_zz = 0) and uniaxial stress (σ_yy = σ_zz = 0) around any law.
+//! The strain across is found such that the stress across vanishes.
 //!
-//! The law is asked again and again with another Δε across (rate laws) or λ (hyperelastic laws: b = λ² across, J = det F times what the volume gains across) until
+//! The law is asked again and again with another Δε across (rate laws) or λ (hyperelastic laws: b = λ²
+//! across, J = det F times what the volume gains across) until
 //! |σ_zz| ≤ 1e-12 of the stiffness K + 4µ/3: first with the slope of an elastic body, then with the secant. Under uniaxial stress both directions across have the
-//! same strain: the law must be isotropic. What a thickness (λ) or a cross-section (λ²) has become is part of the history.
-//! Source: the nested iteration of de Borst, Int. J. Numer. Meth. Engng 32 (1991) 1169-1180, with a secant for a law whose tangent is unknown.
+//! same strain: the law must be isotropic. What a thickness (λ) or a cross-section (λ²) has become is part of
+//! the history. Source: the nested iteration of de Borst, Int. J. Numer. Meth. Engng 32 (1991) 1169-1180,
+//! with a secant for a law whose tangent is unknown.
 
 use super::points::{PLANE, PointLaw, Points, RESPONSE};
-use super::{Family, Variable};
+use super::{Family, History};
 use embate_lanes::{BATCH, Batch, Level};
 
 /// Components yy and zz of a tensor of the plane.
@@ -115,10 +117,12 @@ impl Search {
         }
     }
 
-    /// The next unknown after the residual f = σ_zz at this one, with the stiffnesses there. `scale` is the unknown's change by unit of logarithmic strain.
+    /// The next unknown after the residual f = σ_zz at this one, with the stiffnesses there. `scale` is the
+    /// unknown's change by unit of logarithmic strain.
     ///
-    /// The secant where it is one of a stable law, else the elastic slope; half way between what is too little and what is too much where that leaves the bracket, and from
-    /// [`PATIENCE`] on at every other call: σ_zz grows with the strain across, so the answer is always between both.
+    /// The secant where it is one of a stable law, else the elastic slope; half way between what is too
+    /// little and what is too much where that leaves the bracket, and from [`PATIENCE`] on at every other
+    /// call: σ_zz grows with the strain across, so the answer is always between both.
     fn next(&mut self, f: f64, [wave, elastic]: [f64; 2], scale: f64, call: usize) {
         let secant = scale * (f - self.residual_old) / (self.unknown - self.unknown_old);
         // Cords in rubber are a ten-thousandth as stiff across as along.
@@ -149,7 +153,7 @@ impl PointLaw for Unloaded {
     fn needs_volume(&self) -> bool {
         self.law.needs_volume()
     }
-    fn variables(&self) -> &[(Variable, usize)] {
+    fn variables(&self) -> &[History] {
         self.law.variables()
     }
     fn stiffness(&self) -> [f64; 2] {
@@ -233,7 +237,8 @@ impl PointLaw for Unloaded {
             for k in 0..BATCH {
                 let new = self.ratio_new(thickness.0[k], unknown.0[k]);
                 state[p * width + inner].0[k] = new;
-                // Energies come per volume, the block counts areas (lengths): times the thickness (cross-section) at mid-step (rate) or at the end.
+                // Energies come per volume, the block counts areas (lengths): times the thickness
+                // (cross-section) at mid-step (rate) or at the end.
                 let mean = if hyperelastic { new } else { 0.5 * (thickness.0[k] + new) };
                 if !hyperelastic {
                     response[p * RESPONSE].0[k] *= mean;

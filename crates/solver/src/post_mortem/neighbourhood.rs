@@ -4,7 +4,7 @@
 
 use super::Suspect;
 use crate::dimension::Dimension;
-use crate::material::Variable;
+use crate::material::variable::PLASTIC_STRAIN;
 use crate::mesh::cell::CellKind;
 use crate::simulation::Runs;
 use crate::simulation::run::Run;
@@ -28,7 +28,8 @@ pub struct NearCell {
     pub part: usize,
     /// Its number in the part.
     pub element: usize,
-    /// Elements that lie between it and the culprit, plus one; zero: the culprit's own; `None`: it does not hang together with the culprit so closely, but is near.
+    /// Elements that lie between it and the culprit, plus one; zero: the culprit's own; `None`: it does not
+    /// hang together with the culprit so closely, but is near.
     pub ring: Option<u8>,
     /// Which kind of cell it is.
     pub kind: CellKind,
@@ -45,7 +46,8 @@ pub struct Neighbourhood {
     pub nodes: Vec<usize>,
     /// The elements, the culprit's first.
     pub cells: Vec<NearCell>,
-    /// The culprit among them, and its node among `nodes`; where a node is to blame, that of its elements which is worst off.
+    /// The culprit among them, and its node among `nodes`; where a node is to blame, that of its elements
+    /// which is worst off.
     pub element: Option<usize>,
     /// See `element`.
     pub node: Option<usize>,
@@ -107,7 +109,7 @@ where
             .collect();
         near.next.sort_unstable();
         near.next.dedup();
-        near.is_plastic = near.cells.iter().any(|&(g, _)| self.blocks[g].has(Variable::PlasticStrain));
+        near.is_plastic = near.cells.iter().any(|&(g, _)| self.blocks[g].has(&PLASTIC_STRAIN));
         near.shown.field = if near.is_plastic { ("plastic strain", "") } else { ("von Mises stress", "Pa") };
         near
     }

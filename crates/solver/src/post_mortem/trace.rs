@@ -1,10 +1,11 @@
 //! What becomes of a culprit and its neighbourhood, step by step.
 //!
-//! A [`Tracer`] looks at the system after every step of a simulation that goes to a failure for the second time, and changes nothing; what it saw is a [`Trace`].
+//! A [`Tracer`] looks at the system after every step of a simulation that goes to a failure for the second
+//! time, and changes nothing; what it saw is a [`Trace`].
 
 use super::{Near, Neighbourhood, Suspect};
 use crate::error::Error;
-use crate::material::Variable;
+use crate::material::variable::{DAMAGE, PLASTIC_STRAIN, TEMPERATURE, Variable};
 use crate::mesh::geometry::CellGeometry;
 use crate::model::in_space;
 use crate::output::Outline;
@@ -21,11 +22,13 @@ use std::marker::PhantomData;
 pub struct Vitals {
     /// Stable step of the element, s.
     pub time_step: f64,
-    /// Its shape: smallest Jacobian determinant at a corner over the square of the longest side; 1 for a square, zero or less when it is inside out.
+    /// Its shape: smallest Jacobian determinant at a corner over the square of the longest side; 1 for a
+    /// square, zero or less when it is inside out.
     pub shape: f64,
     /// Its area (of a bar: length) over that at the start.
     pub area_ratio: f64,
-    /// Largest and smallest principal logarithmic strain at its centre, from the initial to the current nodes.
+    /// Largest and smallest principal logarithmic strain at its centre, from the initial to the current
+    /// nodes.
     pub strains: [f64; 2],
     /// Equivalent plastic strain.
     pub plastic_strain: f64,
@@ -58,7 +61,8 @@ pub struct Moment {
     pub time_step: f64,
     /// Energy drift so far, fraction.
     pub drift: f64,
-    /// The row of the history, by [`crate::simulation::Simulation::history_columns`]; empty where the step failed before its books were closed.
+    /// The row of the history, by [`crate::simulation::Simulation::history_columns`]; empty where the step
+    /// failed before its books were closed.
     pub row: Vec<f64>,
     /// Of the culprit.
     pub vitals: Vitals,
@@ -66,7 +70,8 @@ pub struct Moment {
     pub positions: Vec<[f64; 3]>,
     /// Contact forces on them, N/m.
     pub forces: Vec<[f64; 3]>,
-    /// What each of [`Trace::contacts`] presses with on the culprit and the elements next to it, summed over their nodes, N/m.
+    /// What each of [`Trace::contacts`] presses with on the culprit and the elements next to it, summed over
+    /// their nodes, N/m.
     pub pressing: Vec<f64>,
     /// The field of each of [`Neighbourhood::cells`].
     pub values: Vec<f64>,
@@ -157,8 +162,8 @@ where
 {
     fn moment(&self, suspect: &Suspect, near: &Near, recorded: &Recorded, is_closed: bool) -> Moment {
         let field = |&(g, element): &(usize, usize)| {
-            let state = self.blocks[g].state(element);
-            if near.is_plastic { state.variables[Variable::PlasticStrain as usize] } else { von_mises(&state.stress) }
+            let (block, state) = (&self.blocks[g], self.blocks[g].state(element));
+            if near.is_plastic { block.variable(&state, &PLASTIC_STRAIN).unwrap_or(0.0) } else { von_mises(&state.stress) }
         };
         Moment {
             step: self.step,
@@ -206,14 +211,14 @@ where
         if let Some((g, element)) = suspect.element {
             let (block, cell) = (&self.blocks[g], self.mesh.groups[g].cell(element));
             let state = block.state(element);
-            let variable = |of: Variable| if block.has(of) { state.variables[of as usize] } else { f64::NAN };
+            let variable = |of: &Variable| block.variable(&state, of).unwrap_or(f64::NAN);
             vitals.time_step = block.time_step_squared(element).sqrt();
             vitals.shape = <Dim<D>>::shape_quality(cell, &self.positions);
             vitals.area_ratio = <Dim<D>>::size(cell, &self.positions) / <Dim<D>>::size(cell, &self.mesh.positions);
             vitals.strains = <Dim<D>>::principal_strains(cell, &self.mesh.positions, &self.positions);
-            vitals.plastic_strain = variable(Variable::PlasticStrain);
-            vitals.temperature = variable(Variable::Temperature);
-            vitals.damage = variable(Variable::Damage);
+            vitals.plastic_strain = variable(&PLASTIC_STRAIN);
+            vitals.temperature = variable(&TEMPERATURE);
+            vitals.damage = variable(&DAMAGE);
             vitals.von_mises = von_mises(&state.stress);
             vitals.pressure = -(state.stress[0] + state.stress[1] + state.stress[2]) / 3.0;
             vitals.energy_density = state.energy_density;
@@ -226,7 +231,8 @@ impl<const D: usize> Run<D>
 where
     Dim<D>: Runs<D>,
 {
-    /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it, after every step from number `from` on.
+    /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it,
+    /// after every step from number `from` on.
     pub(crate) fn follow(&mut self, suspect: &Suspect, at_failure: &Self, from: u64) {
         let near = at_failure.system.near(suspect);
         self.tracer = Some(Box::new(Tracer::new(*suspect, near, from, self.history_columns(), &self.system)));

@@ -1,10 +1,11 @@
-//! What every registered element with every registered law promises: constant strain, rigid motion, stiffness, masses, energy, the stable
-//! step, and the same bits on every instruction set.
+//! What every registered element with every registered law promises: constant strain, rigid motion,
+//! stiffness, masses, energy, the stable step, and the same bits on every instruction set.
 
 use crate::patches::*;
 use embate_lanes::{Level, Team};
 use embate_solver::element::ELEMENTS;
-use embate_solver::material::{LAWS, Variable};
+use embate_solver::material::LAWS;
+use embate_solver::material::variable::PLASTIC_STRAIN;
 
 type Gradient = [[f64; 2]; 2];
 
@@ -152,8 +153,9 @@ fn corner_masses_are_positive_and_have_the_mass_and_its_centre() {
 
 #[test]
 fn corner_forces_do_the_work_that_the_energy_tells() {
-    // −f·u = dU for any small motion u from a state of uneven stress; this is what the force part of the mean dilatation is for. The force is the
-    // mean over the motion: a law that gives way with the rate, or with the heat of the step before, has another force after the smallest motion.
+    // −f·u = dU for any small motion u from a state of uneven stress; this is what the force part of the mean
+    // dilatation is for. The force is the mean over the motion: a law that gives way with the rate, or with
+    // the heat of the step before, has another force after the smallest motion.
     every_pair(|element, law| {
         if is_damped(element) {
             return;
@@ -188,7 +190,8 @@ fn corner_forces_do_the_work_that_the_energy_tells() {
     });
 }
 
-/// Largest ω² dt²/4 over random elements; `later` moves the element from its initial form, in which it got its masses.
+/// Largest ω² dt²/4 over random elements; `later` moves the element from its initial form, in which it got
+/// its masses.
 fn worst_step(element: &str, law: &str, roughness: f64, later: impl Fn(&[[f64; 2]], &mut Spread) -> Vec<[f64; 2]>) -> f64 {
     let mut numbers = Spread::new(15);
     let mut worst = 0.0f64;
@@ -218,8 +221,8 @@ fn the_stable_step_bounds_the_largest_frequency() {
             assert!(worst < 1.0 + 1e-5, "{element} {law} {name}: {worst}");
             assert!(worst > 0.9 || roughness > 0.0, "{element} {law} {name}: {worst} wastes steps");
         }
-        // Under large strain the stress itself is stiff: what it adds to a single element mostly cancels between neighbours (next test), and the
-        // default safety of 0.9 covers a ratio of 1.23.
+        // Under large strain the stress itself is stiff: what it adds to a single element mostly cancels
+        // between neighbours (next test), and the default safety of 0.9 covers a ratio of 1.23.
         let worst = worst_step(element, law, 0.5, |x, numbers| {
             let f = near_one(0.3, numbers);
             x.iter().map(|&x| apply(&f, x)).collect()
@@ -299,7 +302,7 @@ fn every_instruction_set_and_any_threads_give_the_same_bits() {
                 let to: Vec<_> = body.positions.iter().map(|&x| (apply(&f, x), numbers.vector(size))).collect();
                 body.move_to(&to.iter().map(|(x, u)| [x[0] + u[0], x[1] + u[1]]).collect::<Vec<_>>());
             }
-            assert!(body.block.state(0).stress[0] != 0.0 && (!body.block.has(Variable::PlasticStrain) || body.report.dissipated > 0.0));
+            assert!(body.block.state(0).stress[0] != 0.0 && (!body.block.has(&PLASTIC_STRAIN) || body.report.dissipated > 0.0));
             bits(&body)
         };
         let reference = run(Level::SCALAR, 1);
@@ -341,7 +344,8 @@ fn a_block_pulls_without_its_eroded_elements_even_where_a_chunk_has_none_left() 
         body.block.erode(&gone, &mut body.slots);
         let at_once = differs(&body.forces());
         assert!(at_once < 1e-13, "{element} {law}: {at_once}");
-        // Averages over nodes change with the elements, rates with the step; but nothing pulls where nothing is left.
+        // Averages over nodes change with the elements, rates with the step; but nothing pulls where nothing
+        // is left.
         body.move_to(&to);
         let forces = body.forces();
         let mut lonely = (0..to.len()).filter(|&node| !has_elements[node]);

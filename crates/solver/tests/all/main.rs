@@ -1,4 +1,5 @@
-//! Tests of the solver through its public face: contracts that every entry of a registry keeps, and closed forms.
+//! Tests of the solver through its public face: contracts that every entry of a registry keeps, and closed
+//! forms.
 
 #![allow(clippy::unwrap_used, unreachable_pub)] // a test that meets nothing where something must be shall end there
 
@@ -24,6 +25,7 @@ mod elements;
 mod ends;
 mod erosion;
 mod fast_solids;
+mod fields;
 mod flush;
 mod formulations;
 mod extruded;

@@ -1,11 +1,11 @@
-//! Stress and temperature at the start: bodies in equilibrium stay at rest, released bars send out the waves of the closed form, energies are in the books from
-//! the start, and what a law can't hold is refused.
+//! Stress and temperature at the start: bodies in equilibrium stay at rest, released bars send out the waves
+//! of the closed form, energies are in the books from the start, and what a law can't hold is refused.
 
 use crate::bodies::*;
 use crate::patches::{Body, Patch, YOUNG, every_pair, material, patch};
 use embate_solver::block::Initial;
 use embate_solver::element::ELEMENTS;
-use embate_solver::material::Variable;
+use embate_solver::material::variable::{PLASTIC_STRAIN, TEMPERATURE};
 use embate_solver::model::{Constraint, Drive, InitialStress, Load, Model, Polygon, Shape};
 use embate_solver::simulation::Simulation;
 
@@ -26,7 +26,8 @@ fn push(model: &mut Model, on: &str, pressure: f64) {
 fn a_block_under_the_pressure_that_its_stress_asks_for_stays_at_rest() {
     for kind in ELEMENTS {
         for state in ["plane_strain", "plane_stress", "axisymmetric"] {
-            // One point takes the radius for the same all over the element: at the axis and the rim it does not balance a pressure exactly.
+            // One point takes the radius for the same all over the element: at the axis and the rim it does
+            // not balance a pressure exactly.
             if state == "axisymmetric" && kind.name.starts_with("quad4_reduced") {
                 continue;
             }
@@ -86,7 +87,8 @@ fn soil_under_its_own_weight_and_the_stress_that_bears_it_stays_at_rest() {
 
 #[test]
 fn a_bar_that_is_let_go_has_the_waves_of_the_closed_form() {
-    // Pulled by σ, held on the left, free on the right at t = 0: a wave of velocity −σ/ρc runs in and leaves no stress behind it.
+    // Pulled by σ, held on the left, free on the right at t = 0: a wave of velocity −σ/ρc runs in and leaves
+    // no stress behind it.
     let (young, density, length, stress) = (1e9, 1e3, 0.1, 1e5);
     let c = f64::sqrt(young / density);
     let mut model = slender(1.5 * length / c, young, density);
@@ -135,7 +137,8 @@ fn strained(element: &str, law: &str, size: f64) -> (Patch, Body) {
 fn the_books_begin_with_the_energy_that_it_takes_to_get_there() {
     let mut seen = 0;
     every_pair(|element, law| {
-        // What viscoelastic bodies have at the start has relaxed; rubber and what holds no such stress is refused.
+        // What viscoelastic bodies have at the start has relaxed; rubber and what holds no such stress is
+        // refused.
         if law == "viscoelastic" {
             return;
         }
@@ -180,10 +183,10 @@ fn metal_yields_at_the_flow_stress_of_its_initial_temperature() {
         let s = state.stress;
         let differences = (s[0] - s[1]).powi(2) + (s[1] - s[2]).powi(2) + (s[2] - s[0]).powi(2);
         let mises = (0.5 * differences + 3.0 * s[3] * s[3]).sqrt();
-        let plastic = state.variables[Variable::PlasticStrain as usize];
+        let plastic = body.block.variable(&state, &PLASTIC_STRAIN).unwrap();
         let expected = (2.0 + 3.0 * plastic.sqrt()) * (1.0 - ((temperature - 300.0) / 1000.0).powf(1.1));
         assert!(plastic > 0.01 && (mises / expected - 1.0).abs() < 1e-9, "{temperature}: {mises} for {expected}");
-        assert!((state.variables[Variable::Temperature as usize] - temperature).abs() < 1e-6);
+        assert!((body.block.variable(&state, &TEMPERATURE).unwrap() - temperature).abs() < 1e-6);
     }
 }
 

@@ -1,5 +1,5 @@
-//! What every registered element of space promises, with every law: shape functions, constant strain, rigid motion, stiffness, masses, energy, momentum, the stable step, and the same bits on
-//! every instruction set.
+//! What every registered element of space promises, with every law: shape functions, constant strain, rigid
+//! motion, stiffness, masses, energy, momentum, the stable step, and the same bits on every instruction set.
 
 use crate::blocks::largest;
 use crate::patches::{
@@ -11,7 +11,7 @@ use embate_solver::block::{BlockInput, make};
 use embate_solver::element::{
     ELEMENTS, ELEMENTS_OF_SPACE, Element, ElementKind, ElementOptions, ElementVisitor, Pulls, elements_of, map_of, registry, with_element,
 };
-use embate_solver::material::Variable;
+use embate_solver::material::variable::PLASTIC_STRAIN;
 use embate_solver::tensor::{Matrix, product};
 
 /// A test that calls `$check::<E, N, P>()` for every element of the registry.
@@ -337,7 +337,8 @@ fn shaken(element: &str, law: &str, patch: &Patch<3>, size: f64) -> Body<3> {
 
 #[test]
 fn corner_forces_do_the_work_that_the_energy_tells() {
-    // −f·u = dU for any small motion u from a state of uneven stress. The force is the mean over the motion: see the same test of the plane.
+    // −f·u = dU for any small motion u from a state of uneven stress. The force is the mean over the motion:
+    // see the same test of the plane.
     every_solid_pair(|element, law| {
         if is_damped(element) {
             return;
@@ -418,7 +419,8 @@ fn forces_of_elements_have_no_sum_and_no_moment() {
     });
 }
 
-/// Largest ω² dt²/4 over random elements; `later` moves the element from its initial form, in which it got its masses.
+/// Largest ω² dt²/4 over random elements; `later` moves the element from its initial form, in which it got
+/// its masses.
 fn worst_step(element: &str, law: &str, roughness: f64, later: impl Fn(&[Vector], &mut Spread) -> Vec<Vector>) -> f64 {
     let mut numbers = Spread::new(15);
     let mut worst = 0.0f64;
@@ -552,7 +554,7 @@ fn every_instruction_set_and_any_threads_give_the_same_bits_for_every_element_an
                 body.move_to(&to);
             }
             assert!(body.block.state(0).stress[0] != 0.0 && body.report.viscous > 0.0);
-            assert!(!body.block.has(Variable::PlasticStrain) || body.report.dissipated > 0.0);
+            assert!(!body.block.has(&PLASTIC_STRAIN) || body.report.dissipated > 0.0);
             bits(&body)
         };
         let reference = run(Level::SCALAR, 1);

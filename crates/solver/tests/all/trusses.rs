@@ -1,11 +1,13 @@
-//! Bars: uniaxial stress of every law, turns without strain, waves, the stable step, and trusses and cables against closed forms.
+//! Bars: uniaxial stress of every law, turns without strain, waves, the stable step, and trusses and cables
+//! against closed forms.
 
 use crate::bodies::*;
 use crate::patches::{Spread, YOUNG, is_isotropic, material, solids};
 use crate::point::Point;
 use embate_lanes::{Level, Team};
 use embate_solver::block::{Block, BlockInput, Initial, Motion, Report, make};
-use embate_solver::material::{Family, Law, LawVisitor, Variable, with_law};
+use embate_solver::material::variable::{PLASTIC_STRAIN, TEMPERATURE};
+use embate_solver::material::{Family, Law, LawVisitor, with_law};
 use embate_solver::model::{
     Constraint, Contact, Curve, CurveShape, Drive, Image, InitialStress, Join, Load, Material, Model, NonReflecting, Obstacle, Part, Probe,
     ProbeAt, Shape, Truss,
@@ -273,7 +275,8 @@ fn a_taut_cable_swings_with_the_frequency_of_the_string() {
     see(&mut model, "middle", "string.point1");
     let steps = every_step(&model);
     let (times, y) = (steps.column("time"), steps.column("middle.y"));
-    // Under a load that is there from the start the middle swings between 0 and twice its rest, ρ g L²/8σ; the sum of odd modes is a triangle wave there.
+    // Under a load that is there from the start the middle swings between 0 and twice its rest, ρ g L²/8σ;
+    // the sum of odd modes is a triangle wave there.
     let lowest = y.iter().copied().fold(0.0, f64::min);
     let rest = -1e3 * length * length / (8.0 * stress);
     assert!((lowest / (2.0 * rest) - 1.0).abs() < 0.01, "{lowest} {rest}");
@@ -298,7 +301,7 @@ fn a_steel_bar_flows_at_its_yield_stress_and_books_the_plastic_work() {
         before = bar.force()[0];
     }
     let state = bar.block.state(0);
-    let plastic = state.variables[Variable::PlasticStrain as usize];
+    let plastic = bar.block.variable(&state, &PLASTIC_STRAIN).unwrap();
     // σ = σ_y + H ε_p, ln λ = σ/E + ε_p.
     let expected = (1.02f64.ln() - 2.0 / YOUNG) / (1.0 + 0.05);
     assert!((plastic / expected - 1.0).abs() < 1e-4 && (state.stress[0] - 2.0 - 0.05 * YOUNG * plastic).abs() < 1e-9, "{state:?}");
@@ -307,7 +310,8 @@ fn a_steel_bar_flows_at_its_yield_stress_and_books_the_plastic_work() {
 
 #[test]
 fn bars_hang_on_a_block_by_joins_and_fall_with_it() {
-    // A block on two bars of length 1 under gravity: it sinks by m g L / 2 E A in the mean, and momentum from outside is all that there is.
+    // A block on two bars of length 1 under gravity: it sinks by m g L / 2 E A in the mean, and momentum from
+    // outside is all that there is.
     let mut model = model(0.3);
     model.materials.insert("bar".into(), elastic(1e9, 1e3));
     add(&mut model, "block", rectangle([0.0, 0.0], [0.5, 0.25], [2, 1]), [0.0; 2]);
@@ -390,7 +394,7 @@ fn initial_temperature_and_stress_are_those_of_the_bar() {
     let mut bar = OneBar::new(&steel, [0.0, 2.0]);
     bar.block.begin(&Initial { stress: None, temperature: Some(555.0) }, &bar.positions).unwrap();
     bar.go([0.0, 2.0]);
-    assert_eq!(bar.block.state(0).variables[Variable::Temperature as usize], 555.0);
+    assert_eq!(bar.block.variable(&bar.block.state(0), &TEMPERATURE), Some(555.0));
     let mut taut = OneBar::new(&material("elastic", 0.3), [0.0, 2.0]);
     taut.block.begin(&Initial { stress: Some(&InitialStress::uniform([3.0, 0.0, 0.0, 0.0])), temperature: None }, &taut.positions).unwrap();
     taut.go([0.0, 2.0]);

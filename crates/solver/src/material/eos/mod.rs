@@ -1,8 +1,10 @@
-//! Equations of state: pressure from the volume and the heat of a point, in place of the mean stress of a rate law.
+//! Equations of state: pressure from the volume and the heat of a point, in place of the mean stress of a
+//! rate law.
 //!
-//! An equation is written once, as the [`Terms`] of p = cold(v) + heat(v) E, with v = V/V₀ and E the energy per initial volume, J/m³. All are linear in E, so the
-//! energy balance of a step is solved in closed form. `point.rs` puts an equation around any rate law, erased: equations and laws are compiled one by one,
-//! not pair by pair. To add an equation: one file, one line in `equations_of_state!`.
+//! An equation is written once, as the [`Terms`] of p = cold(v) + heat(v) E, with v = V/V₀ and E the energy
+//! per initial volume, J/m³. All are linear in E, so the energy balance of a step is solved in closed form.
+//! `point.rs` puts an equation around any rate law, erased: equations and laws are compiled one by one, not
+//! pair by pair. To add an equation: one file, one line in `equations_of_state!`.
 
 mod ideal_gas;
 mod jwl;
@@ -19,6 +21,9 @@ pub use linear::Linear;
 pub use mie_gruneisen::MieGruneisen;
 pub use polynomial::Polynomial;
 
+pub(crate) use point::VARIABLES;
+
+use super::variable::{self, Variable};
 use super::{ParameterFault, Parameters, points::PointLaw};
 use crate::material::messages::PARAMETERS;
 use crate::model::Material;
@@ -124,13 +129,20 @@ macro_rules! equations_of_state {
 
 equations_of_state!(Linear, MieGruneisen, Polynomial, IdealGas, Jwl);
 
+/// The variables of points with an equation of state, besides those of their law.
+#[must_use]
+pub fn variables() -> Vec<&'static Variable> {
+    variable::union(&[VARIABLES])
+}
+
 /// The equation called `name`.
 #[must_use]
 pub fn kind(name: &str) -> Option<&'static EquationKind> {
     EQUATIONS.iter().find(|kind| kind.name == name)
 }
 
-/// What the equation called `name` finds wrong with parameters whose ranges are right. A material that has no stiffness at rest is one of the faults.
+/// What the equation called `name` finds wrong with parameters whose ranges are right. A material that has no
+/// stiffness at rest is one of the faults.
 #[must_use]
 pub fn faults(name: &str, parameters: &Parameters<'_>) -> Vec<ParameterFault> {
     struct Check<'a>(&'a Parameters<'a>);

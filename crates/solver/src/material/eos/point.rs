@@ -1,22 +1,24 @@
 //! A rate law whose mean stress is replaced by the pressure of an equation of state, at many points.
 //!
-//! The law answers first; of its stress the deviator stays. Then, with the volume ratio v and the heat of the step (what the law dissipated, and the work of
-//! the bulk viscosity in the step before), per initial volume:
+//! The law answers first; of its stress the deviator stays. Then, with the volume ratio v and the heat of the
+//! step (what the law dissipated, and the work of the bulk viscosity in the step before), per initial volume:
 //!
 //! ```text
 //! E_new = E_old + heat − ½ (p_old + p_new) Δv,   p_new = cold + heat_term E_new
 //! p_new = (cold + heat_term (E_old + heat − ½ p_old Δv)) / (1 + ½ heat_term Δv)
 //! ```
 //!
-//! Where p_new lies below −p_t, the limit in tension, it is −p_t, and E_new follows by the first line: what the matter takes up at the limit it gives back on
-//! the same way.
+//! Where p_new lies below −p_t, the limit in tension, it is −p_t, and E_new follows by the first line: what
+//! the matter takes up at the limit it gives back on the same way.
 //!
-//! Elastic energy of the deviator is no heat. The block books the work of the whole stress as stored, less what was dissipated, and begins with E of the start,
-//! so the books close by construction; E itself is stored plus dissipated plus viscous energy, less the deviator's elastic part.
+//! Elastic energy of the deviator is no heat. The block books the work of the whole stress as stored, less
+//! what was dissipated, and begins with E of the start, so the books close by construction; E itself is
+//! stored plus dissipated plus viscous energy, less the deviator's elastic part.
 
 use super::{Equation, Terms};
 use crate::material::points::{PointLaw, Points, RESPONSE};
-use crate::material::{Family, Variable};
+use crate::material::variable::DENSITY;
+use crate::material::{Family, History};
 use crate::tensor::{Dim, Solid, Space, SymmetricTensor};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 use std::marker::PhantomData;
@@ -25,6 +27,8 @@ type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
 
 /// Batches of history per point, after the law's own: density, energy per initial volume, pressure.
 const OWN: usize = 3;
+/// Which of them are output, by their place among these.
+pub(crate) const VARIABLES: &[History] = &[DENSITY.at(0)];
 /// Least bulk stiffness over that at rest: the stable step of a spent gas stays finite.
 const SOFTEST: f64 = 1e-9;
 
@@ -37,14 +41,14 @@ pub(super) struct WithEquation<Q, const D: usize> {
     least: f64,
     /// At rest.
     bulk: f64,
-    variables: Vec<(Variable, usize)>,
+    variables: Vec<History>,
     dimension: PhantomData<Dim<D>>,
 }
 
 impl<Q: Equation, const D: usize> WithEquation<Q, D> {
     pub(super) fn new(law: Box<dyn PointLaw>, equation: Q, density: f64, tension: f64) -> Self {
         let mut variables = law.variables().to_vec();
-        variables.push((Variable::Density, law.state_width()));
+        variables.extend(VARIABLES.iter().map(|own| own.variable.at(law.state_width() + own.place)));
         let bulk = equation.terms(1.0).bulk(1.0, equation.energy());
         Self { law, equation, density, least: -tension, bulk, variables, dimension: PhantomData }
     }
@@ -66,7 +70,7 @@ where
     fn needs_volume(&self) -> bool {
         true
     }
-    fn variables(&self) -> &[(Variable, usize)] {
+    fn variables(&self) -> &[History] {
         &self.variables
     }
     fn stiffness(&self) -> [f64; 2] {

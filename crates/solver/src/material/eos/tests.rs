@@ -1,6 +1,7 @@
 use super::*;
 use crate::material::points::{self, Points, RESPONSE, Room};
-use crate::material::{Variable, registry};
+use crate::material::registry;
+use crate::material::variable::DENSITY;
 use embate_lanes::{Batch, Level};
 
 /// A material with each equation.
@@ -159,7 +160,7 @@ fn at_rest_there_are_the_pressure_and_energy_of_the_start() {
         assert!(close(point.bulk(), bulk, 1e-12) && shear == 0.0 && bulk > 0.0, "{}", kind.name);
         assert!(close(point.energy(), point.law.stored(), 1e-15), "{}", kind.name);
         assert!((point.pressure() - point.own(2)).abs() < 1e-9 * bulk && point.work == 0.0, "{}", kind.name);
-        assert_eq!(point.law.variables().last(), Some(&(Variable::Density, 0)));
+        assert_eq!(point.law.variables().last(), Some(&DENSITY.at(0)));
         assert_eq!(point.own(0), material.parameters["density"]);
     }
     assert!(close(Point::new(&material("null", "ideal_gas")).pressure(), 1e5, 1e-12));

@@ -243,16 +243,33 @@ fn the_model_of_the_readme_runs() {
     assert!(summary["energy_drift"].as_f64().unwrap() < 0.005, "{summary}");
 }
 
-#[test]
-fn the_page_on_results_has_every_field_and_key() {
-    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/output.md")).unwrap();
+/// The table of the fields as `docs/output.md` has it.
+fn field_table() -> String {
+    let mut table = "| field | on | components | unit | meaning |\n|---|---|---|---|---|\n".to_string();
     for field in embate_solver::output::FIELDS.iter() {
         let place = if field.location == embate_solver::output::Location::Node { "node" } else { "cell" };
         let components = if field.components.is_empty() { "scalar".to_string() } else { field.components.join(" ") };
         let unit = if field.unit.is_empty() { "-" } else { field.unit };
-        let row = format!("| `{}` | {place} | {components} | {unit} | {} |", field.name, field.doc);
-        assert!(page.contains(&row), "docs/output.md lacks\n{row}");
+        table += &format!("| `{}` | {place} | {components} | {unit} | {} |\n", field.name, field.doc);
     }
+    table
+}
+
+#[test]
+fn the_page_on_results_has_every_field_and_key() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/output.md");
+    let mut page = fs::read_to_string(&path).unwrap().replace("\r\n", "\n");
+    let made = field_table();
+    if !page.contains(&made) && std::env::var_os("EMBATE_BLESS").is_some() {
+        let start = page.find("| field |").unwrap();
+        let end = page[start..].find("\n\n").map_or(page.len(), |end| start + end + 1);
+        page.replace_range(start..end, &made);
+        fs::write(&path, &page).unwrap();
+    }
+    assert!(
+        page.contains(&made),
+        "docs/output.md lacks the table of the fields: run this test with EMBATE_BLESS=1 and commit the file\n{made}"
+    );
     let results = run("two-bars", "example-keys");
     for key in results.summary.as_object().unwrap().keys() {
         assert!(page.contains(&format!("`{key}`")), "docs/output.md does not explain the key {key} of summary.json");

@@ -34,7 +34,6 @@ pub mod step;
 pub mod build;
 mod culprit;
 mod field;
-mod showing;
 pub mod body_columns;
 mod record;
 mod shortest;

@@ -1,4 +1,4 @@
-//! What is recorded of a system: which fields (`showing` has their values), history rows, momentum, the state
+//! What is recorded of a system: which fields (`field` has their values), history rows, momentum, the state
 //! hash. Values only; formats are elsewhere.
 
 use crate::archive::{Archive, Keep, Kept};
@@ -7,6 +7,7 @@ use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
 use crate::dimension::Dimension;
 use crate::error::Fault;
+use crate::field::snapshot::LiveSnapshot;
 use crate::field::{ALIVE, VON_MISES};
 use crate::hash::Fnv;
 use crate::material::variable::PLASTIC_STRAIN;
@@ -18,7 +19,6 @@ use crate::rigid::Body;
 use crate::rigid::RigidMotion;
 use crate::rotation::Rotate;
 use crate::rotation::unit_matrix;
-use crate::showing::Showing;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::{dot, first, minus, plus, times};
@@ -178,11 +178,11 @@ impl Recorded {
     }
 
     /// A system as it is shown now.
-    pub(crate) fn showing<'a, const D: usize>(&'a self, system: &'a System<D>) -> Showing<'a, D>
+    pub(crate) fn showing<'a, const D: usize>(&'a self, system: &'a System<D>) -> LiveSnapshot<'a, D>
     where
         Dim<D>: Dimension<D> + BodyColumns<D>,
     {
-        Showing::new(system, &self.fields)
+        LiveSnapshot::new(system, &self.fields)
     }
 }
 

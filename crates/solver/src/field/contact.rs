@@ -2,8 +2,8 @@
 
 use super::{Components, Description};
 use crate::dimension::Dimension;
+use crate::field::snapshot::LiveSnapshot;
 use crate::output::Needs;
-use crate::showing::Showing;
 use crate::tensor::Dim;
 
 pub(super) fn fields() -> Vec<Description> {
@@ -39,49 +39,49 @@ pub(super) fn fields() -> Vec<Description> {
     ]
 }
 
-fn force<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn force<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {
     values.copy_from_slice(&at.system.contact_forces.of(node));
 }
 
-fn pressure<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn pressure<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {
     values[0] = at.traction(node)[0];
 }
 
-fn shear<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn shear<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {
     values[0] = at.traction(node)[1];
 }
 
-fn gap<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn gap<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {
     values[0] = at.contact_state(node).gap;
 }
 
-fn slip<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn slip<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {
     values[0] = at.system.traces.slip(node);
 }
 
-fn status<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn status<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {
     values[0] = at.contact_state(node).status;
 }
 
-fn heat<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn heat<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {

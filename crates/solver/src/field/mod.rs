@@ -1,24 +1,26 @@
 //! The output fields: each carries the function of its values, and the registry that everything else iterates
 //! over.
 //!
-//! A field of nodes is a function of a system as it is shown ([`Showing`]) and a node, one of cells a
+//! A field of nodes is a function of a system as it is shown ([`LiveSnapshot`]) and a node, one of cells a
 //! function of the mean state of an element ([`Cell`]). History variables that laws and equations of state
 //! declare are fields without a further entry. To add a field: one file, one line in `fields!`. Writers see a
 //! field as the [`FieldKind`] of a dimension.
 
 use crate::block::ElementState;
 use crate::dimension::Dimension;
+use crate::field::snapshot::LiveSnapshot;
 use crate::material::Variable;
 use crate::output::{FieldKind, Location, Needs};
-use crate::showing::Showing;
 use crate::tensor::Dim;
+
+pub(crate) mod snapshot;
 
 pub(crate) use erosion::ALIVE;
 pub(crate) use stress::VON_MISES;
 
 /// Writes the values of a field at a node of a system.
 #[derive(Clone, Copy, Debug)]
-pub struct OfNode<const D: usize>(pub(crate) fn(&Showing<'_, D>, usize, &mut [f64]))
+pub struct OfNode<const D: usize>(pub(crate) fn(&LiveSnapshot<'_, D>, usize, &mut [f64]))
 where
     Dim<D>: Dimension<D>;
 

@@ -2,7 +2,7 @@
 
 use super::{Components, Description};
 use crate::dimension::Dimension;
-use crate::showing::Showing;
+use crate::field::snapshot::LiveSnapshot;
 use crate::tensor::Dim;
 use crate::vector::minus;
 
@@ -14,14 +14,14 @@ pub(super) fn fields() -> Vec<Description> {
     ]
 }
 
-fn displacement<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn displacement<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {
     values.copy_from_slice(&minus(at.system.positions[node], at.system.mesh.positions[node]));
 }
 
-fn velocity<const D: usize>(at: &Showing<'_, D>, node: usize, values: &mut [f64])
+fn velocity<const D: usize>(at: &LiveSnapshot<'_, D>, node: usize, values: &mut [f64])
 where
     Dim<D>: Dimension<D>,
 {

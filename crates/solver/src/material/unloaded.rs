@@ -2,11 +2,11 @@
 //! The strain across is found such that the stress across vanishes.
 //!
 //! The law is asked again and again with another Δε across (rate laws) or λ (hyperelastic laws: b = λ²
-//! across, J = det F times what the volume gains across) until
-//! |σ_zz| ≤ 1e-12 of the stiffness K + 4µ/3: first with the slope of an elastic body, then with the secant. Under uniaxial stress both directions across have the
-//! same strain: the law must be isotropic. What a thickness (λ) or a cross-section (λ²) has become is part of
-//! the history. Source: the nested iteration of de Borst, Int. J. Numer. Meth. Engng 32 (1991) 1169-1180,
-//! with a secant for a law whose tangent is unknown.
+//! across, J = det F times what the volume gains across) until the stress |σ_zz| is at most 1e-12 of the
+//! stiffness K + 4µ/3: first with the slope of an elastic body, then with the secant. Under uniaxial stress
+//! both directions across have the same strain: the law must be isotropic. What a thickness (λ) or a
+//! cross-section (λ²) has become is part of the history. Source: the nested iteration of de Borst, Int. J.
+//! Numer. Meth. Engng 32 (1991) 1169-1180, with a secant for a law whose tangent is unknown.
 
 use super::points::{PLANE, PointLaw, Points, RESPONSE};
 use super::{Family, History};

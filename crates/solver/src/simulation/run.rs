@@ -11,6 +11,7 @@ use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::messages::INSIDE_AT_START;
 use crate::contact::{ContactKind, search};
 use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
+use crate::field::snapshot::LiveSnapshot;
 use crate::hashes::{self, Hashes, Hashing};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
@@ -18,7 +19,6 @@ use crate::output::{Cells, Field, Frame, Shown, fields_of};
 use crate::post_mortem::Tracer;
 use crate::record::{Momentum, Recorded};
 use crate::shortest::Shortest;
-use crate::showing::Showing;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::watch::Watch;
@@ -407,7 +407,7 @@ where
     pub(crate) fn field(&self, name: &str) -> Option<Field> {
         let kind = fields_of(D).iter().find(|kind| kind.name == name)?;
         let kinds = [kind];
-        let showing = Showing::new(&self.system, &kinds);
+        let showing = LiveSnapshot::new(&self.system, &kinds);
         let mut values = Vec::new();
         showing.values(0, 0..showing.numbers(0) / kind.width(), &mut values);
         Some(Field { kind, values })
@@ -415,7 +415,7 @@ where
 
     /// Positions of all nodes now, m, one after the other, in the user's order.
     pub(crate) fn coordinates(&self) -> Vec<f64> {
-        let showing = Showing::new(&self.system, &[]);
+        let showing = LiveSnapshot::new(&self.system, &[]);
         let mut values = Vec::new();
         showing.coordinates(0..showing.nodes(), &mut values);
         values

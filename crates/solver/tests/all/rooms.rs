@@ -9,13 +9,15 @@ use std::path::{Path, PathBuf};
 const UPWARD: &[(&str, &str, usize)] = &[
     // Descriptions and checks of keys, which ask the registries.
     ("model", "mesh", 5),
-    ("model", "material", 4),
-    ("model", "element", 3),
+    ("model", "material", 5),
+    ("model", "element", 4),
     ("model", "failure", 2),
     ("model", "load", 4),
     ("model", "block", 4),
     ("model", "contact", 5),
-    ("model", "output", 1),
+    ("model", "output", 2),
+    // A kind of field carries the function of its values.
+    ("output", "field", 1),
     // What a simulation knows of its failure.
     ("simulation", "post_mortem", 2),
 ];

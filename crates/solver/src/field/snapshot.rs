@@ -21,7 +21,7 @@ use std::sync::OnceLock;
 const STATES: usize = 64;
 
 /// A system at an output time. What several pieces are taken from is found when the first of them asks.
-pub(crate) struct Showing<'a, const D: usize>
+pub(crate) struct LiveSnapshot<'a, const D: usize>
 where
     Dim<D>: Dimension<D>,
 {
@@ -37,7 +37,7 @@ where
     states: OnceLock<Vec<State>>,
 }
 
-impl<'a, const D: usize> Showing<'a, D>
+impl<'a, const D: usize> LiveSnapshot<'a, D>
 where
     Dim<D>: Dimension<D>,
 {
@@ -147,7 +147,7 @@ where
     }
 }
 
-impl<const D: usize> Shown for Showing<'_, D>
+impl<const D: usize> Shown for LiveSnapshot<'_, D>
 where
     Dim<D>: NodeFields<D>,
 {

@@ -3,7 +3,7 @@
 //!
 //! Each piece is made by one thread from its input alone and results keep the order of the pieces, so that
 //! files have the same bytes for any number of threads. Pieces come from `vtu`, `checkpoint` and `picture`;
-//! how many threads there are is a setting of the run. Buffers are kept in [`Rooms`]: `map_init` of `rayon`
+//! how many threads there are is a setting of the run. Buffers are kept in `Rooms`: `map_init` of `rayon`
 //! makes them anew for every piece.
 
 use rayon::prelude::*;

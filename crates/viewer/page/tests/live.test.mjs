@@ -20,7 +20,7 @@ test("a live run is seen going, and its end is told", async () => {
   assert.match(await text(page, ".live-figures"), /step.*Δt.*governed by.*energy drift.*wall time/s);
   await until(async () => (await coloured(page)) > 800, "bodies");
   await until(async () => /live/.test(await frame(page)) || /Done/.test(await text(page, ".live-state")), "a live frame");
-  await until(async () => /Done/.test(await text(page, ".live-state")), "its end", 60);
+  await until(async () => /Done/.test(await text(page, ".live-state")), "its end", 600);
   assert.match(await text(page, ".live-end"), /reached its end/);
   await until(async () => /frame 301 of 301|frame 101 of 101/.test(await frame(page)), "the last of the frames on disk");
   assert.match(await time(page), /^30\.0/);
@@ -72,7 +72,7 @@ test("pause holds the run, keep state writes one, resume goes on, stop asks once
 test("a server that ends with its run leaves the page as it is, in words and without alarm", async () => {
   const server = await watch("tube-plate", "ends", ["--set", "run.end=0.01"]);
   const { page, done } = await pageAt(server.address);
-  await until(async () => /Done/.test(await text(page, ".live-state")), "the end", 60);
+  await until(async () => /Done/.test(await text(page, ".live-state")), "the end", 600);
   assert.equal(await server.ended, 0);
   assert.match(await text(page, ".live-end"), /The server has ended with it/);
   await page.waitForTimeout(2500);
@@ -83,9 +83,9 @@ test("a server that ends with its run leaves the page as it is, in words and wit
 
 test("a run that is over before its page is opened waits for it and shows its end", async () => {
   const server = await watch("tube-plate", "short", ["--set", "run.end=1e-5"]);
-  await until(() => /over before its page was opened/.test(server.said()), "the end of the run", 60);
+  await until(() => /over before its page was opened/.test(server.said()), "the end of the run", 600);
   const { page, done } = await pageAt(server.address);
-  await until(async () => /Done/.test(await text(page, ".live-state")), "the end", 60);
+  await until(async () => /Done/.test(await text(page, ".live-state")), "the end", 600);
   assert.equal(await server.ended, 0);
   assert.ok((await coloured(page)) > 800);
   await done(/ERR_CONNECTION|WebSocket/);

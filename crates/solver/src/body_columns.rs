@@ -9,7 +9,7 @@ pub trait BodyColumns<const D: usize>: RigidMotion<D> {
     const MOMENT: &[&str];
     /// Their values.
     fn moments(moment: &Self::Spin) -> Vec<f64>;
-    /// Columns of a rigid body that moves: its reference point, in the plane its angle, and their velocities.
+    /// Columns of a rigid body that moves: its reference point, in 2D its angle, and their velocities.
     const MOTION: &[&str];
     /// Their values at the whole step; `before` is the part of the last update that lies before it.
     fn motion(body: &Body<D>, before: f64) -> Vec<f64>

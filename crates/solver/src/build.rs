@@ -25,6 +25,7 @@ use crate::contact::messages::{NO_STEP, TIED_TWICE};
 use crate::material::messages::INITIAL_STATE;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::tensor::Dim;
+use crate::vector;
 use again::Origin;
 pub use dimension::Builds;
 use fans::Fans;
@@ -372,7 +373,7 @@ where
     fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
         let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));
         if let Some((node, other)) = twice {
-            let at = crate::vector::place(self.mesh.positions[node as usize]);
+            let at = vector::place(self.mesh.positions[node as usize]);
             self.faults.push(Fault::new(
                 &TIED_TWICE,
                 path,

@@ -8,8 +8,7 @@ use crate::error::Error;
 use crate::mesh::geometry::CellGeometry;
 use crate::step::{Governor, System};
 use crate::tensor::Dim;
-use crate::vector::place;
-use crate::vector::{dot, plus};
+use crate::vector::{dot, place, plus};
 
 impl<const D: usize> System<D>
 where

@@ -5,16 +5,16 @@
 pub struct Outline {
     /// Name of the obstacle.
     pub name: String,
-    /// Points of its surface, m. In the plane (z is zero) they follow each other, the solid on the right;
+    /// Points of its surface, m. In 2D (z is zero) they follow each other, the solid on the right;
     /// what is without end reaches far beyond the model, a closed line ends at its first point.
     pub points: Vec<[f64; 3]>,
-    /// In space: facets of it, each by its points, outward by the right-hand rule; a triangle repeats its
+    /// In 3D: facets of it, each by its points, outward by the right-hand rule; a triangle repeats its
     /// last point.
     pub facets: Vec<[u32; 4]>,
 }
 
 impl Outline {
-    /// A line of the plane.
+    /// A line in 2D.
     #[must_use]
     pub fn line(name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         Self { name: name.into(), points: points.into_iter().map(|[x, y]| [x, y, 0.0]).collect(), facets: Vec::new() }

@@ -15,13 +15,11 @@ use crate::mesh::ElementGroup;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Model, ProbeAt};
 use crate::output::{Cells, FieldKind, Needs, fields_of};
-use crate::rigid::Body;
-use crate::rigid::RigidMotion;
-use crate::rotation::Rotate;
-use crate::rotation::unit_matrix;
+use crate::rigid::{Body, RigidMotion};
+use crate::rotation::{Rotate, unit_matrix};
 use crate::step::System;
 use crate::tensor::Dim;
-use crate::vector::{dot, first, minus, plus, times};
+use crate::vector::{self, dot, first, minus, plus, times};
 
 /// Columns of energies, after `energy.`.
 const ENERGIES: [&str; 12] = [
@@ -178,7 +176,7 @@ impl Recorded {
     }
 
     /// A system as it is shown now.
-    pub(crate) fn showing<'a, const D: usize>(&'a self, system: &'a System<D>) -> LiveSnapshot<'a, D>
+    pub(crate) fn snapshot<'a, const D: usize>(&'a self, system: &'a System<D>) -> LiveSnapshot<'a, D>
     where
         Dim<D>: Dimension<D> + BodyColumns<D>,
     {
@@ -192,7 +190,7 @@ where
 {
     let part_of =
         |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
-    let place = |node: u32| format!("{} m", crate::vector::place(system.positions[node as usize]));
+    let place = |node: u32| format!("{} m", vector::place(system.positions[node as usize]));
     match at {
         ProbeAt::Point { part, point } => {
             let distance = |node: &u32| {

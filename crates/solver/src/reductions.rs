@@ -95,24 +95,23 @@ impl ExactSum {
     /// The sum, rounded to the nearest number, to the even one of two. Not finite where something added was
     /// not.
     #[must_use]
-    pub fn value(&self) -> f64 {
+    pub fn value(mut self) -> f64 {
         if self.not_finite != 0.0 {
             return self.not_finite;
         }
-        let mut size = self.clone();
-        size.carry();
-        let [first, end] = size.used;
-        let is_negative = end > 0 && size.digits[end - 1] < 0;
+        self.carry();
+        let [first, end] = self.used;
+        let is_negative = end > 0 && self.digits[end - 1] < 0;
         if is_negative {
-            size.digits[first..end].iter_mut().for_each(|digit| *digit = -*digit);
-            size.carry();
+            self.digits[first..end].iter_mut().for_each(|digit| *digit = -*digit);
+            self.carry();
         }
-        let Some(top) = (size.used[0]..size.used[1]).rev().find(|&k| size.digits[k] != 0) else { return 0.0 };
+        let Some(top) = (self.used[0]..self.used[1]).rev().find(|&k| self.digits[k] != 0) else { return 0.0 };
         // The highest digits, and in the last bit whether there is anything below: far beyond what rounding
         // looks at.
         let lowest = top.saturating_sub(3);
-        let mut head = (lowest..=top).rev().fold(0u128, |head, k| head << BITS | size.digits[k] as u128);
-        if size.digits[size.used[0].min(lowest)..lowest].iter().any(|&digit| digit != 0) {
+        let mut head = (lowest..=top).rev().fold(0u128, |head, k| head << BITS | self.digits[k] as u128);
+        if self.digits[first.min(lowest)..lowest].iter().any(|&digit| digit != 0) {
             head |= 1;
         }
         let exponent = BITS as i32 * lowest as i32 + LEAST;
@@ -210,7 +209,7 @@ mod tests {
             }
             let [mut all, other] = parts;
             all.merge(&other);
-            prop_assert_eq!(all.value(), wanted);
+            prop_assert_eq!(all.clone().value(), wanted);
             // With all of it taken away again nothing is left.
             values.iter().for_each(|&value| all.add(-value));
             prop_assert_eq!(all.value(), 0.0);

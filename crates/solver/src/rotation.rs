@@ -18,9 +18,9 @@ pub trait Rotate<const D: usize> {
     fn rotation(axis: [f64; 3], angle: f64) -> Square<D>;
     /// The part of a point that lies across `axis`.
     fn perpendicular(arm: [f64; D], axis: [f64; 3]) -> [f64; D];
-    /// The cross product `spin` × `arm`; in the plane the spin is its third component.
+    /// The cross product `spin` × `arm`; in 2D the spin is its third component.
     fn spin_velocity(spin: [f64; 3], arm: [f64; D]) -> [f64; D];
-    /// The moment `arm` × `force`; in the plane its third component, and no other.
+    /// The moment `arm` × `force`; in 2D its third component, and no other.
     fn moment_vector(arm: [f64; D], force: [f64; D]) -> [f64; 3];
 }
 

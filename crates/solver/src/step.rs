@@ -20,8 +20,7 @@ use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep};
 use crate::contact_forces::ContactForces;
 use crate::dimension::Dimension;
-use crate::energy::Lost;
-use crate::energy::{Entry, Ledger, Stores, Sums, Works};
+use crate::energy::{Entry, Ledger, Lost, Stores, Sums, Works};
 use crate::error::Error;
 use crate::load::body_force::BodyForces;
 use crate::load::constraint::Constraints;
@@ -325,7 +324,7 @@ where
         let all = Report::joined(self.reports.iter().copied());
         match self.reports.split_last() {
             Some((springs, elements)) if self.has_springs => {
-                let of_elements = Report::joined(elements.iter().copied()).time_step_squared;
+                let of_elements = reductions::min(elements.iter().map(|report| report.time_step_squared));
                 Report { time_step_squared: together(of_elements, springs.time_step_squared), ..all }
             }
             _ => all,

@@ -17,6 +17,7 @@
 
 use super::batch::{ElementBatch, Resistance};
 use super::strain::Tensor;
+use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
 use crate::material::points::RESPONSE;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
@@ -36,9 +37,9 @@ pub(super) fn step_squared<L: Lane>(time_step_squared: L, damping: f64) -> L {
 
 /// Points of a strip after their law has answered.
 pub(super) struct Damp<'a, const D: usize> {
-    /// Points of an element, and whether the stress normal to the plane vanishes.
+    /// Points of an element, and its stress state.
     pub(super) points: usize,
-    pub(super) is_plane_stress: bool,
+    pub(super) state: StressState,
     /// β, s.
     pub(super) damping: f64,
     pub(super) time_step: f64,
@@ -68,8 +69,7 @@ where
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let turn = <<Tensor<D, L> as SymmetricTensor<L>>::Rotation as Turn<L>>::COMPONENTS;
         let factor = L::splat(if self.time_step > 0.0 { self.damping / self.time_step } else { 0.0 });
-        // Space has none.
-        let is_plane_stress = D == 2 && self.is_plane_stress;
+        let is_plane_stress = self.state.of::<D>().is_plane_stress;
         let mut work = zero;
         for point in batch * self.points..(batch + 1) * self.points {
             let strain = Tensor::<D, L>::load(&self.strip.strain[point * components..(point + 1) * components], at);

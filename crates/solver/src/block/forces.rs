@@ -15,7 +15,7 @@
 use super::Report;
 use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
-use super::strain::{Tensor, circumference, deformation, initial_width, matrix};
+use super::strain::{Tensor, averages, circumference, deformation, initial_width, matrix};
 use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
 use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
@@ -151,7 +151,7 @@ where
                 Family::Rate => volume,
                 Family::Hyperelastic => {
                     let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
-                    if self.is_axisymmetric() { own * geometry.depth[p] } else { own }
+                    if self.state.of::<D>().is_axisymmetric { own * geometry.depth[p] } else { own }
                 }
             };
             dissipated += L::load(&response[1], at) * current;
@@ -247,22 +247,6 @@ impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> Forces
 where
     Dim<D>: Space<D>,
 {
-    /// Whether x is the radius, and whether there is no stress normal to the plane; never in space.
-    #[inline(always)]
-    fn is_axisymmetric(&self) -> bool {
-        D == 2 && self.state.is_axisymmetric
-    }
-    #[inline(always)]
-    fn is_plane_stress(&self) -> bool {
-        D == 2 && self.state.is_plane_stress
-    }
-
-    /// Whether dilatations are averaged over the element.
-    #[inline(always)]
-    fn averages(&self) -> bool {
-        E::MEAN_DILATATION && !self.is_plane_stress()
-    }
-
     #[inline(always)]
     fn geometry<L: Lane>(&self, batch: usize, at: usize) -> Geometry<L, D, N, P> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
@@ -278,12 +262,13 @@ where
         for p in 0..P {
             let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
             geometry.area += own;
-            if self.is_plane_stress() {
+            if self.state.of::<D>().is_plane_stress {
                 geometry.depth[p] = L::load(&self.input.history[(batch * P + p) * self.input.history_width + self.input.thickness], at);
-            } else if self.is_axisymmetric() {
+            } else if self.state.of::<D>().is_axisymmetric {
                 geometry.depth[p] = circumference(&x, &E::shape(E::POINTS[p]));
             }
-            geometry.volume += if self.is_plane_stress() || self.is_axisymmetric() { own * geometry.depth[p] } else { own };
+            geometry.volume +=
+                if self.state.of::<D>().is_plane_stress || self.state.of::<D>().is_axisymmetric { own * geometry.depth[p] } else { own };
         }
         geometry
     }
@@ -320,7 +305,7 @@ where
             Family::Rate => L::splat(E::WEIGHTS[p]),
             Family::Hyperelastic => L::load(&self.input.strip.weight[point], at),
         };
-        if self.is_plane_stress() || self.is_axisymmetric() {
+        if self.state.of::<D>().is_plane_stress || self.state.of::<D>().is_axisymmetric {
             weight = weight * depth[p];
         }
         (stress, weight)
@@ -333,7 +318,7 @@ where
         let (zero, third) = (L::splat(0.0), L::splat(1.0 / 3.0));
         let Geometry { map: Map { adjugates, warped, determinants }, depth, .. } = geometry;
         let mut mean = L::splat(-0.0);
-        if self.averages() {
+        if averages::<E, D, N, P>(self.state) {
             for p in 0..P {
                 let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, depth);
                 mean += stress.trace() * third * (determinants[p] * weight);
@@ -348,8 +333,8 @@ where
             let mut weighted = stress.times(-weight);
             let share = L::splat(E::WEIGHTS[p]);
             // In plane stress nothing is averaged, and the pressure of the bulk viscosity has the thickness.
-            let share = if self.is_axisymmetric() { share * depth[p] } else { share };
-            if self.averages() {
+            let share = if self.state.of::<D>().is_axisymmetric { share * depth[p] } else { share };
+            if averages::<E, D, N, P>(self.state) {
                 let own = stress.trace() * third * weight;
                 weighted = weighted.plus_isotropic(own - mean * share);
             }
@@ -366,7 +351,7 @@ where
                     }
                 }
             }
-            if self.is_axisymmetric() {
+            if self.state.of::<D>().is_axisymmetric {
                 // The weight has 2πx already; the hoop strain is u/x.
                 hoop[p] = weighted.zz() * determinants[p] * (L::splat(TAU) / depth[p]);
             }
@@ -375,7 +360,7 @@ where
             pulls.rest[i] = -held.pulls.rest[i];
         }
         let mut nodal = if E::WARPED { E::divergence_warped(&flux, &pulls) } else { E::divergence(&flux) };
-        if self.is_axisymmetric() {
+        if self.state.of::<D>().is_axisymmetric {
             for p in 0..P {
                 let shape = E::shape(E::POINTS[p]);
                 for a in 0..N {
@@ -402,7 +387,7 @@ where
         [thickness_squared, dilating_squared]: [[L; 2]; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let is_plane_stress = self.is_plane_stress();
+        let is_plane_stress = self.state.of::<D>().is_plane_stress;
         let element = &mut self.input.resistance[batch];
         let (old, live) = (L::load(&element.volume, at), L::load(&self.input.elements[batch].live, at));
         let (size, depth) = if is_plane_stress { (geometry.area, geometry.volume / geometry.area) } else { (geometry.volume, one) };
@@ -445,7 +430,7 @@ where
         [modulus, shear, mass]: [L; 3],
         [thickness_squared, dilating_squared]: [[L; 2]; 2],
     ) -> Held<L, D, N> {
-        let is_plane_stress = self.is_plane_stress();
+        let is_plane_stress = self.state.of::<D>().is_plane_stress;
         let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
         let (changes, keep) = (&self.input.strip.swing[own.clone()], &mut self.input.hourglass[own]);
         let mut swing = [[L::splat(0.0); D]; PATTERNS];

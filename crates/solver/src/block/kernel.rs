@@ -6,7 +6,7 @@
 //! implementation.
 
 use super::forces::{Forces, ForcesKernel};
-use super::strain::{Strain, StrainKernel, Tensor, circumference, initial_width, radius};
+use super::strain::{Strain, StrainKernel, Tensor, initial_width, point_volume, radius};
 use super::stress_state::StressState;
 use super::strip::{Every, Strip};
 use crate::element::{Element, ElementOptions, map_of};
@@ -33,8 +33,8 @@ pub(super) struct Facts {
     pub(super) weight: f64,
     /// Whether dilatations are averaged over the nodes of the block ([`super::nodal`]).
     pub(super) averages_at_nodes: bool,
-    /// Whether the stress normal to the plane vanishes.
-    pub(super) is_plane_stress: bool,
+    /// Its stress state.
+    pub(super) state: StressState,
 }
 
 /// Geometry of one element: what an [`ElementKernel`] finds from the positions of its nodes.
@@ -70,7 +70,6 @@ pub(super) trait ElementKernel<const D: usize>: Send + Sync {
 pub(super) struct Compiled<E, const D: usize, const N: usize, const P: usize> {
     element: E,
     facts: Facts,
-    state: StressState,
 }
 
 impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> Compiled<E, D, N, P>
@@ -89,9 +88,9 @@ where
             initial: initial_width::<E, D, N, P>(state),
             weight: E::WEIGHTS[0],
             averages_at_nodes: E::NODAL_DILATATION && !state.is_plane_stress,
-            is_plane_stress: state.is_plane_stress,
+            state,
         };
-        Self { element: E::new(options), facts, state }
+        Self { element: E::new(options), facts }
     }
 }
 
@@ -109,7 +108,7 @@ where
     }
 
     fn geometry(&self, positions: &[[f64; D]], geometry: &mut ElementGeometry<D>) {
-        let x: [[f64; D]; N] = corners(positions);
+        let (x, state): ([[f64; D]; N], _) = (corners(positions), self.facts.state);
         let map = map_of::<E, f64, D, N, P>(&x);
         let ElementGeometry { places, volumes, initial, corner_volumes } = geometry;
         places.clear();
@@ -119,8 +118,7 @@ where
         for p in 0..P {
             let determinant = map.determinants[p];
             let shape = E::shape(E::POINTS[p]);
-            let area = determinant * E::WEIGHTS[p];
-            let volume = if self.state.is_axisymmetric { area * circumference(&x, &shape) } else { area };
+            let volume = point_volume::<E, _, D, N, P>(state, determinant * E::WEIGHTS[p], &x, p);
             places.push(std::array::from_fn(|d| (0..N).map(|a| shape[a] * x[a][d]).sum()));
             volumes.push(volume);
             for a in 0..N {
@@ -131,12 +129,12 @@ where
             if E::WARPED {
                 initial.extend(map.warped.as_flattened().iter().map(|warped| warped / determinant));
             }
-            if self.state.is_axisymmetric {
+            if state.is_axisymmetric {
                 initial.push(radius(&x, &shape));
             }
         }
         corner_volumes.clear();
-        corner_volumes.extend(E::corner_volumes(&x, self.state.is_axisymmetric).unwrap_or(corner_sums));
+        corner_volumes.extend(E::corner_volumes(&x, state.is_axisymmetric).unwrap_or(corner_sums));
     }
 
     fn determinant(&self, positions: &[[f64; D]]) -> f64 {
@@ -145,11 +143,11 @@ where
     }
 
     fn strain(&self, level: Level, input: Strain<'_, D>) {
-        level.run(Every(StrainKernel::<E, D, N, P> { input, state: self.state, kind: PhantomData }));
+        level.run(Every(StrainKernel::<E, D, N, P> { input, state: self.facts.state, kind: PhantomData }));
     }
 
     fn forces(&self, level: Level, input: Forces<'_, D>) {
-        level.run(Every(ForcesKernel::<E, D, N, P> { element: &self.element, input, state: self.state }));
+        level.run(Every(ForcesKernel::<E, D, N, P> { element: &self.element, input, state: self.facts.state }));
     }
 
     fn volumes(&self, strip: &Strip<D>, volumes: &mut [Batch]) {
@@ -161,7 +159,7 @@ where
                 let x: [[f64; D]; N] =
                     std::array::from_fn(|a| std::array::from_fn(|i| f64::load(&strip.parts[(batch * N + a) * D + i], lane)));
                 let area = Dim::<D>::determinant(&E::gradients(&x)[0]) * E::WEIGHTS[0];
-                volumes.0[lane] = if self.state.is_axisymmetric { area * circumference(&x, &E::shape(E::POINTS[0])) } else { area };
+                volumes.0[lane] = point_volume::<E, _, D, N, P>(self.facts.state, area, &x, 0);
             }
         }
     }

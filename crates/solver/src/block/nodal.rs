@@ -113,11 +113,7 @@ where
         slots: &mut [[f64; D]],
         team: &mut Team,
     ) -> Report {
-        let measures = Measures {
-            family: self.law.family(),
-            rotation: self.law.needs_rotation() || self.damping > 0.0,
-            volume: self.law.needs_volume(),
-        };
+        let measures = self.measures();
         self.strain_all(nodal, motion, measures, level, team);
         nodal.average(if measures.family == Family::Rate { 0.0 } else { 1.0 }, team);
         let mut means = std::mem::take(&mut nodal.spare);
@@ -144,7 +140,7 @@ where
     /// Strains without averages; the volumes and dilatations (volume ratios) of the elements.
     fn strain_all(&mut self, nodal: &mut Nodal<D>, motion: &Motion<'_, D>, measures: Measures, level: Level, team: &mut Team) {
         let (kernel, components) = (self.kernel.as_ref(), self.facts().components);
-        let initial = if measures.family == Family::Hyperelastic { kernel.facts().initial } else { 0 };
+        let [.., initial, _] = self.widths();
         let (nodes, volume_initial, elements, all_initial) = (&self.nodes, &self.volume_initial, &self.elements, &self.initial);
         let (resists, resistance) = (self.resists(), &self.resistance);
         let parts = (
@@ -193,11 +189,11 @@ where
     /// Stresses from the averaged strains; their pressures, to be averaged.
     fn respond_all(&mut self, nodal: &mut Nodal<D>, means: &[Batch], time_step: f64, family: Family, level: Level, team: &mut Team) {
         let (kernel, width) = (self.kernel.as_ref(), self.law.state_width());
-        let Facts { points, components, is_plane_stress, .. } = *kernel.facts();
+        let Facts { points, components, state, .. } = *kernel.facts();
         let (law, damping, thickness) = (self.law.as_ref(), self.damping, self.law.thickness().unwrap_or(0));
         let (damped_chunk, resistance) = (chunk(self.damped_width()), chunk(self.resistance_width()));
         // A law without history has one batch per chunk, which stands for nothing.
-        let history = if width == 0 { 1 } else { CHUNK * width };
+        let history = chunk(width);
         let parts = (
             Chunks::new(&mut self.stress, CHUNK * components),
             Chunks::new(&mut self.history, history),
@@ -237,7 +233,7 @@ where
             if damping > 0.0 {
                 level.run(Every(Damp {
                     points,
-                    is_plane_stress,
+                    state,
                     damping,
                     time_step,
                     strip,

@@ -86,6 +86,8 @@ struct Common<'a, const D: usize> {
     kernel: &'a dyn ElementKernel<D>,
     law: &'a dyn PointLaw,
     measures: Measures,
+    /// See [`ElementStore::widths`].
+    widths: [usize; 4],
     history_width: usize,
     thickness: usize,
     viscosity: Option<[f64; 2]>,
@@ -95,168 +97,6 @@ struct Common<'a, const D: usize> {
     nodes: &'a LocalNodes,
     motion: &'a Motion<'a, D>,
     level: Level,
-}
-
-/// Room for a step of so many batches of elements.
-pub(super) fn strip<const D: usize>(facts: &Facts, law: &dyn PointLaw, damping: f64, batches: usize) -> Strip<D> {
-    Strip::new(facts, law, damping > 0.0, batches)
-}
-
-impl<const D: usize> ElementStore<D>
-where
-    Dim<D>: Space<D>,
-{
-    /// The element by numbers.
-    pub(super) fn facts(&self) -> &Facts {
-        self.kernel.facts()
-    }
-
-    /// Widths of a batch in stress, history, initial geometry and hourglass memory.
-    pub(super) fn widths(&self) -> [usize; 4] {
-        let Facts { points, components, initial, hourglass, .. } = *self.facts();
-        let initial = if self.law.family() == Family::Hyperelastic { points * initial } else { 0 };
-        [points * components, points * self.law.state_width(), initial, hourglass]
-    }
-
-    /// Whether there is bulk viscosity or damping in proportion to the stiffness.
-    pub(super) fn resists(&self) -> bool {
-        self.viscosity.is_some() || self.damping > 0.0
-    }
-
-    /// Width of a batch in what these remember.
-    pub(super) fn resistance_width(&self) -> usize {
-        usize::from(self.resists())
-    }
-
-    /// Width of a batch in the forces that are kept.
-    pub(super) fn kept_width(&self) -> usize {
-        if self.keeps_forces { self.facts().nodes * D } else { 0 }
-    }
-
-    /// Width of a batch in the stresses of the damping.
-    pub(super) fn damped_width(&self) -> usize {
-        if self.damping > 0.0 { self.facts().points * self.facts().components } else { 0 }
-    }
-
-    /// The positions of an element's nodes, from those of all.
-    pub(super) fn corners(&self, batch: usize, lane: usize, positions: &[[f64; D]], corners: &mut Vec<[f64; D]>) {
-        let nodes = self.facts().nodes;
-        corners.clear();
-        corners.extend((0..nodes).map(|a| positions[self.nodes.node(batch * nodes + a, lane, nodes)]));
-    }
-
-    /// Initial geometry and masses of one lane.
-    fn set_up(&mut self, batch: usize, lane: usize, density: f64, geometry: &ElementGeometry<D>) {
-        let Facts { nodes, initial, points, .. } = *self.facts();
-        if self.law.family() == Family::Hyperelastic {
-            let own = &mut self.initial[batch * points * initial..][..points * initial];
-            own.iter_mut().zip(&geometry.initial).for_each(|(batch, &value)| batch.0[lane] = value);
-        }
-        for (a, corner) in geometry.corner_volumes.iter().enumerate() {
-            self.corner_mass[batch * nodes + a].0[lane] = density * corner;
-        }
-        let least = geometry.corner_volumes.iter().map(|corner| density * corner).fold(f64::INFINITY, f64::min);
-        let volume = geometry.volumes.iter().fold(0.0, |sum, volume| sum + volume);
-        let values = &mut self.elements[batch];
-        values.mass_least.0[lane] = nodes as f64 * least;
-        values.live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
-        values.stored.0[lane] = self.law.stored() * volume;
-        if self.resists() {
-            self.resistance[batch].volume.0[lane] = volume;
-            self.resistance[batch].mass.0[lane] = density * volume;
-        }
-        self.volume_initial[batch].0[lane] = volume;
-    }
-
-    /// Advances a chunk, strip by strip.
-    fn advance_chunk(common: &Common<'_, D>, chunk: Chunk<'_, D>, strip: &mut Strip<D>) -> Report {
-        let Common { measures, history_width, level, .. } = *common;
-        let Facts { nodes, points: of_element, components, hourglass, initial, is_plane_stress, .. } = *common.kernel.facts();
-        let (stress_width, history_of_batch) = (of_element * components, of_element * history_width);
-        let initial_of_batch = if measures.family == Family::Hyperelastic { of_element * initial } else { 0 };
-        let mut sums = Sums::new();
-        let count = chunk.elements.len();
-        common.nodes.copy(chunk.index, common.motion, &mut strip.moving);
-        strip.pulls.clear(common.nodes.width());
-        for from in (0..count).step_by(STRIP) {
-            let to = (from + STRIP).min(count);
-            let points = (to - from) * of_element;
-            let stress = &mut chunk.stress[from * stress_width..to * stress_width];
-            let history = &mut chunk.history[from * history_of_batch..to * history_of_batch];
-            let elements = &mut chunk.elements[from..to];
-            let resistance = if common.resists { &mut chunk.resistance[from..to] } else { &mut [][..] };
-            let strain = Strain {
-                time_step: common.motion.time_step,
-                measures,
-                first: chunk.index * CHUNK + from,
-                places: &common.nodes.places,
-                batches: to - from,
-                resistance,
-                volume_initial: &chunk.volume_initial[from..to],
-                initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
-                stress,
-                hourglass: &mut chunk.hourglass[from * hourglass..to * hourglass],
-                strip,
-            };
-            common.kernel.strain(level, strain);
-            common.law.respond(
-                level,
-                Points {
-                    time_step: common.motion.time_step,
-                    strain: &strip.strain[..points * components],
-                    rotation: &strip.rotation,
-                    volume_ratio: &strip.volume_ratio[..points],
-                    viscous_heat: &strip.viscous_heat[..points],
-                    stress,
-                    state: history,
-                    response: &mut strip.response[..points * RESPONSE],
-                    room: &mut strip.law,
-                },
-            );
-            // Without damping there is one batch, which stands for nothing.
-            let damped = if common.damping > 0.0 { &mut chunk.damped[from * stress_width..to * stress_width] } else { &mut [][..] };
-            if common.damping > 0.0 {
-                level.run(Every(Damp {
-                    points: of_element,
-                    is_plane_stress,
-                    damping: common.damping,
-                    time_step: common.motion.time_step,
-                    strip,
-                    history,
-                    history_width,
-                    thickness: common.thickness,
-                    stress: damped,
-                    elements,
-                    resistance,
-                }));
-            }
-            let forces = Forces {
-                family: measures.family,
-                is_solid: common.law.stiffness()[1] > 0.0,
-                is_elastic: common.law.is_elastic(),
-                time_step: common.motion.time_step,
-                viscosity: common.viscosity,
-                damping: common.damping,
-                damped,
-                stress,
-                history,
-                history_width,
-                thickness: common.thickness,
-                initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
-                hourglass: &mut chunk.hourglass[from * hourglass..to * hourglass],
-                strip,
-                elements,
-                resistance,
-                places: &common.nodes.places,
-                first: chunk.index * CHUNK + from,
-                kept: if common.keeps_forces { &mut chunk.kept[from * nodes * D..to * nodes * D] } else { &mut [] },
-                sums: &mut sums,
-            };
-            common.kernel.forces(level, forces);
-        }
-        strip.pulls.copy_to(chunk.pulls);
-        sums.report()
-    }
 }
 
 /// Length of a list with `width` batches per batch of elements: one per chunk where the width is zero, so
@@ -280,7 +120,7 @@ where
         let count = connectivity.len() / nodes;
         let batches = count.div_ceil(BATCH);
         let room = |width: usize| vec![Batch::default(); length(batches, width)];
-        let of_task = |batches: usize| strip(kernel.facts(), law.as_ref(), damping, batches);
+        let of_task = |batches: usize| Strip::new(kernel.facts(), law.as_ref(), damping > 0.0, batches);
         let nodal = averages_at_nodes.then(|| Box::new(Nodal::new(connectivity, nodes, components, || of_task(CHUNK))));
         let mut block = Self {
             strips: vec![Mutex::new(of_task(STRIP))],
@@ -328,6 +168,161 @@ where
         }
         block
     }
+
+    /// The element by numbers.
+    pub(super) fn facts(&self) -> &Facts {
+        self.kernel.facts()
+    }
+
+    /// Widths of a batch in stress, history, initial geometry and hourglass memory.
+    pub(super) fn widths(&self) -> [usize; 4] {
+        let Facts { points, components, initial, hourglass, .. } = *self.facts();
+        let initial = if self.law.family() == Family::Hyperelastic { points * initial } else { 0 };
+        [points * components, points * self.law.state_width(), initial, hourglass]
+    }
+
+    /// Whether there is bulk viscosity or damping in proportion to the stiffness.
+    pub(super) fn resists(&self) -> bool {
+        self.viscosity.is_some() || self.damping > 0.0
+    }
+
+    /// Width of a batch in what these remember.
+    pub(super) fn resistance_width(&self) -> usize {
+        usize::from(self.resists())
+    }
+
+    /// Width of a batch in the forces that are kept.
+    pub(super) fn kept_width(&self) -> usize {
+        if self.keeps_forces { self.facts().nodes * D } else { 0 }
+    }
+
+    /// Width of a batch in the stresses of the damping.
+    pub(super) fn damped_width(&self) -> usize {
+        if self.damping > 0.0 { self.widths()[0] } else { 0 }
+    }
+
+    /// What the law wants to know, and the damping.
+    pub(super) fn measures(&self) -> Measures {
+        let law = self.law.as_ref();
+        Measures { family: law.family(), rotation: law.needs_rotation() || self.damping > 0.0, volume: law.needs_volume() }
+    }
+
+    /// The positions of an element's nodes, from those of all.
+    pub(super) fn corners(&self, batch: usize, lane: usize, positions: &[[f64; D]], corners: &mut Vec<[f64; D]>) {
+        let nodes = self.facts().nodes;
+        corners.clear();
+        corners.extend((0..nodes).map(|a| positions[self.nodes.node(batch * nodes + a, lane, nodes)]));
+    }
+
+    /// Initial geometry and masses of one lane.
+    fn set_up(&mut self, batch: usize, lane: usize, density: f64, geometry: &ElementGeometry<D>) {
+        let (nodes, [.., initial, _]) = (self.facts().nodes, self.widths());
+        let own = &mut self.initial[batch * initial..][..initial];
+        own.iter_mut().zip(&geometry.initial).for_each(|(batch, &value)| batch.0[lane] = value);
+        for (a, corner) in geometry.corner_volumes.iter().enumerate() {
+            self.corner_mass[batch * nodes + a].0[lane] = density * corner;
+        }
+        let least = geometry.corner_volumes.iter().map(|corner| density * corner).fold(f64::INFINITY, f64::min);
+        let volume = geometry.volumes.iter().fold(0.0, |sum, volume| sum + volume);
+        let values = &mut self.elements[batch];
+        values.mass_least.0[lane] = nodes as f64 * least;
+        values.live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
+        values.stored.0[lane] = self.law.stored() * volume;
+        if self.resists() {
+            self.resistance[batch].volume.0[lane] = volume;
+            self.resistance[batch].mass.0[lane] = density * volume;
+        }
+        self.volume_initial[batch].0[lane] = volume;
+    }
+
+    /// Advances a chunk, strip by strip.
+    fn advance_chunk(common: &Common<'_, D>, chunk: Chunk<'_, D>, strip: &mut Strip<D>) -> Report {
+        let Common { measures, history_width, level, .. } = *common;
+        let Facts { nodes, points: of_element, components, state, .. } = *common.kernel.facts();
+        let [stress_width, history_of_batch, initial_of_batch, hourglass] = common.widths;
+        let mut sums = Sums::new();
+        let count = chunk.elements.len();
+        common.nodes.copy(chunk.index, common.motion, &mut strip.moving);
+        strip.pulls.clear(common.nodes.width());
+        for from in (0..count).step_by(STRIP) {
+            let to = (from + STRIP).min(count);
+            let points = (to - from) * of_element;
+            let stress = &mut chunk.stress[from * stress_width..to * stress_width];
+            let history = &mut chunk.history[from * history_of_batch..to * history_of_batch];
+            let elements = &mut chunk.elements[from..to];
+            let resistance = if common.resists { &mut chunk.resistance[from..to] } else { &mut [][..] };
+            let strain = Strain {
+                time_step: common.motion.time_step,
+                measures,
+                first: chunk.index * CHUNK + from,
+                places: &common.nodes.places,
+                batches: to - from,
+                resistance,
+                volume_initial: &chunk.volume_initial[from..to],
+                initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
+                stress,
+                hourglass: &mut chunk.hourglass[from * hourglass..to * hourglass],
+                strip,
+            };
+            common.kernel.strain(level, strain);
+            common.law.respond(
+                level,
+                Points {
+                    time_step: common.motion.time_step,
+                    strain: &strip.strain[..points * components],
+                    rotation: &strip.rotation,
+                    volume_ratio: &strip.volume_ratio[..points],
+                    viscous_heat: &strip.viscous_heat[..points],
+                    stress,
+                    state: history,
+                    response: &mut strip.response[..points * RESPONSE],
+                    room: &mut strip.law,
+                },
+            );
+            // Without damping there is one batch, which stands for nothing.
+            let damped = if common.damping > 0.0 { &mut chunk.damped[from * stress_width..to * stress_width] } else { &mut [][..] };
+            if common.damping > 0.0 {
+                level.run(Every(Damp {
+                    points: of_element,
+                    state,
+                    damping: common.damping,
+                    time_step: common.motion.time_step,
+                    strip,
+                    history,
+                    history_width,
+                    thickness: common.thickness,
+                    stress: damped,
+                    elements,
+                    resistance,
+                }));
+            }
+            let forces = Forces {
+                family: measures.family,
+                is_solid: common.law.stiffness()[1] > 0.0,
+                is_elastic: common.law.is_elastic(),
+                time_step: common.motion.time_step,
+                viscosity: common.viscosity,
+                damping: common.damping,
+                damped,
+                stress,
+                history,
+                history_width,
+                thickness: common.thickness,
+                initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
+                hourglass: &mut chunk.hourglass[from * hourglass..to * hourglass],
+                strip,
+                elements,
+                resistance,
+                places: &common.nodes.places,
+                first: chunk.index * CHUNK + from,
+                kept: if common.keeps_forces { &mut chunk.kept[from * nodes * D..to * nodes * D] } else { &mut [] },
+                sums: &mut sums,
+            };
+            common.kernel.forces(level, forces);
+        }
+        strip.pulls.copy_to(chunk.pulls);
+        sums.report()
+    }
 }
 
 impl<const D: usize> Block<D> for ElementStore<D>
@@ -349,7 +344,7 @@ where
             return report;
         }
         while self.strips.len() < team.threads() {
-            self.strips.push(Mutex::new(strip(self.kernel.facts(), self.law.as_ref(), self.damping, STRIP)));
+            self.strips.push(Mutex::new(Strip::new(self.kernel.facts(), self.law.as_ref(), self.damping > 0.0, STRIP)));
         }
         let (widths, damped_width) = (self.widths(), self.damped_width());
         let (kept_width, resistance_width) = (self.kept_width(), self.resistance_width());
@@ -357,7 +352,8 @@ where
         let common = Common {
             kernel: self.kernel.as_ref(),
             law,
-            measures: Measures { family: law.family(), rotation: law.needs_rotation() || self.damping > 0.0, volume: law.needs_volume() },
+            measures: self.measures(),
+            widths,
             history_width: law.state_width(),
             thickness: law.thickness().unwrap_or(0),
             viscosity: self.viscosity,

@@ -32,7 +32,7 @@ pub(super) const fn initial_width<E: Element<D, N, P>, const D: usize, const N: 
 where
     Dim<D>: Space<D>,
 {
-    D * D + 1 + (D == 2 && state.is_axisymmetric) as usize + if E::WARPED { D * D } else { 0 }
+    D * D + 1 + state.of::<D>().is_axisymmetric as usize + if E::WARPED { D * D } else { 0 }
 }
 
 /// Deformation gradient of a point from the Jacobian (and the second matrix of an element that is warped) and
@@ -97,6 +97,28 @@ pub(super) fn radius<L: Lane, const D: usize, const N: usize>(x: &[[L; D]; N], s
 #[inline(always)]
 pub(super) fn circumference<L: Lane, const D: usize, const N: usize>(x: &[[L; D]; N], shape: &[f64; N]) -> L {
     radius(x, shape) * L::splat(std::f64::consts::TAU)
+}
+
+/// Volume of a point, m² (m³), from its area; in 3D the same.
+#[inline(always)]
+pub(super) fn point_volume<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
+    state: StressState,
+    area: L,
+    x: &[[L; D]; N],
+    p: usize,
+) -> L
+where
+    Dim<D>: Space<D>,
+{
+    if state.of::<D>().is_axisymmetric { area * circumference(x, &E::shape(E::POINTS[p])) } else { area }
+}
+
+/// Whether dilatations are averaged over the element.
+pub(super) const fn averages<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize>(state: StressState) -> bool
+where
+    Dim<D>: Space<D>,
+{
+    E::MEAN_DILATATION && !state.of::<D>().is_plane_stress
 }
 
 /// Elements `first..first + batches` (in batches) of a block, ready to be strained.
@@ -169,24 +191,6 @@ impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> Strain
 where
     Dim<D>: Space<D>,
 {
-    /// Whether x is the radius; never in space.
-    #[inline(always)]
-    fn is_axisymmetric(&self) -> bool {
-        D == 2 && self.state.is_axisymmetric
-    }
-
-    /// Whether dilatations are averaged over the element.
-    #[inline(always)]
-    fn averages(&self) -> bool {
-        E::MEAN_DILATATION && !(D == 2 && self.state.is_plane_stress)
-    }
-
-    /// Volume of a point from its area, in space from itself.
-    #[inline(always)]
-    fn volume<L: Lane>(&self, area: L, x: &[[L; D]; N], p: usize) -> L {
-        if self.is_axisymmetric() { area * circumference(x, &E::shape(E::POINTS[p])) } else { area }
-    }
-
     /// Strain increment and rotation from the mid-step configuration; turns the stresses.
     #[inline(always)]
     fn rate<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {
@@ -220,7 +224,7 @@ where
                 }
             }
             let ([adjugate, warped], determinant) = map_at::<E, L, D, N, P>(&middle, &warp);
-            let own = self.volume(determinant * L::splat(E::WEIGHTS[p]), &x_middle, p);
+            let own = point_volume::<E, _, D, N, P>(self.state, determinant * L::splat(E::WEIGHTS[p]), &x_middle, p);
             own.store(&mut self.input.strip.volume[batch * P + p], at);
             let mut natural = product(&increments[p], &adjugate);
             if E::WARPED {
@@ -236,11 +240,11 @@ where
                 self.swing(batch, at, &E::swing(x, &step, &gradient), &turns);
             }
             let mut strain = Dim::<D>::symmetric(&gradient);
-            if self.is_axisymmetric() {
+            if self.state.of::<D>().is_axisymmetric {
                 let shape = E::shape(E::POINTS[p]);
                 strain = strain.plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
             }
-            if self.averages() {
+            if averages::<E, D, N, P>(self.state) {
                 traces[p] = strain.trace();
                 dilatation += traces[p] * own;
                 volume += own;
@@ -255,7 +259,7 @@ where
                 rotation.store(&mut self.input.strip.rotation[point * turn..(point + 1) * turn], at);
             }
         }
-        if self.averages() {
+        if averages::<E, D, N, P>(self.state) {
             dilatation = dilatation / volume;
             for p in 0..P {
                 let strain = &mut self.input.strip.strain[(batch * P + p) * components..][..components];
@@ -298,7 +302,7 @@ where
         let determinants = determinants::<E, L, D, N, P>(x, &E::gradients(x));
         for p in 0..P {
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
-            volume += self.volume(own, x, p);
+            volume += point_volume::<E, _, D, N, P>(self.state, own, x, p);
         }
         let initial = L::load(&self.input.volume_initial[batch], at);
         let ratio = volume / initial;
@@ -324,7 +328,7 @@ where
         let determinants = determinants::<E, L, D, N, P>(x, jacobians);
         for p in 0..P {
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
-            volume += self.volume(own, x, p);
+            volume += point_volume::<E, _, D, N, P>(self.state, own, x, p);
             let own_initial = L::load(&self.input.initial[(batch * P + p) * width + D * D], at);
             own_initial.store(&mut self.input.strip.volume[batch * P + p], at);
             volume_initial += own_initial;
@@ -353,13 +357,13 @@ where
             let initial = &self.input.initial[point * width..(point + 1) * width];
             let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
             let mut stretch = one; // across the plane
-            if self.is_axisymmetric() {
+            if self.state.of::<D>().is_axisymmetric {
                 stretch = radius(x, &E::shape(E::POINTS[p])) / L::load(&initial[D * D + 1], at);
             }
             let ratio_point = Dim::<D>::determinant(&f);
-            let ratio_point = if self.is_axisymmetric() { ratio_point * stretch } else { ratio_point };
+            let ratio_point = if self.state.of::<D>().is_axisymmetric { ratio_point * stretch } else { ratio_point };
             let (mut ratio, mut scale, mut weight) = (ratio_point, one, L::splat(E::WEIGHTS[p]));
-            if self.averages() {
+            if averages::<E, D, N, P>(self.state) {
                 // F̄ = (J̄/J)^{1/3} F; the deviatoric Kirchhoff stress τ̄ V₀ then weighs J̄ V₀ = (J̄/J) w det
                 // J.
                 let change = ratio_mean / ratio_point;
@@ -368,7 +372,7 @@ where
                 (ratio, scale) = (ratio_mean, root * root);
             }
             let mut b = Dim::<D>::left_cauchy_green(&f, scale);
-            if self.is_axisymmetric() {
+            if self.state.of::<D>().is_axisymmetric {
                 b = b.plus_zz(scale * (stretch * stretch - one));
             }
             b.store(&mut self.input.strip.strain[point * components..(point + 1) * components], at);

@@ -31,6 +31,13 @@ impl StressState {
     /// Of solids in 3D, and of plane strain.
     pub const SPACE: Self = Self { is_axisymmetric: false, is_plane_stress: false };
 
+    /// What a kernel of dimension `D` sees: in 3D a constant, so that it is compiled without the others.
+    #[inline(always)]
+    #[must_use]
+    pub const fn of<const D: usize>(self) -> Self {
+        if D == 2 { self } else { Self::SPACE }
+    }
+
     /// The stress state called `name` (empty: the default); `None` when there is none.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

@@ -5,8 +5,7 @@
 //! those of the initial configuration, as ever. What was known of the past is handed over by
 //! [`Contact::renew`].
 
-use super::Builds;
-use super::{Builder, Fans};
+use super::{Builder, Builds, Fans};
 use crate::contact::rebuild::{ContactParts, ContactSource};
 use crate::contact::{Contact, ContactKind};
 use crate::model::Model;

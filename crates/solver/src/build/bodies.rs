@@ -1,17 +1,14 @@
 //! Initial velocities, and the rigid bodies that are made of elements.
 
-use super::Builder;
-use super::Builds;
+use super::{Builder, Builds};
 use crate::error::Fault;
 use crate::load::curve::Speed;
 use crate::load::messages::RIGID;
 use crate::model::{Motion, Part};
 use crate::rigid::{Body, Member};
-use crate::rotation::Rotate;
-use crate::rotation::unit_matrix;
+use crate::rotation::{Rotate, unit_matrix};
 use crate::tensor::Dim;
-use crate::vector::place;
-use crate::vector::{dot, first as of_model, minus, plus};
+use crate::vector::{dot, first as of_model, minus, place, plus};
 
 /// What a part has on its nodes.
 pub(super) struct Bulk<const D: usize> {

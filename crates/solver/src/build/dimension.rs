@@ -11,10 +11,10 @@ use crate::tensor::Dim;
 
 /// What the builder does by dimension.
 pub trait Builds<const D: usize>: Dimension<D> {
-    /// The model with what its mesh asks for besides: the axis of a body of revolution that touches it.
+    /// The model with what its mesh asks for besides: the axis that an axisymmetric body touches.
     ///
     /// # Errors
-    /// Nodes where no body of revolution can be.
+    /// Nodes where no axisymmetric body can be.
     fn with_axis(model: &Model, mesh: &Mesh<D>) -> Result<Option<Model>, Vec<Fault>>
     where
         Dim<D>: Builds<D>;

@@ -1,15 +1,13 @@
 //! Springs and point masses on the nodes of a mesh.
 
-use super::Builder;
-use super::Builds;
+use super::{Builder, Builds};
 use crate::block::spring::SpringBlock;
 use crate::error::Fault;
 use crate::load::messages::TO_ITSELF;
 use crate::model::Spring;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::tensor::Dim;
-use crate::vector::place;
-use crate::vector::{dot, minus};
+use crate::vector::{dot, minus, place};
 
 impl<const D: usize> Builder<'_, D>
 where

@@ -1,7 +1,6 @@
 //! Criteria of failure of each group of elements.
 
-use super::Builder;
-use super::Builds;
+use super::{Builder, Builds};
 use crate::block::Block;
 use crate::error::Fault;
 use crate::failure::{self, Criterion};

@@ -1,8 +1,7 @@
 //! Which element lies behind an edge: found through the elements at its nodes, when a surface asks. Elements
 //! come from the mesh; stiffnesses of contacts and what is behind boundaries are made from the answers.
 
-use super::Builder;
-use super::Builds;
+use super::{Builder, Builds};
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::{Corners, Facet};

@@ -1,8 +1,7 @@
 //! Masses: elements made heavier for a longer stable step before masses go to the nodes, and what is kept of
 //! the masses of parts.
 
-use super::Builder;
-use super::Builds;
+use super::{Builder, Builds};
 use crate::block::{Block, Motion};
 use crate::error::Fault;
 use crate::error::MASS_SCALING;

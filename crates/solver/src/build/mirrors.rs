@@ -1,8 +1,7 @@
 //! Symmetry lines, in space planes, as what bodies meet that are in contact with themselves: which nodes, and
 //! how stiff.
 
-use super::Builds;
-use super::{Builder, law_of, stiffness_of};
+use super::{Builder, Builds, law_of, stiffness_of};
 use crate::contact::law::{self, Law};
 use crate::contact::mirror::{Mirror, Mirrored, MirroredNode};
 use crate::contact::springs::{Tangential, Terms};
@@ -10,8 +9,7 @@ use crate::contact::tracker::SKIN;
 use crate::contact::{Formulation, Tributary};
 use crate::model::{ContactLaw, Interface, Partners};
 use crate::tensor::Dim;
-use crate::vector::unit;
-use crate::vector::{dot, first, minus};
+use crate::vector::{dot, first, minus, unit};
 use crate::{contact, model};
 
 impl<const D: usize> Builder<'_, D>

@@ -20,8 +20,7 @@ use crate::mesh::surface::{NONE, Surface};
 use crate::model::messages::NO_DIRECTION;
 use crate::model::{Obstacle, ObstacleShape};
 use crate::rigid::{Body, Member};
-use crate::vector::first;
-use crate::vector::unit;
+use crate::vector::{first, unit};
 use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.

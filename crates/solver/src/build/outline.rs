@@ -2,8 +2,7 @@
 
 use crate::angle::cos_sin;
 use crate::tensor::cross;
-use crate::vector::any_tangent;
-use crate::vector::{plus, times};
+use crate::vector::{any_tangent, plus, times};
 use std::f64::consts::{PI, TAU};
 
 /// Points around, and from pole to pole.

@@ -23,8 +23,7 @@ use crate::mesh::surface::SpaceSurface;
 use crate::mesh::surface::tributary::{self, Depth};
 use crate::model::messages::{NO_DIRECTION, NOT_IN_SPACE, UNKNOWN_NAME};
 use crate::model::{self, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource};
-use crate::vector::unit;
-use crate::vector::{dot, minus, plus, times};
+use crate::vector::{dot, minus, plus, times, unit};
 use std::collections::BTreeMap;
 
 /// What a contact of the plane may do and one of space may not (yet).

@@ -13,8 +13,7 @@ use crate::contact::{Vector, length};
 use crate::error::Fault;
 use crate::mesh::surface::Surface;
 use crate::model::{InitialPenetration, Interface, Obstacle, ObstacleShape};
-use crate::vector::first;
-use crate::vector::unit;
+use crate::vector::{first, unit};
 
 /// Rounds over all contacts and obstacles: what is pushed out of one may come into another.
 pub(super) const ROUNDS: usize = 20;

@@ -5,8 +5,7 @@
 //! `record` knows which fields there are.
 
 use crate::block::ElementState;
-use crate::contact::traces::Tractions;
-use crate::contact::traces::{State, Traces};
+use crate::contact::traces::{State, Traces, Tractions};
 use crate::dimension::Dimension;
 use crate::field::{Cell, NodeFields, OfCell, OfNode, Source};
 use crate::mesh::ElementGroup;

@@ -12,8 +12,7 @@ use super::curve::Curves;
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
 use crate::model::{Load, Model};
-use crate::rotation::Rotate;
-use crate::rotation::axis;
+use crate::rotation::{Rotate, axis};
 use crate::tensor::Dim;
 use crate::vector::{first, minus, plus, times};
 

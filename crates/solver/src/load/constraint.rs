@@ -11,10 +11,9 @@ use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::Corners;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Constraint, Model, Symmetry};
-use crate::rotation::Rotate;
-use crate::rotation::{Square, applied, axis, unit_matrix};
+use crate::rotation::{Rotate, Square, applied, axis, unit_matrix};
 use crate::tensor::Dim;
-use crate::vector::{dot, first, minus, unit};
+use crate::vector::{self, dot, first, minus, unit};
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -399,7 +398,7 @@ impl Telling {
     fn note<const D: usize>(&mut self, x: [f64; D], shall: &str, others: &str, does: &str) {
         self.count += 1;
         if self.count <= TOLD {
-            let message = format!("the node at {} m {shall}, but {others} {does}", crate::vector::place(x));
+            let message = format!("the node at {} m {shall}, but {others} {does}", vector::place(x));
             self.faults.push(Fault::new(&HELD_TWICE, &self.path, message, "take the node out of one of the two"));
         }
     }

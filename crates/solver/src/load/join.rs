@@ -15,11 +15,9 @@ use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Image, Join, Model};
-use crate::rotation::Rotate;
-use crate::rotation::{Square, applied, axis, transposed, unit_matrix};
+use crate::rotation::{Rotate, Square, applied, axis, transposed, unit_matrix};
 use crate::tensor::{Dim, product};
-use crate::vector::place;
-use crate::vector::{dot, first as first_of, minus, plus, times};
+use crate::vector::{dot, first as first_of, minus, place, plus, times};
 
 /// A rotation.
 pub type Turn<const D: usize> = Square<D>;

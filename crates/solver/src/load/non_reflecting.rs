@@ -14,8 +14,7 @@ use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::tributary::{self, Depth, Tributary};
 use crate::mesh::surface::{Facet, Sided};
 use crate::model::Model;
-use crate::rotation::Rotate;
-use crate::rotation::Square;
+use crate::rotation::{Rotate, Square};
 use crate::tensor::Dim;
 
 /// What is behind a piece of a surface.

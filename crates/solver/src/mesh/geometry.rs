@@ -14,20 +14,20 @@ pub trait CellGeometry<const D: usize>: Meshed<D> + Tributary<D> {
     /// Smallest Jacobian determinant of a cell, times that of its natural corner, over its corners (m², in
     /// space m³): positive in all of them where the cell is sound; `None` of lines.
     fn min_corner_jacobian(cell: Cell<'_>, positions: &[[f64; D]]) -> Option<f64>;
-    /// That over the square (in space: the third power) of the longest side: 1 of squares and cubes, less of
+    /// That over the square (in 3D: the third power) of the longest side: 1 of squares and cubes, less of
     /// what is long, sheared or folded; lines have the best.
     fn shape_quality(cell: Cell<'_>, positions: &[[f64; D]]) -> f64;
-    /// One over the height of a cell over a piece of its outside, 1/m: its length over the area, in space its
+    /// One over the height of a cell over a piece of its outside, 1/m: its length over the area, in 3D its
     /// area over the volume.
     fn inverse_height(facet: Facet<D>, cell: Cell<'_>, positions: &[[f64; D]]) -> f64
     where
         Dim<D>: Meshed<D>;
-    /// Length of a line, area of what has more corners; in space the volume of a cell; m, m², m³.
+    /// Length of a line, area of what has more corners; in 3D the volume of a cell; m, m², m³.
     fn size(cell: Cell<'_>, positions: &[[f64; D]]) -> f64;
     /// Largest and smallest principal logarithmic strain at the centre of a cell, from the positions at the
     /// start to those now: half the logarithms of the eigenvalues of FᵀF. Of a line its one strain twice.
     fn principal_strains(cell: Cell<'_>, from: &[[f64; D]], to: &[[f64; D]]) -> [f64; 2];
-    /// The pieces of the outside that a cell alone would have: in the plane they run against its own
+    /// The pieces of the outside that a cell alone would have: in 2D they run against its own
     /// direction; in the form in which surfaces have them.
     fn cell_facets(cell: Cell<'_>) -> Vec<Facet<D>>
     where

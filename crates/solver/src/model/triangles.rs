@@ -9,8 +9,7 @@ use crate::contact::messages::{OBSTACLE, TURNED};
 use crate::error::Fault;
 use crate::mesh::placement::{Turn, shift, turn};
 use crate::tensor::{cross, dot};
-use crate::vector::place;
-use crate::vector::{length, minus};
+use crate::vector::{length, minus, place};
 use std::fmt;
 
 /// A surface of triangles.

@@ -45,9 +45,9 @@ pub trait RigidMotion<const D: usize>: Sized {
     fn moment(arm: [f64; D], force: [f64; D]) -> Self::Spin;
     /// Sum of two moments.
     fn plus(a: Self::Spin, b: Self::Spin) -> Self::Spin;
-    /// A vector of a body as space sees it.
+    /// A vector in the frame of a body, in the global frame.
     fn turned(angle: &Self::Angle, vector: [f64; D]) -> [f64; D];
-    /// A vector of space as a body sees it.
+    /// A vector in the global frame, in the frame of a body.
     fn turned_back(angle: &Self::Angle, vector: [f64; D]) -> [f64; D];
     /// Velocity of the point at the end of an arm of a rigid body.
     fn velocity_at(velocity: &Self::Generalized<f64>, arm: [f64; D]) -> [f64; D];
@@ -204,7 +204,7 @@ impl RigidMotion<2> for Dim<2> {
     fn numbers(body: &Body<2>) -> Vec<f64> {
         [body.centre[0], body.centre[1], body.angle].into_iter().chain(body.velocity).collect()
     }
-    /// Of a body of revolution the mass along the axis.
+    /// Of an axisymmetric body the mass along the axis.
     fn momenta(body: &Body<2>) -> (f64, [f64; 2], [f64; 3]) {
         let ([x, y, inertia], [u, v, spin]) = (body.mass, body.velocity);
         (x.max(y), [u, v], [0.0, 0.0, inertia * spin])

@@ -1,11 +1,9 @@
 //! A model of one dimension, step by step: the loop, events, the end. [`super::Simulation`] is one of these.
 
-use super::Runs;
 use super::clock::Clock;
 use super::course::Course;
 use super::memory::Memory;
-use super::tiny;
-use super::{Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, State};
+use super::{Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Runs, State, tiny};
 use crate::build;
 use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::messages::INSIDE_AT_START;
@@ -276,7 +274,7 @@ where
                 self.memory.take(state);
             }
             if observer.wants_glance() {
-                observer.glance(&self.recorded.showing(&self.system));
+                observer.glance(&self.recorded.snapshot(&self.system));
             }
             let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
             if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, state_steps) {
@@ -373,7 +371,7 @@ where
 
     /// Gives the state now to an observer.
     fn show(&self, observer: &mut dyn Observer) -> Result<(), Error> {
-        observer.show(&self.recorded.showing(&self.system)).map_err(output)
+        observer.show(&self.recorded.snapshot(&self.system)).map_err(output)
     }
 
     fn tell_hashes(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
@@ -394,7 +392,7 @@ where
     /// The state now.
     pub(crate) fn frame(&self) -> Frame {
         let mut frame = Frame::default();
-        self.recorded.showing(&self.system).fill(&mut frame);
+        self.recorded.snapshot(&self.system).fill(&mut frame);
         frame
     }
 
@@ -407,17 +405,17 @@ where
     pub(crate) fn field(&self, name: &str) -> Option<Field> {
         let kind = fields_of(D).iter().find(|kind| kind.name == name)?;
         let kinds = [kind];
-        let showing = LiveSnapshot::new(&self.system, &kinds);
+        let snapshot = LiveSnapshot::new(&self.system, &kinds);
         let mut values = Vec::new();
-        showing.values(0, 0..showing.numbers(0) / kind.width(), &mut values);
+        snapshot.values(0, 0..snapshot.numbers(0) / kind.width(), &mut values);
         Some(Field { kind, values })
     }
 
     /// Positions of all nodes now, m, one after the other, in the user's order.
     pub(crate) fn coordinates(&self) -> Vec<f64> {
-        let showing = LiveSnapshot::new(&self.system, &[]);
+        let snapshot = LiveSnapshot::new(&self.system, &[]);
         let mut values = Vec::new();
-        showing.coordinates(0..showing.nodes(), &mut values);
+        snapshot.coordinates(0..snapshot.nodes(), &mut values);
         values
     }
 

@@ -1,9 +1,8 @@
 //! What a run has to say of itself: its figures, what was checked in its contacts, and what the user should
 //! know.
 
-use super::ContactSearch;
-use super::Runs;
 use super::run::Run;
+use super::{ContactSearch, Runs};
 use crate::contact::Contact;
 use crate::contact::messages::{MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
 use crate::contact::tracker::Certificate;
@@ -12,8 +11,7 @@ use crate::mesh::PartMesh;
 use crate::output::{Eroded, Erosion, Summary};
 use crate::record::Momentum;
 use crate::tensor::Dim;
-use crate::vector::first;
-use crate::vector::place;
+use crate::vector::{first, place};
 
 impl<const D: usize> Run<D>
 where

@@ -6,8 +6,7 @@
 //! (a) and dashpots (C), Δt = ½ (dt^{n−1} + dt^n), an impulse J changes the velocity by m̃⁻¹ J.
 
 use crate::assembly::Assembly;
-use crate::contact::springs::TangentSpace;
-use crate::contact::springs::{Mover, Movers};
+use crate::contact::springs::{Mover, Movers, TangentSpace};
 use crate::contact_forces::ContactForces;
 use crate::dimension::Dimension;
 use crate::energy::Sums;

@@ -81,8 +81,8 @@ impl Skinner {
         let outer = (0..sides.len() as u32).filter(|&side| sides.partner(side).is_none()).collect();
         let is_bar = |cell: &u32| cells.kinds[*cell as usize] == CellKind::Line && is_sound(cells, *cell as usize);
         let bars = (0..cells.len() as u32).filter(is_bar).collect();
-        let solids = [CellKind::Tetrahedron, CellKind::Wedge, CellKind::Hexahedron];
-        let turned = solids.into_iter().filter(|&kind| is_turned(cells, kind, place)).collect();
+        let solids = CellKind::ALL.into_iter().filter(|kind| kind.dimension() == 3);
+        let turned = solids.filter(|&kind| is_turned(cells, kind, place)).collect();
         Self { sides, outer, bars, turned }
     }
 

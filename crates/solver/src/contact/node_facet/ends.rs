@@ -10,8 +10,7 @@
 use super::first_edge;
 use super::tangent;
 use crate::contact::projection::node_facet::{Placed, Projection, Vector, unit};
-use crate::contact::springs::End;
-use crate::contact::springs::TangentSpace;
+use crate::contact::springs::{End, TangentSpace};
 use crate::mesh::surface::Corners;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::minus;

@@ -70,10 +70,10 @@ pub trait TangentSpace<const D: usize>: Tributary<D> + RigidMotion<D> {
     fn response(mobility: &Self::Mobility, row: &<Self as RigidMotion<D>>::Generalized<f64>) -> <Self as RigidMotion<D>>::Generalized<f64>;
     /// The same of a node by a force.
     fn response_of_node(mobility: &Self::Mobility, force: [f64; D]) -> [f64; D];
-    /// Whether a velocity of a rigid body gives way.
+    /// Whether a velocity of a rigid body is free.
     fn is_free(mobility: &Self::Mobility, axis: usize) -> bool;
     /// Hands the entries of `factor` times the inverse of a rigid body's mobility over (row, column, value),
-    /// of what gives way.
+    /// of velocities that are free.
     fn inverse(mobility: &Self::Mobility, factor: f64, each: impl FnMut(usize, usize, f64));
     /// The image of a motion that a join turns, as springs in contact take it.
     fn image_rotation(turn: &Square<D>) -> Self::ImageRotation;

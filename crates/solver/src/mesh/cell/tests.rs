@@ -96,7 +96,10 @@ fn kinds_stand_in_order_and_have_their_own_numbers() {
     assert!(CellKind::ALL.is_sorted_by_key(|kind| (kind.dimension(), kind.nodes())) && CellKind::ALL.is_sorted());
     let distinct = |key: fn(&Facts) -> i64| all().map(key).collect::<BTreeSet<_>>().len() == all().count();
     assert!(distinct(|facts| facts.vtk.into()) && distinct(|facts| facts.gmsh));
-    assert!(distinct(|facts| (100 * facts.dimension + facts.nodes) as i64), "a mesh file tells them by dimension and number of nodes");
+    assert!(
+        distinct(|facts| (100 * facts.dimension + facts.nodes) as i64),
+        "a mesh file distinguishes them by dimension and number of nodes"
+    );
     assert_eq!(all().map(|facts| facts.name).collect::<BTreeSet<_>>().len(), all().count());
     for kind in CellKind::ALL {
         assert_eq!(CellKind::of(kind.dimension(), kind.nodes()), Some(kind));

@@ -4376,7 +4376,8 @@ uniform float halfLine;
 uniform float halfOutline;
 vec2 linesOf() {
   bool triangle = (flags & 16) != 0;
-  // Distances to the sides 0-1, 1-2, 2-3, 3-0; of a triangle (0,0) (1,0) (1,1) the third is the diagonal and there is no fourth.
+  // Distances to the sides 0-1, 1-2, 2-3, 3-0; of a triangle (0,0) (1,0) (1,1) the third is the diagonal and
+  // there is no fourth.
   vec4 side = triangle ? vec4(corner.y, 1.0 - corner.x, corner.x - corner.y, 1e9) : vec4(corner.y, 1.0 - corner.x, 1.0 - corner.y, corner.x);
   vec2 dx = dFdx(corner), dy = dFdy(corner);
   float u = length(vec2(dx.x, dy.x)), v = length(vec2(dx.y, dy.y));

@@ -7,7 +7,7 @@ use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::messages;
 use embate_solver::message::{AREAS, Message};
-use embate_solver::model::describe::nearest;
+use embate_solver::vocabulary::nearest;
 
 /// Which message.
 #[derive(Args)]

@@ -15,8 +15,8 @@ use embate_files::results::{ResultFolder, write_whole};
 use embate_files::verification::report::{self, About, Form};
 use embate_files::verification::{self, Case, CaseOutcome, CheckOutcome, Tier, VerifyError};
 use embate_solver::bench::Level;
-use embate_solver::model::describe::suggestion;
 use embate_solver::simulation::{Control, Options, Progress};
+use embate_solver::vocabulary::suggestion;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

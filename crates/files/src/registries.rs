@@ -3,8 +3,8 @@
 //!
 //! Nothing is named here: a new material, element, search or field shows up by itself.
 
-use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::quantity::Parameter;
+use embate_solver::stress_state::STRESS_STATES;
 use embate_solver::{contact, element, failure, material, output};
 use std::fmt::Write;
 

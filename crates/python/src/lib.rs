@@ -30,8 +30,9 @@ mod _embate {
 /// describes; then the keys of each with their explanation.
 #[pyfunction]
 fn sections(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
-    use embate_solver::model::describe::{Form, SECTIONS};
-    let of = |section: &embate_solver::model::describe::Section| {
+    use embate_solver::input::sections::SECTIONS;
+    use embate_solver::vocabulary::Form;
+    let of = |section: &embate_solver::vocabulary::Section| {
         let form = match section.form {
             Form::Repeated => "list",
             Form::Named => "named",

@@ -3,13 +3,12 @@
 
 use crate::contact::tracker::Certificate;
 use crate::error::Notice;
-use crate::field::{self, Source};
-use crate::material::Variable;
+pub use crate::field::kind::{FIELDS, FIELDS_IN_SPACE, FieldKind, Location, Needs, field_kind, fields_of};
 pub use crate::mesh::cell::CellKind;
 pub use crate::outline::Outline;
+pub use crate::step::erosion::Eroded;
 use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::LazyLock;
 
 /// The cells of all parts; does not change during a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,65 +40,6 @@ impl Cells {
     #[must_use]
     pub fn cell(&self, index: usize) -> &[u32] {
         &self.nodes[self.offsets[index] as usize..self.offsets[index + 1] as usize]
-    }
-}
-
-/// Where the values of a field live.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Location {
-    /// One value (or tuple) per node.
-    Node,
-    /// One value (or tuple) per cell.
-    Cell,
-}
-
-/// What a model must have for a field to say something; without it the field is left out unless it is asked
-/// for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Needs {
-    /// Nothing.
-    Nothing,
-    /// A material with this history variable.
-    History(&'static Variable),
-    /// A contact or an obstacle.
-    Contact,
-    /// A contact or an obstacle with friction.
-    Friction,
-    /// A material that fails.
-    Failure,
-}
-
-/// Description of a field: the same for all its frames.
-#[derive(Clone, Copy, Debug)]
-pub struct FieldKind {
-    /// Name in files, `plastic_strain` for example.
-    pub name: &'static str,
-    /// Nodes or cells.
-    pub location: Location,
-    /// Names of the components; empty for a scalar.
-    pub components: &'static [&'static str],
-    /// SI unit, `Pa` for example; empty for a pure number.
-    pub unit: &'static str,
-    /// What must be there.
-    pub needs: Needs,
-    /// One line: what it is.
-    pub doc: &'static str,
-    /// Where its values come from.
-    pub(crate) source: Source,
-}
-
-/// Fields of the same name and components, thus of the same dimension, are the same.
-impl PartialEq for FieldKind {
-    fn eq(&self, other: &Self) -> bool {
-        (self.name, self.components) == (other.name, other.components)
-    }
-}
-
-impl FieldKind {
-    /// Values per node or cell.
-    #[must_use]
-    pub fn width(&self) -> usize {
-        self.components.len().max(1)
     }
 }
 
@@ -228,38 +168,6 @@ impl Shown for Frame {
 fn put(all: &[f64], width: usize, places: Range<usize>, values: &mut Vec<f64>) {
     values.clear();
     values.extend_from_slice(&all[width * places.start..width * places.end]);
-}
-
-/// Every field that can be written, of 2D models.
-pub static FIELDS: LazyLock<Vec<FieldKind>> = LazyLock::new(|| field::kinds(2));
-/// The same of 3D models.
-pub static FIELDS_IN_SPACE: LazyLock<Vec<FieldKind>> = LazyLock::new(|| field::kinds(3));
-
-/// The fields of a dimension.
-#[must_use]
-pub fn fields_of(dimension: usize) -> &'static [FieldKind] {
-    if dimension == 3 { &FIELDS_IN_SPACE } else { &FIELDS }
-}
-
-/// The field of 2D models called `name`.
-#[must_use]
-pub fn field_kind(name: &str) -> Option<&'static FieldKind> {
-    FIELDS.iter().find(|kind| kind.name == name)
-}
-
-/// An element that was eroded.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Eroded {
-    /// Its part.
-    pub part: String,
-    /// Its number in the part.
-    pub element: usize,
-    /// Mean of its nodes when it failed, m; in the plane z is zero.
-    pub at: [f64; 3],
-    /// When it failed, s.
-    pub time: f64,
-    /// By which criterion.
-    pub criterion: &'static str,
 }
 
 /// What erosion has done.

@@ -21,7 +21,6 @@ use crate::field::NodeFields;
 use crate::hashes::Hashes;
 use crate::model::Model;
 use crate::output::{Cells, Field, Frame, Shown, Summary};
-use crate::post_mortem::{Acting, Culprit, Neighbourhood, Suspect, Trace};
 use embate_lanes::Level;
 use run::Run;
 
@@ -266,17 +265,6 @@ impl Simulation {
         }
     }
 
-    /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it,
-    /// after every step from number `from` on.
-    pub fn follow(&mut self, suspect: &Suspect, at_failure: &Self, from: u64) {
-        match (&mut self.0, &at_failure.0) {
-            (Either::Plane(run), Either::Plane(failed)) => run.follow(suspect, failed, from),
-            (Either::Space(run), Either::Space(failed)) => run.follow(suspect, failed, from),
-            // Of another model, which is none of ours.
-            _ => {}
-        }
-    }
-
     /// Lets the run keep states in memory, in so many bytes for all of them together: see
     /// [`Simulation::states`].
     pub fn keep_states_in(&mut self, bytes: usize) {
@@ -477,40 +465,5 @@ impl Simulation {
     #[must_use]
     pub fn summary(&self) -> Summary {
         either!(self, run => run.summary())
-    }
-
-    /// Who is to blame for the failure that ended the run.
-    #[must_use]
-    pub fn suspect(&self, error: &Error) -> Suspect {
-        either!(self, run => run.suspect(error))
-    }
-
-    /// A suspect by the user's names and numbers.
-    #[must_use]
-    pub fn culprit(&self, suspect: &Suspect) -> Culprit {
-        either!(self, run => run.culprit(suspect))
-    }
-
-    /// What was seen since [`Simulation::follow`]; looks no more.
-    pub fn take_trace(&mut self) -> Option<Trace> {
-        either!(mut self, run => run.take_trace())
-    }
-
-    /// The state of a failure alone.
-    #[must_use]
-    pub fn trace_now(&self, suspect: &Suspect, error: Option<&Error>) -> Trace {
-        either!(self, run => run.trace_now(suspect, error))
-    }
-
-    /// What is around a suspect now.
-    #[must_use]
-    pub fn neighbourhood(&self, suspect: &Suspect) -> Neighbourhood {
-        either!(self, run => run.neighbourhood(suspect))
-    }
-
-    /// Constraints and loads of the model that act on the culprit or the elements next to it.
-    #[must_use]
-    pub fn acting(&self, model: &Model, suspect: &Suspect) -> Vec<Acting> {
-        either!(self, run => run.acting(model, suspect))
     }
 }

@@ -3,8 +3,9 @@
 
 use super::reader::{header, written};
 use super::{units, value};
-use embate_solver::model::describe::{Key, Kind, More, Need, Rule, SECTIONS, Section, TOP};
+use embate_solver::input::sections::{SECTIONS, TOP};
 use embate_solver::quantity::{Dimension, Range};
+use embate_solver::vocabulary::{Key, Kind, More, Need, Rule, Section};
 use embate_solver::{contact, element, material, output};
 use std::fmt::Write;
 

@@ -1,5 +1,5 @@
 //! Reads the tree of a model file section by section, key by key, as
-//! [`describe`](embate_solver::model::describe) says.
+//! [`sections`](embate_solver::input::sections) says.
 //!
 //! The tree comes from `tree.rs`; records of checked values go to `build.rs`. Every fault is noted and
 //! reading goes on.
@@ -8,15 +8,14 @@ use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
 use super::value::{self, Datum, Wrong};
 use crate::model_file::messages::{FORM, MISSING_KEY, MISSING_SECTION, UNKNOWN_KEY};
-use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::element::elements_of;
+use embate_solver::input::sections::{MOVED, SECTIONS, TOP, section as section_by_name};
 use embate_solver::mesh::shapes::Shape;
 use embate_solver::mesh::shapes::Values;
-use embate_solver::model::describe::{
-    Form, Key, Kind, MOVED, Need, Rule, SECTIONS, Section, TOP, nearest, section as section_by_name, suggestion,
-};
 use embate_solver::model::messages::CLASH;
 use embate_solver::quantity::Dimension;
+use embate_solver::stress_state::STRESS_STATES;
+use embate_solver::vocabulary::{Form, Key, Kind, Need, Rule, Section, nearest, suggestion};
 use std::collections::BTreeMap;
 
 /// What a kind of file may hold.

@@ -1,13 +1,14 @@
 //! The JSON schema of the model file, for completion and checks in editors.
 //!
-//! Made by iteration over [`describe`](embate_solver::model::describe) and the registries; `embate schema`
+//! Made by iteration over [`sections`](embate_solver::input::sections) and the registries; `embate schema`
 //! prints it.
 
 use super::tree::{self, Value};
 use super::units;
+use embate_solver::input::sections::{SECTIONS, TOP};
 use embate_solver::material;
-use embate_solver::model::describe::{Form, Key, Kind, More, Need, Rule, SECTIONS, Section, TOP};
 use embate_solver::quantity::{Dimension, Range};
+use embate_solver::vocabulary::{Form, Key, Kind, More, Need, Rule, Section};
 
 /// Names: no ASCII character but letters, digits, `-` and `_`. Written without classes, which not every
 /// reader of schemas knows.

@@ -6,7 +6,8 @@
 use super::diagnostics::{Faults, Source};
 use super::tree::{self, Entry, Node, Place, Value};
 use crate::model_file::messages::OVERRIDE;
-use embate_solver::model::describe::{Form, section, suggestion};
+use embate_solver::input::sections::section;
+use embate_solver::vocabulary::{Form, suggestion};
 
 /// Deepest path that any key needs, with some to spare.
 const DEPTH_MAX: usize = 12;

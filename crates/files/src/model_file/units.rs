@@ -6,8 +6,8 @@
 //! follows it.
 
 use super::decimal::Decimal;
-use embate_solver::model::describe::nearest;
 use embate_solver::quantity::Dimension;
+use embate_solver::vocabulary::nearest;
 
 /// What is wrong with a text, and what to do.
 pub(super) type Wrong = (String, String);

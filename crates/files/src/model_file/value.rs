@@ -7,12 +7,12 @@ use super::reader::Record;
 use super::tree::{Node, Place, Value};
 use super::units::{self, Wanted};
 use crate::model_file::messages::{CHOICE, TYPE, UNIT, UNKNOWN_KEY};
+use embate_solver::input::name_is_plain;
 use embate_solver::message::Message;
-use embate_solver::model::check::name_is_plain;
-use embate_solver::model::describe::{Key, Kind, out_of_range, suggestion};
 use embate_solver::model::messages::{LIST_LENGTH, RANGE};
 use embate_solver::model::{Cadence, Drive, Penalty};
 use embate_solver::quantity::{Dimension, Range};
+use embate_solver::vocabulary::{Key, Kind, out_of_range, suggestion};
 
 /// A value that is sound.
 #[derive(Clone, Debug)]
@@ -451,7 +451,7 @@ pub(super) fn example(key: &Key) -> String {
         Kind::Choice(known) => format!("\"{}\"", known().first().copied().unwrap_or("...")),
         Kind::Choices(known) => format!("[\"{}\"]", known().first().copied().unwrap_or("...")),
         Kind::Table(section) => {
-            let required = section.keys.iter().filter(|key| key.need == embate_solver::model::describe::Need::Required);
+            let required = section.keys.iter().filter(|key| key.need == embate_solver::vocabulary::Need::Required);
             format!("{{ {} }}", required.map(|key| format!("{} = {}", key.name, example(key))).collect::<Vec<_>>().join(", "))
         }
     }

@@ -7,10 +7,11 @@ use super::Failed;
 use super::page::shown;
 use crate::model_file::Loaded;
 use embate_solver::error::Error;
+use embate_solver::input::sections;
 use embate_solver::mesh::cell::CellKind;
-use embate_solver::model::describe::{self, Need};
 use embate_solver::model::{ContactLaw, Drive, Formulation, Interface, Load, Model, Penalty};
 use embate_solver::post_mortem::{Acting, Culprit, Moment, Trace};
+use embate_solver::vocabulary::Need;
 
 /// One change.
 #[derive(Clone, Debug, PartialEq)]
@@ -431,7 +432,7 @@ fn number(path: &str, kind: &str) -> Option<usize> {
 /// What a key is now, and where it stands.
 pub(super) fn key_now(loaded: &Loaded, path: &str) -> [String; 2] {
     let place = loaded.key(path);
-    let default = describe::find(path).and_then(|key| match key.need {
+    let default = sections::find(path).and_then(|key| match key.need {
         Need::Default(value) | Need::Optional(value) => Some(value.trim_matches('"').to_string()),
         Need::Value(value) => Some(value.to_string()),
         Need::Required => None,

@@ -8,8 +8,8 @@ use super::Wrong;
 use crate::model_file::{number_and_unit, quantity_in_si};
 use crate::results::{append_number, append_text};
 use crate::verification::{How, Samples, Source, TAKES, Take};
-use embate_solver::model::describe::suggestion;
 use embate_solver::quantity::Dimension;
+use embate_solver::vocabulary::suggestion;
 
 /// One column of the table.
 #[derive(Clone, Debug)]

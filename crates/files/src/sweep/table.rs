@@ -11,10 +11,11 @@ use super::{PLOT_NAME, SweepError, TABLE_NAME};
 use crate::model_file::value_in_si;
 use crate::picture::sweep::{self, Axis, Spacing};
 use crate::results::{append_number, append_text, write_whole};
+use embate_solver::input::sections;
 use embate_solver::material;
 use embate_solver::model::Model;
-use embate_solver::model::describe::{self, Form, Kind};
 use embate_solver::quantity::Dimension;
+use embate_solver::vocabulary::{Form, Kind};
 use std::path::Path;
 
 /// Values of an input.
@@ -113,7 +114,7 @@ fn values(input: &Input, model: &Model) -> Values {
 fn unit_of(path: &str, model: &Model) -> Option<String> {
     let path = path.replace('[', ".").replace(']', "");
     let steps: Vec<&str> = path.split('.').map(str::trim).collect();
-    let section = describe::section(steps.first()?);
+    let section = sections::section(steps.first()?);
     let of_law = || {
         let law = &model.materials.get(*steps.get(1)?)?.law;
         let laws = material::registry();
@@ -126,7 +127,7 @@ fn unit_of(path: &str, model: &Model) -> Option<String> {
     // Names and numbers of tables and items are no keys.
     let named = section.is_some_and(|section| matches!(section.form, Form::Named | Form::Repeated));
     let keys = steps.iter().enumerate().filter(|(depth, step)| !(named && *depth == 1) && step.parse::<usize>().is_err());
-    let key = describe::find(&keys.map(|(_, step)| *step).collect::<Vec<_>>().join("."))?;
+    let key = sections::find(&keys.map(|(_, step)| *step).collect::<Vec<_>>().join("."))?;
     let (dimension, _) = key.range()?;
     Some(match key.kind {
         Kind::Angle(Dimension::NONE, _) => "rad".to_string(),

@@ -3,8 +3,8 @@
 
 use super::case::{TAKES, Take};
 use crate::model_file::{Vocabulary, keys_table};
-use embate_solver::model::describe::{Form, Group, Key, Kind, Need, Rule, Section};
 use embate_solver::quantity::{Dimension, Range};
+use embate_solver::vocabulary::{Form, Group, Key, Kind, Need, Rule, Section};
 use std::fmt::Write;
 
 const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> Key {

@@ -5,9 +5,9 @@
 //! finite, is an error and never a value: no check passes by it.
 
 use super::case::{How, Place, Source, Take};
-use embate_solver::model::describe::suggestion;
 use embate_solver::output::{Cells, Field, Frame, Location};
 use embate_solver::simulation::Simulation;
+use embate_solver::vocabulary::suggestion;
 
 /// A frame that is further than this fraction of the run from the time that is wanted is another one.
 const FRAME_TOLERANCE: f64 = 1e-2;

@@ -9,7 +9,7 @@ use crate::Reach;
 use crate::model_file::{self, Described, Diagnostics, Document, Faults, Record};
 use crate::verification::messages::{CASE, UNJUDGED};
 use embate_solver::model::Model;
-use embate_solver::model::describe::suggestion;
+use embate_solver::vocabulary::suggestion;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 

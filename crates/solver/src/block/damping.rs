@@ -17,9 +17,9 @@
 
 use super::batch::{ElementBatch, Resistance};
 use super::strain::Tensor;
-use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
 use crate::material::points::RESPONSE;
+use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{Batch, Lane};
 

@@ -7,9 +7,9 @@
 
 use super::forces::{Forces, ForcesKernel};
 use super::strain::{Strain, StrainKernel, Tensor, initial_width, point_volume, radius};
-use super::stress_state::StressState;
 use super::strip::{Every, Strip};
 use crate::element::{Element, ElementOptions, map_of};
+use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{BATCH, Batch, Lane, Level};
 use std::marker::PhantomData;

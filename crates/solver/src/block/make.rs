@@ -4,11 +4,11 @@ use super::Block;
 use super::bar::Bars;
 use super::kernel::{Compiled, ElementKernel};
 use super::store::ElementStore;
-use super::stress_state::StressState;
 use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, Registered, with_element};
 use crate::material::points::PointLaw;
 use crate::material::{Parameters, points};
 use crate::model::Material;
+use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space};
 
 /// What a block is made from.

@@ -23,7 +23,6 @@ mod nodal;
 pub(crate) mod spring;
 mod store;
 mod strain;
-pub mod stress_state;
 mod strip;
 
 pub use initial::{Initial, Wrong};

@@ -7,10 +7,10 @@
 //! mean dilatation (B-bar) the volumetric part of the strain is averaged over the element.
 
 use super::batch::Resistance;
-use super::stress_state::StressState;
 use super::strip::{Parts, Strip};
 use crate::element::{Element, PATTERNS, map, map_at};
 use crate::material::Family;
+use crate::stress_state::StressState;
 use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, Turns, product};
 use embate_lanes::{Batch, Indices, Lane};
 use std::marker::PhantomData;

@@ -5,6 +5,7 @@
 //! line in `elements!`.
 
 mod bar2;
+mod of_part;
 mod hex8;
 mod hex8_assumed_strain;
 mod hex8_reduced;

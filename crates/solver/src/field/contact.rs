@@ -2,8 +2,8 @@
 
 use super::{Components, Description};
 use crate::dimension::Dimension;
+use crate::field::kind::Needs;
 use crate::field::snapshot::LiveSnapshot;
-use crate::output::Needs;
 use crate::tensor::Dim;
 
 pub(super) fn fields() -> Vec<Description> {

@@ -1,7 +1,7 @@
 //! Which elements have been eroded.
 
 use super::{Components, Description, of_cells};
-use crate::output::Needs;
+use crate::field::kind::Needs;
 
 /// 1 or 0; files hide what is not alive.
 pub(crate) const ALIVE: Description = Description::new(

@@ -10,9 +10,10 @@ use crate::block::ElementState;
 use crate::dimension::Dimension;
 use crate::field::snapshot::LiveSnapshot;
 use crate::material::Variable;
-use crate::output::{FieldKind, Location, Needs};
 use crate::tensor::Dim;
+use kind::{FieldKind, Location, Needs};
 
+pub(crate) mod kind;
 pub(crate) mod snapshot;
 
 pub(crate) use erosion::ALIVE;

@@ -1,18 +1,16 @@
 //! A system as it is shown at an output time: positions and fields, in the user's order, piece by piece, so
 //! that a large model is never there a second time.
 //!
-//! What is shown is asked for by the writers of files ([`Shown`]), or put into a [`Frame`] as a whole;
-//! `record` knows which fields there are.
+//! `crate::snapshot` hands it to the writers; `record` knows which fields there are.
 
+use super::kind::FieldKind;
 use crate::block::ElementState;
 use crate::contact::traces::{State, Traces, Tractions};
 use crate::dimension::Dimension;
 use crate::field::{Cell, NodeFields, OfCell, OfNode, Source};
 use crate::mesh::ElementGroup;
-use crate::output::{Field, FieldKind, Frame, Location, Shown};
 use crate::step::System;
 use crate::tensor::Dim;
-use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -25,7 +23,7 @@ where
     Dim<D>: Dimension<D>,
 {
     pub(crate) system: &'a System<D>,
-    fields: &'a [&'static FieldKind],
+    pub(crate) fields: &'a [&'static FieldKind],
     /// Node of each of the user's numbers.
     nodes: OnceLock<Vec<u32>>,
     /// Where each element is stored, in all groups one after the other, part by part by the user's numbers.
@@ -44,7 +42,7 @@ where
         Self { system, fields, nodes: OnceLock::new(), elements: OnceLock::new(), tractions: OnceLock::new(), states: OnceLock::new() }
     }
 
-    fn elements(&self) -> &[u32] {
+    pub(crate) fn elements(&self) -> &[u32] {
         self.elements.get_or_init(|| {
             let mesh = &self.system.mesh;
             let mut stored = vec![0; mesh.groups.iter().map(ElementGroup::elements).sum()];
@@ -78,7 +76,7 @@ where
     }
 
     /// Values of nodes by the user's numbers, `width` for each.
-    fn by_node(&self, users: Range<usize>, width: usize, values: &mut Vec<f64>, value: impl Fn(usize, &mut [f64])) {
+    pub(crate) fn by_node(&self, users: Range<usize>, width: usize, values: &mut Vec<f64>, value: impl Fn(usize, &mut [f64])) {
         let nodes = self.nodes.get_or_init(|| {
             let mut nodes = vec![0; self.system.mesh.user_nodes.len()];
             (0..).zip(&self.system.mesh.user_nodes).for_each(|(node, &user)| nodes[user as usize] = node);
@@ -89,7 +87,7 @@ where
     }
 
     /// Makes the values of a field at nodes; of one at cells it makes room, and gives the column to fill.
-    fn begin<'v>(&self, kind: &FieldKind, places: Range<usize>, values: &'v mut Vec<f64>) -> Option<Column<'v>>
+    pub(crate) fn begin<'v>(&self, kind: &FieldKind, places: Range<usize>, values: &'v mut Vec<f64>) -> Option<Column<'v>>
     where
         Dim<D>: NodeFields<D>,
     {
@@ -108,7 +106,7 @@ where
     }
 
     /// Values of several fields of cells: each element is asked for its state once.
-    fn of_cells(&self, cells: Range<usize>, columns: &mut [Column<'_>]) {
+    pub(crate) fn of_cells(&self, cells: Range<usize>, columns: &mut [Column<'_>]) {
         let (groups, blocks) = (&self.system.mesh.groups, &self.system.blocks);
         let mut states = [ElementState::default(); STATES];
         let mut elements = Vec::with_capacity(STATES);
@@ -146,75 +144,8 @@ where
     }
 }
 
-impl<const D: usize> Shown for LiveSnapshot<'_, D>
-where
-    Dim<D>: NodeFields<D>,
-{
-    fn time(&self) -> f64 {
-        self.system.time
-    }
-
-    fn step(&self) -> u64 {
-        self.system.step
-    }
-
-    fn dimension(&self) -> usize {
-        D
-    }
-
-    fn nodes(&self) -> usize {
-        self.system.mesh.user_nodes.len()
-    }
-
-    fn kinds(&self) -> Vec<&'static FieldKind> {
-        self.fields.to_vec()
-    }
-
-    fn numbers(&self, field: usize) -> usize {
-        let kind = self.fields[field];
-        kind.width() * if kind.location == Location::Node { self.nodes() } else { self.elements().len() }
-    }
-
-    fn coordinates(&self, nodes: Range<usize>, values: &mut Vec<f64>) {
-        self.by_node(nodes, D, values, |node, own| own.copy_from_slice(&self.system.positions[node]));
-    }
-
-    fn values(&self, field: usize, places: Range<usize>, values: &mut Vec<f64>) {
-        let kind = self.fields[field];
-        if let Some(mut column) = self.begin(kind, places.clone(), values) {
-            self.of_cells(places, std::slice::from_mut(&mut column));
-        }
-    }
-
-    fn outlined(&self) -> Cow<'_, Frame> {
-        let mut frame = Frame { time: self.system.time, step: self.system.step, dimension: D, ..Frame::default() };
-        frame.outlines.extend(self.system.outlines.iter().map(|outline| outline.now(&self.system.bodies)));
-        if !frame.outlines.is_empty() {
-            self.coordinates(0..self.nodes(), &mut frame.coordinates);
-        }
-        Cow::Owned(frame)
-    }
-
-    fn fill(&self, frame: &mut Frame) {
-        (frame.time, frame.step, frame.dimension) = (self.system.time, self.system.step, D);
-        self.coordinates(0..self.nodes(), &mut frame.coordinates);
-        let mut spare = std::mem::take(&mut frame.fields).into_iter().map(|field| field.values);
-        frame.fields = self.fields.iter().map(|&kind| Field { kind, values: spare.next().unwrap_or_default() }).collect();
-        let mut columns = Vec::new();
-        for Field { kind, values } in &mut frame.fields {
-            let places = if kind.location == Location::Node { self.nodes() } else { self.elements().len() };
-            columns.extend(self.begin(kind, 0..places, values));
-        }
-        if !columns.is_empty() {
-            self.of_cells(0..self.elements().len(), &mut columns);
-        }
-        frame.outlines.clear();
-        frame.outlines.extend(self.system.outlines.iter().map(|outline| outline.now(&self.system.bodies)));
-    }
-}
-
 /// Values of a field of cells, while they are made.
-struct Column<'v> {
+pub(crate) struct Column<'v> {
     /// Values of a cell.
     width: usize,
     of_cell: OfCell,

@@ -11,10 +11,9 @@ pub mod table;
 
 use crate::archive::{Archive, Keep, Kept};
 use crate::model::in_space;
-use crate::model::{self, CurveShape, Drive, Model};
+use crate::model::{self, CurveShape, Drive, Model, Sine};
 use crate::vector::{dot, plus, times};
 use expression::Expression;
-use sine::Sine;
 use table::Table;
 
 /// Points and weights of Gauss' rule on −1..1.

@@ -18,7 +18,7 @@ pub use dimension::{Meshed, signed_volume};
 use crate::error::Fault;
 use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY};
 use crate::model::messages::{NOTHING, UNKNOWN_NAME};
-use crate::model::{ImportedMesh, Model, Part, Shape, Sweep};
+use crate::model::{ImportedMesh, MeshGroup, Model, Part, Shape, Sweep};
 use crate::tensor::Dim;
 use cell::{Cell, CellKind, MOST_NODES};
 use shapes::Body;
@@ -46,6 +46,13 @@ pub fn extent<const D: usize>(positions: &[[f64; D]]) -> f64 {
         (all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)).max(0.0)
     };
     (0..D).map(along).fold(0.0, f64::max)
+}
+
+impl MeshGroup {
+    /// Each of its cells; `None` for one that has a number of nodes that no cell of its dimension has.
+    pub fn elements(&self) -> impl Iterator<Item = Option<Cell<'_>>> + Clone {
+        self.cells.iter().map(|nodes| Cell::of(self.dimension.into(), nodes))
+    }
 }
 
 /// A part: its nodes. Its elements are in one or more [`ElementGroup`]s.

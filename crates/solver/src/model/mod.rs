@@ -4,14 +4,13 @@
 //! Nothing here is checked on construction: [`Model::check`] returns *all* faults, each with its path in the
 //! input.
 
-pub mod check;
-pub mod describe;
 pub mod messages;
 mod contact;
 mod discrete;
 mod initial;
 mod load;
 mod motion;
+pub(crate) mod placement;
 pub mod reference;
 mod triangles;
 
@@ -21,18 +20,15 @@ pub use contact::{
 pub use discrete::{PointMass, Spring};
 pub use initial::InitialStress;
 pub use load::{Axis, Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
-pub use motion::{Curve, CurveShape, Drive, Motion};
+pub use motion::{Curve, CurveShape, Drive, Motion, Sine};
+pub use placement::{Copies, Mirror, Placement};
 pub use triangles::TriangleSurface;
 
-use crate::block::stress_state::STRESS_STATES;
-use crate::element::{BARS, ELEMENTS, ElementKind, elements_of};
-use crate::mesh::cell::{Cell, CellKind};
-pub use crate::mesh::placement::{Copies, Mirror, Placement};
-use crate::mesh::shapes::Count;
 pub use crate::mesh::shapes::{
     Cuboid, Cylinder, Disk, Edge, Extrude, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, SpaceTruss, Sphere, Sweep,
     Trapezoid, Truss, Tube,
 };
+use crate::stress_state::STRESS_STATES;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -157,16 +153,6 @@ impl Model {
         match &part.shape {
             Shape::Group { mesh, .. } if part.sweep.is_none() => self.meshes.get(*mesh).map_or(2, |imported| imported.dimension()),
             _ => part.dimension(),
-        }
-    }
-
-    /// Dimension of the cells of a mesh file that a part is made of.
-    #[must_use]
-    pub fn cells_dimension(&self, part: &Part) -> u8 {
-        match (part.is_of_bars(), &part.sweep) {
-            (true, _) => 1,
-            (false, Some(_)) => 2,
-            (false, None) => self.dimension_of(part) as u8,
         }
     }
 }
@@ -317,31 +303,6 @@ impl Part {
     pub fn dimension(&self) -> usize {
         if self.sweep.is_some() || self.shape.solid().is_some() { 3 } else { 2 }
     }
-
-    /// Whether it consists of bars: lines without a surface.
-    #[must_use]
-    pub fn is_of_bars(&self) -> bool {
-        BARS.iter().any(|kind| kind.name == self.element)
-    }
-
-    /// How large its mesh will be, where it has a built-in shape.
-    #[must_use]
-    pub fn count(&self) -> Option<Count> {
-        let shape = self.shape.count()?;
-        let one = self.sweep.as_ref().map_or(shape, |sweep| sweep.count(shape));
-        Some(one.times(self.placement.copies.map_or(1, |copies| copies.count)))
-    }
-
-    /// What its cells of a kind are in a model of so many dimensions: the element that it names, in space
-    /// also the one that takes its place there ([`ElementKind::extruded`]), else the default one
-    /// ([`ElementKind::is_default`]); `None` when there is none of them.
-    #[must_use]
-    pub fn element_in(&self, dimension: usize, cell: CellKind) -> Option<&'static ElementKind> {
-        let is_named = |kind: &&ElementKind| [&self.element, &self.element_triangles].iter().any(|name| *name == kind.name);
-        let kinds = || elements_of(dimension).iter().chain(BARS).filter(|kind| kind.cell == cell);
-        let stands_in = |kind: &&ElementKind| dimension == 3 && ELEMENTS.iter().filter(is_named).any(|own| own.extruded == Some(kind.name));
-        kinds().find(|kind| is_named(kind) || stands_in(kind)).or_else(|| kinds().find(|kind| kind.is_default))
-    }
 }
 
 /// A mesh that came from a file: nodes and named groups of cells. Parts that use the same mesh share its
@@ -366,13 +327,6 @@ pub struct MeshGroup {
     /// Node indices of each cell, which with the dimension say of which kind it is. Surfaces run
     /// counter-clockwise or not.
     pub cells: Vec<Vec<u32>>,
-}
-
-impl MeshGroup {
-    /// Each of its cells; `None` for one that has a number of nodes that no cell of its dimension has.
-    pub fn elements(&self) -> impl Iterator<Item = Option<Cell<'_>>> + Clone {
-        self.cells.iter().map(|nodes| Cell::of(self.dimension.into(), nodes))
-    }
 }
 
 /// `[[probe]]`: what is recorded in the history.

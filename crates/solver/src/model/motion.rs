@@ -1,8 +1,7 @@
 //! How driven things move, and the curves that values follow in a [`super::Model`].
 //!
-//! Values come from the model file, checked by [`super::check`]; [`crate::load::curve`] evaluates the curves.
+//! Values come from the model file, checked by `input`; [`crate::load::curve`] evaluates the curves.
 
-use crate::load::curve::sine::Sine;
 use crate::quantity::Dimension;
 
 /// How a rigid body may move: per degree of freedom driven (zero is fixed), or free (`None`).
@@ -70,6 +69,19 @@ pub enum CurveShape {
     Sine(Sine),
     /// A formula of the time `t`: see [`crate::load::curve::expression`].
     Expression(String),
+}
+
+/// offset + amplitude · sin(2π frequency · t + phase).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sine {
+    /// Height of the wave.
+    pub amplitude: f64,
+    /// Waves per second, Hz.
+    pub frequency: f64,
+    /// Angle at time zero, rad.
+    pub phase: f64,
+    /// Mean value.
+    pub offset: f64,
 }
 
 impl Default for CurveShape {

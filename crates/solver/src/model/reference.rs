@@ -3,8 +3,8 @@
 //! Names come from contacts, constraints and probes; the answer goes to [`Model::check`] and to the mesh
 //! builder, so that both understand a name in the same way.
 
-use super::describe::nearest;
 use super::{ImportedMesh, MeshGroup, Model};
+use crate::vocabulary::{excerpt, nearest, suggestion};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,7 +74,7 @@ impl Model {
             let sides: Vec<&str> = sides.iter().map(String::as_str).collect();
             let help = match &sides[..] {
                 [] => "a part of a mesh file has no named sides: name a line group of the file".to_string(),
-                sides => super::describe::suggestion(side_name, sides),
+                sides => suggestion(side_name, sides),
             };
             return Err((format!("part `{part_name}` has no side `{}`", excerpt(side_name)), help));
         }
@@ -119,21 +119,12 @@ impl Model {
         if let Some(near) = nearest(name, plain.iter().copied().chain(sides.iter().map(String::as_str))) {
             return format!("did you mean `{near}`?");
         }
-        super::describe::suggestion("", &plain)
+        suggestion("", &plain)
     }
-}
-
-/// A user's text, cut for a message.
-pub(super) fn excerpt(text: &str) -> String {
-    let mut shown: String = text.chars().take(60).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
-    if text.chars().nth(60).is_some() {
-        shown.push_str("...");
-    }
-    shown
 }
 
 /// What cells of a dimension are called.
-pub(super) fn dimension_word(dimension: u8) -> &'static str {
+pub(crate) fn dimension_word(dimension: u8) -> &'static str {
     match dimension {
         0 => "a group of points",
         1 => "a group of lines",

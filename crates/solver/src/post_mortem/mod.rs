@@ -1,9 +1,9 @@
 //! What a failed run knows of its failure: the culprit, its neighbourhood, and what became of both over the
 //! last steps.
 //!
-//! After a failure [`suspect`](crate::simulation::Simulation::suspect) names the culprit as the state of the
+//! After a failure [`Simulation::suspect`] names the culprit as the state of the
 //! failure shows it. A second simulation of the same model, set out from a state before, goes to the failure
-//! once more and [follows](crate::simulation::Simulation::follow) the culprit step by step (`trace.rs`); the
+//! once more and follows ([`Simulation::follow`]) the culprit step by step (`trace.rs`); the
 //! steps are the same to the last bit. Values only: who writes a page of them is not known here.
 
 mod acting;
@@ -17,13 +17,12 @@ pub use neighbourhood::{NearCell, Neighbourhood, RINGS};
 pub use trace::{Jump, Moment, Trace, Vitals};
 
 pub(crate) use neighbourhood::Near;
-pub(crate) use trace::Tracer;
 
 use crate::dimension::Dimension;
 use crate::error::Error;
-use crate::model::in_space;
-use crate::simulation::Runs;
+use crate::model::{Model, in_space};
 use crate::simulation::run::Run;
+use crate::simulation::{Either, Runs, Simulation, either};
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::dot;
@@ -115,6 +114,54 @@ impl Suspect {
     #[must_use]
     pub fn is_nobody(&self) -> bool {
         self.node.is_none() && self.element.is_none()
+    }
+}
+
+impl Simulation {
+    /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it,
+    /// after every step from number `from` on.
+    pub fn follow(&mut self, suspect: &Suspect, at_failure: &Self, from: u64) {
+        match (&mut self.0, &at_failure.0) {
+            (Either::Plane(run), Either::Plane(failed)) => run.follow(suspect, failed, from),
+            (Either::Space(run), Either::Space(failed)) => run.follow(suspect, failed, from),
+            // Of another model, which is none of ours.
+            _ => {}
+        }
+    }
+
+    /// Who is to blame for the failure that ended the run.
+    #[must_use]
+    pub fn suspect(&self, error: &Error) -> Suspect {
+        either!(self, run => run.suspect(error))
+    }
+
+    /// A suspect by the user's names and numbers.
+    #[must_use]
+    pub fn culprit(&self, suspect: &Suspect) -> Culprit {
+        either!(self, run => run.culprit(suspect))
+    }
+
+    /// What was seen since [`Simulation::follow`]; looks no more.
+    pub fn take_trace(&mut self) -> Option<Trace> {
+        either!(mut self, run => run.take_trace())
+    }
+
+    /// The state of a failure alone.
+    #[must_use]
+    pub fn trace_now(&self, suspect: &Suspect, error: Option<&Error>) -> Trace {
+        either!(self, run => run.trace_now(suspect, error))
+    }
+
+    /// What is around a suspect now.
+    #[must_use]
+    pub fn neighbourhood(&self, suspect: &Suspect) -> Neighbourhood {
+        either!(self, run => run.neighbourhood(suspect))
+    }
+
+    /// Constraints and loads of the model that act on the culprit or the elements next to it.
+    #[must_use]
+    pub fn acting(&self, model: &Model, suspect: &Suspect) -> Vec<Acting> {
+        either!(self, run => run.acting(model, suspect))
     }
 }
 

@@ -11,10 +11,11 @@ use crate::model::in_space;
 use crate::output::Outline;
 use crate::record::Recorded;
 use crate::simulation::Runs;
-use crate::simulation::run::Run;
+use crate::simulation::run::{AfterStep, Run};
 use crate::step::System;
 use crate::tensor::{Dim, von_mises};
 use crate::vector::dot;
+use std::any::Any;
 use std::marker::PhantomData;
 
 /// Figures of the culprit at one step; what it does not have is not a number.
@@ -108,7 +109,7 @@ pub struct Trace {
 }
 
 /// Looks at a system after every step.
-pub(crate) struct Tracer<const D: usize> {
+struct Tracer<const D: usize> {
     suspect: Suspect,
     near: Near,
     /// First step that is kept.
@@ -128,9 +129,13 @@ where
         let trace = Trace { columns, contacts, near: near.shown.clone(), begin: (system.step, system.ledger.drift()), ..Trace::default() };
         Self { suspect, near, from, total: balance(system), trace, of: PhantomData }
     }
+}
 
-    /// Looks at the system after a step, or after one that failed.
-    pub(crate) fn note(&mut self, system: &System<D>, recorded: &Recorded, error: Option<&Error>) {
+impl<const D: usize> AfterStep<D> for Tracer<D>
+where
+    Dim<D>: Runs<D>,
+{
+    fn note(&mut self, system: &System<D>, recorded: &Recorded, error: Option<&Error>) {
         // These are looked for when the books are closed.
         let is_late = |error| matches!(error, &Error::EnergyDrift { .. } | &Error::TooDeep { .. } | &Error::Runaway { .. });
         let is_closed = error.is_none_or(is_late);
@@ -240,7 +245,8 @@ where
 
     /// What was seen since [`crate::simulation::Simulation::follow`]; looks no more.
     pub(crate) fn take_trace(&mut self) -> Option<Trace> {
-        self.tracer.take().map(|tracer| tracer.trace)
+        let tracer: Box<dyn Any> = self.tracer.take()?;
+        tracer.downcast::<Tracer<D>>().ok().map(|tracer| tracer.trace)
     }
 
     /// The state of a failure alone.

@@ -14,14 +14,23 @@ use crate::hashes::{self, Hashes, Hashing};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
 use crate::output::{Cells, Field, Frame, Shown, fields_of};
-use crate::post_mortem::Tracer;
 use crate::record::{Momentum, Recorded};
 use crate::shortest::Shortest;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::watch::Watch;
 use embate_lanes::Level;
+use std::any::Any;
 use std::collections::BTreeMap;
+
+/// Looks at a system after every step.
+pub(crate) trait AfterStep<const D: usize>: Any + Send + Sync
+where
+    Dim<D>: Runs<D>,
+{
+    /// Looks at it after a step, or after one that failed.
+    fn note(&mut self, system: &System<D>, recorded: &Recorded, error: Option<&Error>);
+}
 
 /// A model of one dimension made ready to step: what a [`Simulation`] of it does.
 pub(crate) struct Run<const D: usize>
@@ -47,7 +56,7 @@ where
     pub(super) course: Option<Course>,
     pub(super) memory: Memory,
     /// Looks at every step of a run that goes to its failure once more.
-    pub(crate) tracer: Option<Box<Tracer<D>>>,
+    pub(crate) tracer: Option<Box<dyn AfterStep<D>>>,
     /// Search of each contact by name.
     pub(super) search_names: BTreeMap<String, String>,
     pub(super) pool: Option<rayon::ThreadPool>,

@@ -16,7 +16,6 @@ use crate::failure::{Criterion, by_name};
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::{Corners, Facet};
 use crate::model::in_space;
-use crate::output::Eroded;
 use crate::tensor::Dim;
 
 /// What fails and what has failed.
@@ -37,6 +36,21 @@ where
     /// Elements by part, and what the first one was.
     pub(crate) by_part: Vec<usize>,
     pub(crate) first: Option<Eroded>,
+}
+
+/// An element that was eroded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Eroded {
+    /// Its part.
+    pub part: String,
+    /// Its number in the part.
+    pub element: usize,
+    /// Mean of its nodes when it failed, m; in the plane z is zero.
+    pub at: [f64; 3],
+    /// When it failed, s.
+    pub time: f64,
+    /// By which criterion.
+    pub criterion: &'static str,
 }
 
 /// What fails in a step: block, element, criterion.

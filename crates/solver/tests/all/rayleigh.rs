@@ -5,10 +5,10 @@ use crate::bodies::*;
 use crate::patches::{Body, Spread, frequency_squared, material, patch, reference_nodes, stiffness};
 use embate_lanes::Level;
 use embate_solver::block::BlockInput;
-use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::element::ELEMENTS;
 use embate_solver::model::{Constraint, Drive, InitialStress, Load, Model, Part, Polygon, Shape, Truss};
 use embate_solver::simulation::{Options, Simulation};
+use embate_solver::stress_state::STRESS_STATES;
 use std::f64::consts::TAU;
 
 fn damp(model: &mut Model, rate: f64, time: f64) {

@@ -11,7 +11,6 @@ use crate::patches::{YOUNG, lists, nodes_of, options, parameters};
 use crate::self_contact::{all, crushed_ring};
 use embate_lanes::Level;
 use embate_solver::archive::Section;
-use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::contact::search::registry;
 use embate_solver::element::{BARS, ELEMENTS};
 use embate_solver::error::Error;
@@ -22,6 +21,7 @@ use embate_solver::model::*;
 use embate_solver::output::{Frame, Shown, Summary};
 use embate_solver::quantity::Parameter;
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
+use embate_solver::stress_state::STRESS_STATES;
 
 /// All that a run tells, as bits.
 #[derive(Default)]

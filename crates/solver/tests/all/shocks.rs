@@ -3,10 +3,10 @@
 
 use crate::bodies::{add, faults, model, rectangle};
 use embate_solver::bench;
-use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::material::points;
 use embate_solver::model::{Constraint, Material, Model, Obstacle, ObstacleShape};
 use embate_solver::simulation::{Options, Simulation};
+use embate_solver::stress_state::STRESS_STATES;
 
 fn fluid(eos: &str, values: &[(&str, f64)]) -> Material {
     let parameters = values.iter().map(|&(name, value)| (name.to_string(), value)).collect();

@@ -4,10 +4,10 @@
 use crate::patches::*;
 use embate_solver::bench;
 use embate_solver::block::BlockInput;
-use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::element::ELEMENTS;
 use embate_solver::material;
 use embate_solver::material::variable::PLASTIC_STRAIN;
+use embate_solver::stress_state::STRESS_STATES;
 
 /// Calls `check(element, stress state, law)` for all that can meet.
 fn every_state(mut check: impl FnMut(&'static str, &'static str, &'static str)) {

@@ -2,7 +2,6 @@
 //! the same seed gives the same model.
 
 use embate_solver::bench::{self, Random};
-use embate_solver::block::stress_state::STRESS_STATES;
 use embate_solver::contact::search;
 use embate_solver::element::{ELEMENTS, ElementKind};
 use embate_solver::failure;
@@ -12,6 +11,7 @@ use embate_solver::model::{
     Penalty, PenaltySource, Placement, Rectangle, Ring, Run, Shape, Trapezoid,
 };
 use embate_solver::quantity::Dimension;
+use embate_solver::stress_state::STRESS_STATES;
 
 /// Throws for all that a model has.
 pub(crate) struct Dice(Random);

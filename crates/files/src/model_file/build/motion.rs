@@ -5,7 +5,7 @@ use crate::model_file::diagnostics::Faults;
 use crate::model_file::messages::UNIT;
 use crate::model_file::reader::Record;
 use crate::model_file::value::{Course, Datum};
-use embate_solver::load::curve::sine::Sine;
+use embate_solver::model::Sine;
 use embate_solver::model::messages::CLASH;
 use embate_solver::model::{Axis, Constraint, Curve, CurveShape, Drive, Motion, Rotation};
 use embate_solver::quantity::Dimension;

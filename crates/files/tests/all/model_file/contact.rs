@@ -1,7 +1,7 @@
 //! Contacts, obstacles, and what moves: which models their keys make, and what is refused with which words.
 
 use super::{MORE, SOUND, changed, faults, read};
-use embate_solver::load::curve::sine::Sine;
+use embate_solver::model::Sine;
 use embate_solver::model::{
     Axis, Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, InitialPenetration, Interface, Join,
     Load, Model, Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource, Rotation,

@@ -3,9 +3,10 @@
 
 use super::{MORE, SOUND};
 use embate_files::model_file::load_text;
+use embate_solver::input::sections::SECTIONS;
 use embate_solver::material;
-use embate_solver::model::describe::{Form, Key, Kind, Need, SECTIONS, Section};
 use embate_solver::quantity::{Dimension, Range};
+use embate_solver::vocabulary::{Form, Key, Kind, Need, Section};
 use std::path::Path;
 
 /// A sound model that uses every section, and a part of each shape that it lacks (polygons need an element

@@ -2,7 +2,7 @@
 
 use super::{SOUND, changed, read};
 use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
-use embate_solver::model::describe::SECTIONS;
+use embate_solver::input::sections::SECTIONS;
 use embate_solver::model::{
     Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource,
     PictureView, ProbeAt, Rectangle, Ring, Run, Shape, Symmetry,

@@ -1,20 +1,8 @@
 //! `sine`: offset + amplitude · sin(2π frequency · t + phase), with the project's own sine.
 
 use crate::angle::cos_sin;
+use crate::model::Sine;
 use std::f64::consts::TAU;
-
-/// A sine wave.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sine {
-    /// Height of the wave.
-    pub amplitude: f64,
-    /// Waves per second, Hz.
-    pub frequency: f64,
-    /// Angle at time zero, rad.
-    pub phase: f64,
-    /// Mean value.
-    pub offset: f64,
-}
 
 impl Sine {
     /// Value at `time`, s.

@@ -1,12 +1,12 @@
 //! An axis-parallel box.
 
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Rectangle, Values, Wrong, shape_key};
+use super::{Body, BuiltIn, Count, ELEMENTS, Rectangle, ShapeCheck, Values, Wrong, shape_key};
 use super::{Extrude, Sweep};
-use crate::model::describe::Kind::{Integers, Spatial};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
+use crate::vocabulary::Kind::{Integers, Spatial};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Key, Section, key};
 
 /// An axis-parallel box of hexahedra; sides `left`, `right` (along x), `bottom`, `top` (along y), `back`,
 /// `front` (along z).
@@ -53,7 +53,7 @@ impl BuiltIn<3> for Cuboid {
         Self { corner: spatial("corner"), size: spatial("size"), elements: values.three_counts(ELEMENTS), grading: spatial("grading") }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.vector("corner", self.corner);
         check.vector("size", self.size);
         check.counts(ELEMENTS, &self.elements);

@@ -1,12 +1,12 @@
 //! A full cylinder along any axis, or a part of one, without degenerate elements.
 
 use super::axes::Axes;
-use super::{Body, BuiltIn, CheckOf, Count, Disk, ELEMENTS, Extrude, Sweep, Values, Wrong, cut, shape_key};
-use crate::model::describe::Kind::{Angle, Integers, Quantity, Spatial};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Key, Section, key};
+use super::{Body, BuiltIn, Count, Disk, ELEMENTS, Extrude, ShapeCheck, Sweep, Values, Wrong, cut, shape_key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
+use crate::vocabulary::Kind::{Angle, Integers, Quantity, Spatial};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Key, Section, key};
 
 /// A cylinder of hexahedra, or one, two or three quarters of one: the section is that of a [`Disk`]. Sides
 /// `outer`, of a part of one `start` and `end`, and `bottom` and `top` where its axis begins and ends. Angles
@@ -82,7 +82,7 @@ impl BuiltIn<3> for Cylinder {
         }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.vector("centre", self.centre);
         check.direction("axis", self.axis);
         for (key, value) in [("radius", self.radius), ("length", self.length), ("angle", self.angle), ("grading", self.grading)] {

@@ -1,13 +1,13 @@
 //! A full disk without needle elements.
 
 use super::numbers::{between, cos_sin};
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, node, shape_key};
+use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, node, shape_key};
 use crate::mesh::cell::CellKind;
-use crate::model::describe::Kind::{Integer, Quantity, Vector};
-use crate::model::describe::Need::Required;
-use crate::model::describe::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
+use crate::vocabulary::Kind::{Integer, Quantity, Vector};
+use crate::vocabulary::Need::Required;
+use crate::vocabulary::{Key, Section, key};
 
 /// A full disk: a square core of `elements` × `elements` with bulged sides, and layers of quadrilaterals from
 /// there to the circle; three elements meet at the core's four corners. Side `outer`.
@@ -42,7 +42,7 @@ impl BuiltIn for Disk {
         Self { centre: values.vector("centre"), radius: values.number("radius"), elements: values.count(ELEMENTS) }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.vector("centre", self.centre);
         check.number("radius", self.radius);
         check.counts(ELEMENTS, &[self.elements]);

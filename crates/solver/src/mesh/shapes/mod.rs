@@ -22,11 +22,10 @@ use super::messages::UNMESHABLE;
 use super::surface::Facet;
 use crate::error::Fault;
 use crate::model::Part;
-use crate::model::check::CheckOf;
-use crate::model::describe::{Form, Group, Key, Kind, Need, Rule, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::Positive;
 use crate::tensor::Dim;
+use crate::vocabulary::{Form, Group, Key, Kind, Need, Rule, Section, key};
 use cut::cut;
 use numbers::Steps;
 use std::collections::BTreeMap;
@@ -153,6 +152,43 @@ pub trait Values {
     fn flag(&self, key: &str) -> bool;
 }
 
+/// Checks the values of a shape; keys are those of its table.
+pub(crate) trait ShapeCheck {
+    /// Reports a fault of the shape at a key.
+    fn report(&mut self, key: &str, message: String, help: String);
+    /// A number against the range of its key.
+    fn number(&mut self, key: &str, value: f64);
+    /// A vector that must have a direction.
+    fn direction(&mut self, key: &str, value: [f64; 3]);
+    /// A name that must be one of these.
+    fn known(&mut self, key: &str, what: &str, name: &str, known: &[&str]);
+    /// Whole numbers that must be at least one.
+    fn counts(&mut self, key: &str, values: &[usize]);
+}
+
+impl dyn ShapeCheck + '_ {
+    /// A fault of the shape at a key.
+    pub(crate) fn fault(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+        self.report(key, message.into(), help.into());
+    }
+
+    /// Numbers against the range of their key.
+    pub(crate) fn numbers(&mut self, key: &str, values: &[f64]) {
+        values.iter().enumerate().for_each(|(k, &value)| self.number(&format!("{key}[{k}]"), value));
+    }
+
+    /// A vector against the range of its key.
+    pub(crate) fn vector<const N: usize>(&mut self, key: &str, value: [f64; N]) {
+        self.numbers(key, &value);
+    }
+
+    /// Points; whether all are finite.
+    pub(crate) fn points(&mut self, key: &str, points: &[[f64; 2]]) -> bool {
+        points.iter().enumerate().for_each(|(k, point)| self.numbers(&format!("{key}[{k}]"), point));
+        points.iter().flatten().all(|x| x.is_finite())
+    }
+}
+
 /// A shape that makes its own mesh, in the plane or in space.
 pub(crate) trait BuiltIn<const D: usize = 2>
 where
@@ -163,7 +199,7 @@ where
     where
         Self: Sized;
     /// Tells all faults that need no mesh; ranges of numbers are those of the keys.
-    fn check(&self, check: &mut CheckOf<'_, '_>);
+    fn check(&self, check: &mut dyn ShapeCheck);
     /// Names of the sides that [`BuiltIn::body`] makes.
     fn sides(&self) -> Vec<String>;
     /// Names of the sets of nodes that [`BuiltIn::body`] makes besides sides.
@@ -340,6 +376,14 @@ impl Shape {
 }
 
 impl Part {
+    /// How large its mesh will be, where it has a built-in shape.
+    #[must_use]
+    pub fn count(&self) -> Option<Count> {
+        let shape = self.shape.count()?;
+        let one = self.sweep.as_ref().map_or(shape, |sweep| sweep.count(shape));
+        Some(one.times(self.placement.copies.map_or(1, |copies| copies.count)))
+    }
+
     /// Its body in the plane, placed; `None` for a group of a mesh file.
     pub(super) fn plane_body(&self) -> Option<Result<Body, Fault>> {
         let (shape, key) = self.shape.built_in()?;

@@ -1,12 +1,12 @@
 //! A strip of a given width along a path.
 
 use super::numbers::{cos_sin, cross, distance, dot, minus, on_line, quarters_of};
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, lattice, shape_key, unfolded};
-use crate::model::describe::Kind::{Flag, Integers, Points, Quantity};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Key, Section, key};
+use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, lattice, shape_key, unfolded};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{NotNegative, Positive};
+use crate::vocabulary::Kind::{Flag, Integers, Points, Quantity};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Key, Section, key};
 use std::f64::consts::FRAC_PI_2;
 
 /// A strip along a path from point to point, with mitred or round bends; sides `left` and `right` of who
@@ -166,7 +166,7 @@ impl BuiltIn for Path {
         }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         let sound = check.points("points", &self.points);
         check.number("width", self.width);
         check.number("radius", self.radius);

@@ -2,13 +2,13 @@
 
 use super::delaunay::{is_inside, triangles};
 use super::numbers::{cross, distance, minus};
-use super::{Body, BuiltIn, CheckOf, Count, Values, Wrong, shape_key};
+use super::{Body, BuiltIn, Count, ShapeCheck, Values, Wrong, shape_key};
 use crate::mesh::cell::CellKind;
-use crate::model::describe::Kind::{Outlines, Points, Quantities, Quantity};
-use crate::model::describe::Need::{Default as Written, Optional, Required};
-use crate::model::describe::{Key, Rule, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{NotNegative, Positive};
+use crate::vocabulary::Kind::{Outlines, Points, Quantities, Quantity};
+use crate::vocabulary::Need::{Default as Written, Optional, Required};
+use crate::vocabulary::{Key, Rule, Section, key};
 use embate_lanes::math::ln;
 
 /// A polygon with straight edges and perhaps holes, of Delaunay triangles. Sides: `outer`, its edges `edge1`,
@@ -108,7 +108,7 @@ impl BuiltIn for Polygon {
         }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         let mut sound = check.points("outline", &self.outline);
         for (k, hole) in self.holes.iter().enumerate() {
             sound &= check.points(&format!("holes[{k}]"), hole);
@@ -206,7 +206,7 @@ impl BuiltIn for Polygon {
 }
 
 impl Polygon {
-    fn check_form(&self, check: &mut CheckOf<'_, '_>) {
+    fn check_form(&self, check: &mut dyn ShapeCheck) {
         let name = |k: usize| if k == 0 { "outline".to_string() } else { format!("holes[{}]", k - 1) };
         let outlines: Vec<&Vec<[f64; 2]>> = self.outlines().collect();
         // Edges: outline, place in it, ends.

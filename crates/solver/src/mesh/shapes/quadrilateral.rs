@@ -2,12 +2,12 @@
 
 use super::coons::{Curve, between};
 use super::numbers::{cross, minus};
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, GRADING, Steps, Values, Wrong, lattice, shape_key, unfolded};
-use crate::model::describe::Kind::{Integers, Points, Vector};
-use crate::model::describe::Need::{Optional, Required};
-use crate::model::describe::{Key, Rule, Section, key};
+use super::{Body, BuiltIn, Count, ELEMENTS, GRADING, ShapeCheck, Steps, Values, Wrong, lattice, shape_key, unfolded};
 use crate::quantity::Dimension;
 use crate::quantity::Range::Finite;
+use crate::vocabulary::Kind::{Integers, Points, Vector};
+use crate::vocabulary::Need::{Optional, Required};
+use crate::vocabulary::{Key, Rule, Section, key};
 
 /// An edge between two corners of a quadrilateral.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -99,7 +99,7 @@ impl BuiltIn for Quadrilateral {
         Self { corners: values.points("corners"), edges: EDGES.map(edge), elements, grading }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         let mut sound = check.points("corners", &self.corners);
         check.counts(ELEMENTS, &self.elements);
         check.vector("grading", self.grading);
@@ -157,7 +157,7 @@ impl BuiltIn for Quadrilateral {
 }
 
 impl Quadrilateral {
-    fn check_form(&self, check: &mut CheckOf<'_, '_>) {
+    fn check_form(&self, check: &mut dyn ShapeCheck) {
         for (k, curve) in self.curves().iter().enumerate() {
             match curve {
                 None => {

@@ -1,11 +1,11 @@
 //! An axis-parallel rectangle.
 
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, GRADING, Steps, Values, Wrong, lattice, shape_key};
-use crate::model::describe::Kind::{Integers, Vector};
-use crate::model::describe::Need::Required;
-use crate::model::describe::{Key, Section, key};
+use super::{Body, BuiltIn, Count, ELEMENTS, GRADING, ShapeCheck, Steps, Values, Wrong, lattice, shape_key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
+use crate::vocabulary::Kind::{Integers, Vector};
+use crate::vocabulary::Need::Required;
+use crate::vocabulary::{Key, Section, key};
 
 /// An axis-parallel rectangle of quadrilaterals; sides `left`, `right`, `bottom`, `top`.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl BuiltIn for Rectangle {
         Self { corner: vector("corner"), size: vector("size"), elements: values.counts(ELEMENTS), grading: vector("grading") }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.vector("corner", self.corner);
         check.vector("size", self.size);
         check.counts(ELEMENTS, &self.elements);

@@ -1,13 +1,13 @@
 //! A ring, or a sector of one.
 
 use super::numbers::{cos_sin, quarters};
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, GRADING, Steps, Values, Wrong, lattice, shape_key};
-use crate::model::describe::Kind::{Angle, Integers, Quantity, Vector};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Key, Section, key};
+use super::{Body, BuiltIn, Count, ELEMENTS, GRADING, ShapeCheck, Steps, Values, Wrong, lattice, shape_key};
 use crate::model::reference::is_full_turn;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
+use crate::vocabulary::Kind::{Angle, Integers, Quantity, Vector};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Key, Section, key};
 
 /// A ring or a sector of one, counter-clockwise from `from` to `to`; it closes on itself when they differ by
 /// 2π (within 1e-9). Sides `inner`, `outer` and, for a sector, `start` (at `from`) and `end`.
@@ -66,7 +66,7 @@ static SECTION: Section = Section {
 
 impl Ring {
     /// Tells faults of radii and angles.
-    pub(super) fn check_radii(&self, check: &mut CheckOf<'_, '_>) {
+    pub(super) fn check_radii(&self, check: &mut dyn ShapeCheck) {
         let Self { inner, outer, from, to, .. } = *self;
         for (key, value) in [("inner", inner), ("outer", outer), ("from", from), ("to", to)] {
             check.number(key, value);
@@ -102,7 +102,7 @@ impl BuiltIn for Ring {
         }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.vector("centre", self.centre);
         self.check_radii(check);
         check.counts(ELEMENTS, &self.elements);

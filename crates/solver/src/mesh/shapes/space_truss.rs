@@ -1,11 +1,11 @@
 //! Bars along lines in space: trusses, cables, nets between solids or alone.
 
 use super::truss::Net;
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, shape_key};
+use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, shape_key};
 use crate::mesh::cell::CellKind;
-use crate::model::describe::Kind::{Integer, SpatialOutlines};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Key, Section, key};
+use crate::vocabulary::Kind::{Integer, SpatialOutlines};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Key, Section, key};
 
 /// Bars along straight pieces from point to point of space, as [`super::Truss`] has them in the plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl BuiltIn<3> for SpaceTruss {
         Self { lines: values.spatial_outlines("lines"), elements: values.count(ELEMENTS) }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.counts(ELEMENTS, &[self.elements]);
         let mut sound = !self.lines.is_empty();
         for (k, line) in self.lines.iter().enumerate() {

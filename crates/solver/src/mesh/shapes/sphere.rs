@@ -1,13 +1,13 @@
 //! A full sphere, or a part of one, without degenerate elements.
 
 use super::numbers::{between, cos_sin};
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, cut, node, shape_key};
+use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, cut, node, shape_key};
 use crate::mesh::cell::CellKind;
-use crate::model::describe::Kind::{Choice, Integer, Quantity, Spatial};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
+use crate::vocabulary::Kind::{Choice, Integer, Quantity, Spatial};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Key, Section, key};
 
 /// A sphere of hexahedra, or the half, quarter or eighth of one where x, y and z are above those of its
 /// centre: a core of `elements`³ with bulged sides, and layers from each of its six sides to the surface.
@@ -64,7 +64,7 @@ impl BuiltIn<3> for Sphere {
         Self { centre, radius, elements: values.count(ELEMENTS), portion: values.text("portion") }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.vector("centre", self.centre);
         check.number("radius", self.radius);
         check.counts(ELEMENTS, &[self.elements]);

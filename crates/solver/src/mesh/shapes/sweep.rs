@@ -7,12 +7,12 @@
 use super::numbers::{Steps, cos_sin, dot, minus, quarters};
 use super::{Body, Count, ELEMENTS, Values, Wrong};
 use crate::mesh::cell::{Cell, CellKind};
-use crate::model::describe::Kind::{Angle, Integer, Quantity, Vector};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Section, key};
 use crate::model::{ImportedMesh, MeshGroup};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive, UpTo};
+use crate::vocabulary::Kind::{Angle, Integer, Quantity, Vector};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Section, key};
 use std::f64::consts::TAU;
 
 /// What becomes of a cell of the section in a layer.

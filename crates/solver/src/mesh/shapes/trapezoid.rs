@@ -1,11 +1,11 @@
 //! A trapezoid with horizontal bottom and top.
 
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, GRADING, Steps, Values, Wrong, lattice, shape_key};
-use crate::model::describe::Kind::{Integers, Quantity, Vector};
-use crate::model::describe::Need::{Optional, Required};
-use crate::model::describe::{Key, Section, key};
+use super::{Body, BuiltIn, Count, ELEMENTS, GRADING, ShapeCheck, Steps, Values, Wrong, lattice, shape_key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
+use crate::vocabulary::Kind::{Integers, Quantity, Vector};
+use crate::vocabulary::Need::{Optional, Required};
+use crate::vocabulary::{Key, Section, key};
 
 /// A trapezoid with horizontal bottom and top; sides `left`, `right`, `bottom`, `top`.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl BuiltIn for Trapezoid {
         }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.vector("corner", self.corner);
         for (key, value) in [("bottom", self.bottom), ("top", self.top), ("height", self.height)] {
             check.number(key, value);

@@ -1,13 +1,13 @@
 //! Bars along lines: trusses, cables, nets.
 
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Values, Wrong, node, shape_key};
+use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, node, shape_key};
 use crate::mesh::Meshed;
 use crate::mesh::cell::CellKind;
-use crate::model::describe::Kind::{Integer, Outlines};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Key, Section, key};
 use crate::tensor::Dim;
 use crate::vector::{dot, minus};
+use crate::vocabulary::Kind::{Integer, Outlines};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Key, Section, key};
 
 /// Points nearer to each other than this fraction of the size are one.
 const SAME: f64 = 1e-9;
@@ -137,7 +137,7 @@ impl BuiltIn for Truss {
         Self { lines: values.outlines("lines"), elements: values.count(ELEMENTS) }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.counts(ELEMENTS, &[self.elements]);
         let mut sound = !self.lines.is_empty();
         for (k, line) in self.lines.iter().enumerate() {

@@ -1,12 +1,12 @@
 //! A tube along any axis.
 
 use super::axes::Axes;
-use super::{Body, BuiltIn, CheckOf, Count, ELEMENTS, Extrude, Ring, Sweep, Values, Wrong, shape_key};
-use crate::model::describe::Kind::{Angle, Integers, Quantity, Spatial};
-use crate::model::describe::Need::{Default as Written, Required};
-use crate::model::describe::{Key, Section, key};
+use super::{Body, BuiltIn, Count, ELEMENTS, Extrude, Ring, ShapeCheck, Sweep, Values, Wrong, shape_key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
+use crate::vocabulary::Kind::{Angle, Integers, Quantity, Spatial};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Key, Section, key};
 
 /// A tube of hexahedra, or a sector of one; sides `inner` and `outer`, of a sector `start` and `end`, and
 /// `bottom` and `top` where its axis begins and ends. Angles are counted around the axis by the right-hand
@@ -81,7 +81,7 @@ impl BuiltIn<3> for Tube {
         }
     }
 
-    fn check(&self, check: &mut CheckOf<'_, '_>) {
+    fn check(&self, check: &mut dyn ShapeCheck) {
         check.vector("centre", self.centre);
         check.direction("axis", self.axis);
         check.number("length", self.length);

@@ -1,10 +1,10 @@
 //! Keys of what a part holds at the start: stress.
 
-use super::Kind::{Quantity, Table, Vector};
-use super::Need::{Default, Optional};
-use super::{Key, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::Finite;
+use crate::vocabulary::Kind::{Quantity, Table, Vector};
+use crate::vocabulary::Need::{Default, Optional};
+use crate::vocabulary::{Key, Section, key};
 
 const fn component(name: &'static str, dimension: Dimension, doc: &'static str) -> Key {
     key(name, Quantity(dimension, Finite), Default("0"), doc)

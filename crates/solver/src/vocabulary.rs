@@ -1,20 +1,10 @@
-//! Every section and key of the model file, described once: name, kind of value, range, default, one line of
-//! explanation.
+//! What a description of the model file is made of: sections, keys, kinds of values, ranges, rules; and what
+//! is said of a wrong name or number.
 //!
-//! What a description is made of stands here; the descriptions are in `sections.rs` and, for contacts and
-//! obstacles, in `contact.rs`. Names to choose from come from the registries. The reader, the range checks,
-//! "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from them by iteration. A
-//! new key is one line there and its use in the builder of `embate-files`.
+//! The descriptions are in `input/sections/`, those of shapes beside the shapes. The reader, the range
+//! checks, "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from them by
+//! iteration.
 
-mod conditions;
-mod contact;
-mod discrete;
-mod initial;
-mod sections;
-
-pub use sections::{ELEMENTS_MAX, MOVED, SECTIONS, TOP};
-
-use super::reference::excerpt;
 use crate::quantity::{Dimension, Range};
 
 /// A table of the model file.
@@ -212,29 +202,6 @@ pub(crate) const fn key(name: &'static str, kind: Kind, need: Need, doc: &'stati
     Key { name, kind, need, doc }
 }
 
-/// The section of this name.
-#[must_use]
-pub fn section(name: &str) -> Option<&'static Section> {
-    SECTIONS.iter().copied().find(|section| section.name == name)
-}
-
-/// The key at a path such as `part[0].ring.inner` or `run.end`; indices are ignored. Parameters of materials
-/// are not found here.
-#[must_use]
-pub fn find(path: &str) -> Option<&'static Key> {
-    let mut steps = path.split('.').map(|step| step.split('[').next().unwrap_or(step));
-    let first = steps.next()?;
-    let Some(mut here) = section(first) else { return TOP.all_keys().find(|key| key.name == first) };
-    loop {
-        let name = steps.next()?;
-        let key = here.all_keys().find(|key| key.name == name)?;
-        match (key.kind, steps.clone().next()) {
-            (Kind::Table(inner), Some(_)) => here = inner,
-            _ => return Some(key),
-        }
-    }
-}
-
 impl Key {
     /// The range of its numbers; `None` where it has no numbers or only whole ones.
     #[must_use]
@@ -334,46 +301,18 @@ pub fn suggestion(name: &str, known: &[&str]) -> String {
     }
 }
 
+/// A user's text, cut for a message.
+pub(crate) fn excerpt(text: &str) -> String {
+    let mut shown: String = text.chars().take(60).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    if text.chars().nth(60).is_some() {
+        shown.push_str("...");
+    }
+    shown
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_path_finds_its_key() {
-        assert_eq!(find("part[3].ring.inner").map(|key| key.name), Some("inner"));
-        assert_eq!(find("part[3].rectangle.size[1]").map(|key| key.name), Some("size"));
-        assert_eq!(find("run.end").map(|key| key.name), Some("end"));
-        assert_eq!(find("constraint[0].velocity.x").map(|key| key.name), Some("velocity"));
-        assert_eq!(find("title").map(|key| key.name), Some("title"));
-        assert!(find("run.nothing").is_none() && find("").is_none() && find("part").is_none());
-    }
-
-    #[test]
-    fn every_section_and_key_explains_itself_and_is_unique() {
-        let mut all: Vec<&Section> = SECTIONS.to_vec();
-        all.push(&TOP);
-        for section in &mut all.clone() {
-            all.extend(section.all_keys().filter_map(|key| if let Kind::Table(inner) = key.kind { Some(inner) } else { None }));
-        }
-        for section in all {
-            assert!(section.doc.ends_with('.'), "{}", section.name);
-            assert!(section.groups.iter().all(|group| group.doc.ends_with('.')), "{}", section.name);
-            let mut names: Vec<&str> = section.all_keys().map(|key| key.name).collect();
-            assert!(section.all_keys().all(|key| key.doc.ends_with('.')), "{}", section.name);
-            for rule in section.all_rules() {
-                let own: Vec<&str> = match rule {
-                    Rule::OneOf(names) | Rule::SomeOf(names) => names.to_vec(),
-                    Rule::NotBoth(a, b) | Rule::Needs(a, b) => vec![a, b],
-                    Rule::Only { keys, by, .. } | Rule::With { by, keys, .. } => keys.iter().chain([by]).copied().collect(),
-                };
-                assert!(own.iter().all(|name| names.contains(name)), "{}: {rule:?}", section.name);
-            }
-            let count = names.len();
-            names.sort_unstable();
-            names.dedup();
-            assert_eq!(names.len(), count, "{} has a key twice", section.name);
-        }
-    }
 
     #[test]
     fn a_near_name_is_suggested_and_a_far_one_is_not() {

@@ -4,9 +4,10 @@ use super::{Check, motion};
 use crate::contact::messages::{COMBINATION, FRICTION, JOINED_TWICE, NOTHING_GIVES_WAY, PRESSURES, SHARED_SURFACE};
 use crate::contact::search;
 use crate::model::messages::{LIST_LENGTH, OF_REVOLUTION, UNKNOWN_NAME};
-use crate::model::reference::{Reference, Wanted, excerpt};
+use crate::model::reference::{Reference, Wanted};
 use crate::model::{Contact, ContactLaw, Formulation, Friction, Interface, Partners, Penalty};
 use crate::quantity::{Dimension, Range};
+use crate::vocabulary::excerpt;
 use std::collections::BTreeMap;
 
 /// What can't go together: whether it is there, the key, the reason, what to do.

@@ -3,7 +3,8 @@
 use super::Check;
 use crate::load::messages::TO_ITSELF;
 use crate::model::messages::LIST_LENGTH;
-use crate::model::reference::{Wanted, excerpt};
+use crate::model::reference::Wanted;
+use crate::vocabulary::excerpt;
 
 impl Check<'_> {
     pub(super) fn springs(&mut self) {

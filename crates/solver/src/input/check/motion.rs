@@ -5,13 +5,14 @@ use super::Check;
 use crate::contact::messages::OBSTACLE;
 use crate::load::curve::Curve;
 use crate::load::curve::expression::Expression;
-use crate::load::curve::sine::Sine;
 use crate::load::messages::{BEGINNING, CURVE, CURVE_DIMENSION, EXPRESSION, INERTIA, JUMP, NO_EFFECT, PRESCRIBED_TWICE, RIGID};
-use crate::model::describe::suggestion;
+use crate::model::Sine;
 use crate::model::messages::{LIST_LENGTH, LIST_ORDER, OF_REVOLUTION, PERIOD, UNKNOWN_NAME};
-use crate::model::reference::{Reference, Wanted, excerpt};
+use crate::model::reference::{Reference, Wanted};
 use crate::model::{Constraint, CurveShape, Drive, Motion, Obstacle, ObstacleShape, Part};
 use crate::quantity::{Dimension, Range};
+use crate::vocabulary::excerpt;
+use crate::vocabulary::suggestion;
 
 /// Intervals of a run at whose ends formulas are tried.
 const SAMPLES: u32 = 1000;

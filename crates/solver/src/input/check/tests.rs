@@ -1,7 +1,7 @@
 //! Models made by code, each with one fault.
 
 use super::*;
-use crate::load::curve::sine::Sine;
+use crate::model::Sine;
 use crate::model::{
     Axis, Constraint, Contact, ContactLaw, Curve, CurveShape, Drive, Formulation, Friction, Image, ImportedMesh, Join, Load, Material,
     MeshGroup, Motion, NonReflecting, Obstacle, ObstacleShape, Partners, Penalty, Ring, Rotation, Symmetry,

@@ -1,20 +1,28 @@
-//! The sections of the model file but those of contacts, obstacles and conditions: their keys, and where the
-//! names come from that a key chooses from.
+//! Every section and key of the model file, described once: name, kind of value, range, default, one line of
+//! explanation.
+//!
+//! Names to choose from come from the registries. A new key is one line here and its use in the builder of
+//! `embate-files`.
 
-use super::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, Spatial, Table, Text, Vector};
-use super::Need::{self, Default, Optional, Required};
-use super::conditions::{CONSTRAINT, JOIN, LOAD, NON_REFLECTING, SYMMETRY};
-use super::contact::{CONTACT, OBSTACLE};
-use super::discrete::{POINT_MASS, SPRING};
-use super::initial::STRESS_INITIAL;
-use super::{Form, Key, Kind, More, Rule, Section, key};
-use crate::block::stress_state::STRESS_STATES;
+mod conditions;
+mod contact;
+mod discrete;
+mod initial;
+
 use crate::failure::CRITERIA;
 use crate::mesh::shapes::SHAPES;
 use crate::mesh::shapes::sweep::{EXTRUDE, REVOLVE};
 use crate::quantity::Range::{Finite, NotNegative, Positive, UpTo};
 use crate::quantity::{Dimension, Parameter};
+use crate::stress_state::STRESS_STATES;
+use crate::vocabulary::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, Spatial, Table, Text, Vector};
+use crate::vocabulary::Need::{self, Default, Optional, Required};
+use crate::vocabulary::{Form, Key, Kind, More, Rule, Section, key};
 use crate::{element, material, output};
+use conditions::{CONSTRAINT, JOIN, LOAD, NON_REFLECTING, SYMMETRY};
+use contact::{CONTACT, OBSTACLE};
+use discrete::{POINT_MASS, SPRING};
+use initial::STRESS_INITIAL;
 
 /// Largest number of elements of a model.
 pub const ELEMENTS_MAX: u128 = 100_000_000;
@@ -496,4 +504,69 @@ fn parameter_keys(parameters: &[Parameter]) -> Vec<Key> {
     let kind_of = |p: &Parameter| if p.list > 0 { Quantities(p.dimension, p.range, 1) } else { Quantity(p.dimension, p.range) };
     let need_of = |p: &Parameter| if p.list > 0 && p.default.is_some() { Optional("none") } else { need(p.default) };
     parameters.iter().map(|p| key(p.name, kind_of(p), need_of(p), p.doc)).collect()
+}
+
+/// The section of this name.
+#[must_use]
+pub fn section(name: &str) -> Option<&'static Section> {
+    SECTIONS.iter().copied().find(|section| section.name == name)
+}
+
+/// The key at a path such as `part[0].ring.inner` or `run.end`; indices are ignored. Parameters of materials
+/// are not found here.
+#[must_use]
+pub fn find(path: &str) -> Option<&'static Key> {
+    let mut steps = path.split('.').map(|step| step.split('[').next().unwrap_or(step));
+    let first = steps.next()?;
+    let Some(mut here) = section(first) else { return TOP.all_keys().find(|key| key.name == first) };
+    loop {
+        let name = steps.next()?;
+        let key = here.all_keys().find(|key| key.name == name)?;
+        match (key.kind, steps.clone().next()) {
+            (Kind::Table(inner), Some(_)) => here = inner,
+            _ => return Some(key),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_finds_its_key() {
+        assert_eq!(find("part[3].ring.inner").map(|key| key.name), Some("inner"));
+        assert_eq!(find("part[3].rectangle.size[1]").map(|key| key.name), Some("size"));
+        assert_eq!(find("run.end").map(|key| key.name), Some("end"));
+        assert_eq!(find("constraint[0].velocity.x").map(|key| key.name), Some("velocity"));
+        assert_eq!(find("title").map(|key| key.name), Some("title"));
+        assert!(find("run.nothing").is_none() && find("").is_none() && find("part").is_none());
+    }
+
+    #[test]
+    fn every_section_and_key_explains_itself_and_is_unique() {
+        let mut all: Vec<&Section> = SECTIONS.to_vec();
+        all.push(&TOP);
+        for section in &mut all.clone() {
+            all.extend(section.all_keys().filter_map(|key| if let Kind::Table(inner) = key.kind { Some(inner) } else { None }));
+        }
+        for section in all {
+            assert!(section.doc.ends_with('.'), "{}", section.name);
+            assert!(section.groups.iter().all(|group| group.doc.ends_with('.')), "{}", section.name);
+            let mut names: Vec<&str> = section.all_keys().map(|key| key.name).collect();
+            assert!(section.all_keys().all(|key| key.doc.ends_with('.')), "{}", section.name);
+            for rule in section.all_rules() {
+                let own: Vec<&str> = match rule {
+                    Rule::OneOf(names) | Rule::SomeOf(names) => names.to_vec(),
+                    Rule::NotBoth(a, b) | Rule::Needs(a, b) => vec![a, b],
+                    Rule::Only { keys, by, .. } | Rule::With { by, keys, .. } => keys.iter().chain([by]).copied().collect(),
+                };
+                assert!(own.iter().all(|name| names.contains(name)), "{}: {rule:?}", section.name);
+            }
+            let count = names.len();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), count, "{} has a key twice", section.name);
+        }
+    }
 }

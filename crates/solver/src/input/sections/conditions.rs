@@ -1,11 +1,11 @@
 //! The sections of the model file about what holds nodes and what acts on them: symmetry, constraints, joins,
 //! loads.
 
-use super::Kind::{Angle, Quantity, Reference, References, Spatial, Table};
-use super::Need::{Default, Optional, Required};
-use super::{Form, Kind, Rule, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
+use crate::vocabulary::Kind::{Angle, Quantity, Reference, References, Spatial, Table};
+use crate::vocabulary::Need::{Default, Optional, Required};
+use crate::vocabulary::{Form, Kind, Rule, Section, key};
 
 pub(super) static SYMMETRY: Section = Section {
     name: "symmetry",

@@ -4,13 +4,13 @@
 //! Only what is certain before a run: a warning that is wrong once is read no more. What needs the mesh is
 //! told by `build/idle.rs`.
 
-use crate::block::stress_state::PLANE_STRESS;
 use crate::contact::messages::OPEN;
 use crate::element::{Element, Quad4, Quad4Full, Tri3};
 use crate::error::Warning;
 use crate::material::messages::{FLUID, LOCKING, SOFTENING};
 use crate::material::{self, Law, Null, Parameters};
 use crate::model::{Material, Model, ObstacleShape, Part, Shape, TriangleSurface};
+use crate::stress_state::PLANE_STRESS;
 use crate::vector::place;
 
 /// From this Poisson's ratio on elements without averaged dilatation are too stiff for any use: K is fifty

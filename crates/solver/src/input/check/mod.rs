@@ -1,6 +1,6 @@
 //! Everything that can be told about a model before it is meshed: numbers, names, references, contradictions.
 //!
-//! Data comes from [`Model`], whoever made it; ranges come from [`describe`] and the registries, so that they
+//! Data comes from [`Model`], whoever made it; ranges come from [`sections`] and the registries, so that they
 //! stand in one place. All faults are returned at once, each with the path of its key. Parts are in
 //! `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`. What is no
 //! fault and should be known all the same is in `warnings.rs`.
@@ -12,23 +12,22 @@ mod motion;
 mod parts;
 mod plane;
 mod space;
+mod triangles;
 mod warnings;
 
-pub(crate) use parts::CheckOf;
-
-use super::describe::{self, out_of_range, suggestion};
-use super::reference::{Reference, Wanted, excerpt};
-use super::{Cadence, Camera, Material, Model, Part, Probe, ProbeAt, Shape};
+use super::sections;
 use crate::error::Fault;
 use crate::failure;
 use crate::material::messages::{EQUATION_OF_STATE, PARAMETER_MISSING, PARAMETER_UNKNOWN};
 use crate::material::{self, Parameters};
 use crate::mesh::messages::BARS;
 use crate::message::Message;
-use crate::model::Axis;
 use crate::model::messages::{LIST_LENGTH, NAME, NO_DIRECTION, OUTPUT_TOO_MUCH, PERIOD, RANGE, TWICE, UNKNOWN_NAME};
+use crate::model::reference::{Reference, Wanted};
+use crate::model::{Axis, Cadence, Camera, Material, Model, Part, Probe, ProbeAt, Shape};
 use crate::output;
 use crate::quantity::{Dimension, Parameter, Range};
+use crate::vocabulary::{Key, excerpt, nearest, out_of_range, suggestion};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most field files of a run.
@@ -82,7 +81,7 @@ impl Check<'_> {
 
     /// A number against the range of its key.
     fn number(&mut self, path: &str, value: f64) {
-        let (dimension, range) = describe::find(path).and_then(describe::Key::range).unwrap_or((Dimension::NONE, Range::Finite));
+        let (dimension, range) = sections::find(path).and_then(Key::range).unwrap_or((Dimension::NONE, Range::Finite));
         self.within(path, value, dimension, range);
     }
 
@@ -364,7 +363,7 @@ impl Check<'_> {
         }
         let first = name.split('.').next().unwrap_or(name);
         let known: Vec<&str> = self.model.parts.iter().filter(|part| !missing(part)).map(|part| part.name.as_str()).collect();
-        describe::nearest(first, known).is_none()
+        nearest(first, known).is_none()
     }
 
     /// References to parts; each once.

@@ -5,9 +5,10 @@ use crate::load::messages::{FORCE_ON_PART, NO_EFFECT, RIGID, TO_ITSELF};
 use crate::material;
 use crate::material::messages::NO_STIFFNESS;
 use crate::model::messages::{OF_REVOLUTION, TWICE};
-use crate::model::reference::{Reference, Wanted, excerpt};
+use crate::model::reference::{Reference, Wanted};
 use crate::model::{Drive, Image, Load};
 use crate::quantity::{Dimension, Range};
+use crate::vocabulary::excerpt;
 
 impl Check<'_> {
     pub(super) fn loads(&mut self) {

@@ -1,10 +1,10 @@
 //! Keys of springs and point masses.
 
-use super::Kind::{Quantities, Quantity, Reference, References};
-use super::Need::{Default, Optional, Required};
-use super::{Form, Rule, Section, key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
+use crate::vocabulary::Kind::{Quantities, Quantity, Reference, References};
+use crate::vocabulary::Need::{Default, Optional, Required};
+use crate::vocabulary::{Form, Rule, Section, key};
 
 pub(super) static SPRING: Section = Section {
     name: "spring",

@@ -1,12 +1,12 @@
 //! The sections of the model file that say what bodies meet: contacts, obstacles, and the keys that both
 //! share, described once.
 
-use super::Kind::{Angle, Choice, Flag, Name, Points, Quantities, Quantity, Reference, References, Spatial, Stiffness, Table};
-use super::Need::{Default, Optional, Required};
-use super::{Form, Group, Kind, Rule, Section, key};
 use crate::contact::{formulation, law, search};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
+use crate::vocabulary::Kind::{Angle, Choice, Flag, Name, Points, Quantities, Quantity, Reference, References, Spatial, Stiffness, Table};
+use crate::vocabulary::Need::{Default, Optional, Required};
+use crate::vocabulary::{Form, Group, Kind, Rule, Section, key};
 
 pub(super) static CONTACT: Section = Section {
     name: "contact",
@@ -135,7 +135,7 @@ static STL: Section = Section {
             Default("\"1 m\""),
             "Length of one unit of the file; `\"1 mm\"` of most programs for construction.",
         ),
-        key("rotation", Table(&super::sections::ROTATION), Optional("as in the file"), "How it is turned."),
+        key("rotation", Table(&super::ROTATION), Optional("as in the file"), "How it is turned."),
         key("translation", Spatial(Dimension::LENGTH, Finite), Default("[0, 0, 0]"), "How far it is moved after that."),
         key("hollow", Flag, Default("false"), "Whether the bodies are on the other side: inside of a closed surface."),
     ],

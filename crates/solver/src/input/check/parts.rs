@@ -2,18 +2,19 @@
 
 use super::Check;
 use super::warnings::parameters;
-use crate::block::stress_state::{PLANE_STRESS, STRESS_STATES};
 use crate::element;
 use crate::error::{Fault, MEMORY};
+use crate::input::sections::ELEMENTS_MAX;
 use crate::material;
 use crate::material::messages::{INITIAL_STATE, SOFTENS_TOO_STEEPLY};
 use crate::mesh::cell::CellKind;
 use crate::mesh::messages::{BARS, DIMENSION, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, TOO_MANY};
-use crate::mesh::shapes::Count;
-use crate::model::describe::{ELEMENTS_MAX, suggestion};
+use crate::mesh::shapes::{Count, ShapeCheck};
 use crate::model::messages::{CLASH, NOTHING, OF_REVOLUTION, UNKNOWN_NAME};
-use crate::model::reference::{dimension_word, excerpt};
+use crate::model::reference::dimension_word;
 use crate::model::{Extrude, Model, Part, Placement, Revolve, Shape, Sweep};
+use crate::stress_state::{PLANE_STRESS, STRESS_STATES};
+use crate::vocabulary::{excerpt, suggestion};
 use std::collections::BTreeSet;
 
 impl Check<'_> {
@@ -170,7 +171,7 @@ impl Check<'_> {
     fn shape(&mut self, path: &str, part: &Part) {
         if let Some((shape, key)) = part.shape.solid() {
             let key = format!("{path}.{key}");
-            shape.check(&mut CheckOf { check: self, path: &key });
+            shape.check(&mut Table { check: self, path: &key });
             self.takes(path, part, shape.cell_kind(), &key, &made_of(shape.cell_kind()));
             self.placement(path, &part.placement);
             return;
@@ -186,7 +187,7 @@ impl Check<'_> {
             return;
         };
         let key = format!("{path}.{key}");
-        shape.check(&mut CheckOf { check: self, path: &key });
+        shape.check(&mut Table { check: self, path: &key });
         if let Some(kind) = part.cell_kind() {
             self.takes(path, part, kind, &key, &made_of(kind));
         }
@@ -438,57 +439,36 @@ fn size_key(shape: &Shape) -> String {
     shape.size_path()
 }
 
-/// Checks the values of a shape; paths are those of its table.
-pub(crate) struct CheckOf<'c, 'm> {
+/// Checks the values of a shape; the path is that of its table.
+struct Table<'c, 'm> {
     check: &'c mut Check<'m>,
     path: &'c str,
 }
 
-impl CheckOf<'_, '_> {
+impl Table<'_, '_> {
     fn at(&self, key: &str) -> String {
         if key.is_empty() { self.path.to_string() } else { format!("{}.{key}", self.path) }
     }
+}
 
-    /// A fault of the shape at a key.
-    pub(crate) fn fault(&mut self, key: &str, message: impl Into<String>, help: impl Into<String>) {
+impl ShapeCheck for Table<'_, '_> {
+    fn report(&mut self, key: &str, message: String, help: String) {
         self.check.fault(&SHAPE, self.at(key), message, help);
     }
 
-    /// A number against the range of its key.
-    pub(crate) fn number(&mut self, key: &str, value: f64) {
+    fn number(&mut self, key: &str, value: f64) {
         self.check.number(&self.at(key), value);
     }
 
-    /// Numbers against the range of their key.
-    pub(crate) fn numbers(&mut self, key: &str, values: &[f64]) {
-        values.iter().enumerate().for_each(|(k, &value)| self.check.number(&format!("{}[{k}]", self.at(key)), value));
-    }
-
-    /// A vector against the range of its key.
-    pub(crate) fn vector<const N: usize>(&mut self, key: &str, value: [f64; N]) {
-        self.check.vector(&self.at(key), value);
-    }
-
-    /// A vector that must have a direction.
-    pub(crate) fn direction<const N: usize>(&mut self, key: &str, value: [f64; N]) {
+    fn direction(&mut self, key: &str, value: [f64; 3]) {
         self.check.direction(&self.at(key), value);
     }
 
-    /// A name that must be one of these.
-    pub(crate) fn known(&mut self, key: &str, what: &str, name: &str, known: &[&str]) {
+    fn known(&mut self, key: &str, what: &str, name: &str, known: &[&str]) {
         self.check.known(&self.at(key), what, name, known);
     }
 
-    /// Points; whether all are finite.
-    pub(crate) fn points(&mut self, key: &str, points: &[[f64; 2]]) -> bool {
-        for (k, &point) in points.iter().enumerate() {
-            self.check.vector(&format!("{}[{k}]", self.at(key)), point);
-        }
-        points.iter().flatten().all(|x| x.is_finite())
-    }
-
-    /// Whole numbers that must be at least one.
-    pub(crate) fn counts(&mut self, key: &str, values: &[usize]) {
+    fn counts(&mut self, key: &str, values: &[usize]) {
         self.check.counts(&self.at(key), values);
     }
 }

@@ -1,5 +1,5 @@
-//! The system at an output time as writers take it ([`Shown`]), piece by piece, so that a large model is never
-//! there a second time; or put into a [`Frame`] as a whole.
+//! The system at an output time as writers take it ([`Shown`]), piece by piece, so that a large model is
+//! never there a second time; or put into a [`Frame`] as a whole.
 
 use crate::field::NodeFields;
 use crate::field::kind::{FieldKind, Location};

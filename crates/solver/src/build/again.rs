@@ -8,6 +8,8 @@
 use super::{Builder, Builds, Fans};
 use crate::contact::rebuild::{ContactParts, ContactSource};
 use crate::contact::{Contact, ContactKind};
+use crate::load::curve::Curves;
+use crate::load::join::Joins;
 use crate::model::Model;
 use crate::tensor::Dim;
 use std::mem::take;
@@ -32,24 +34,16 @@ where
             ContactKind::Contact => None,
         });
         let mut builder = Builder {
-            model: &self.model,
-            body_of_node: parts.mesh.bodies(),
-            mesh: take(parts.mesh),
             constraints: take(parts.constraints),
-            joins: Default::default(),
-            curves: Default::default(),
-            faults: Vec::new(),
             positions: take(&mut self.positions),
             mass: take(parts.mass),
             fans: take(&mut self.fans).into(),
             moduli: take(&mut self.moduli),
             time_step: self.time_step,
             bodies: take(parts.bodies),
-            body_parts: Vec::new(),
-            terms: Vec::new(),
-            outlines: Vec::new(),
             made: made.collect(),
             again: true,
+            ..Builder::of(&self.model, take(parts.mesh), Joins::default(), Curves::default())
         };
         <Dim<D>>::renew(&mut builder, contacts);
         let Builder { mesh, constraints, positions, mass, fans, moduli, bodies, .. } = builder;

@@ -154,6 +154,7 @@ where
 {
     let of_node = |&[node, place]: &[u32; 2]| {
         let motion = system.positions[node as usize].into_iter().chain(system.velocities[node as usize]);
+        let motion = motion.chain(system.rotations.now.numbers(node));
         motion.fold(mixed(0, place.into()), |hash, number| mixed(hash, number.to_bits()))
     };
     let of_part = |(part, nodes): (usize, &Vec<[u32; 2]>)| {

@@ -27,6 +27,7 @@ pub mod energy;
 pub mod outline;
 pub mod contact_forces;
 pub mod rigid;
+pub mod rotations;
 pub mod block;
 pub mod contact;
 pub mod dimension;

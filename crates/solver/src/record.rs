@@ -265,7 +265,9 @@ where
     let nodes = || system.mesh.along_curve().chain(system.mesh.user_nodes.len()..system.positions.len());
     let positions = nodes().flat_map(|node| system.positions[node]);
     let velocities = nodes().flat_map(|node| system.velocities[node]);
-    for value in positions.chain(velocities).chain(states) {
+    let rotating = if system.rotations.now.is_empty() { 0 } else { usize::MAX };
+    let rotations = nodes().take(rotating).flat_map(|node| system.rotations.now.numbers(node as u32));
+    for value in positions.chain(velocities).chain(rotations).chain(states) {
         hash.add(&value.to_le_bytes());
     }
     hash.to_string()
@@ -362,6 +364,10 @@ where
             if system.bodies.of_node(node).is_none() {
                 sum.add(m, minus(*x, centre), *v);
             }
+        }
+        for spin in system.rotations.momenta() {
+            sum.angular = plus(sum.angular, spin);
+            sum.scale[1] += dot(spin, spin).sqrt();
         }
         for body in system.bodies.iter() {
             let (m, velocity, spin) = <Dim<D>>::momenta(body);

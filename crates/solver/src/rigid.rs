@@ -266,6 +266,9 @@ where
         let mut internal = Row::<D>::default();
         for &node in &self.shared {
             Self::add_force(&mut internal, &self.force_at(acting.positions[node as usize], (acting.internal)(node as usize)));
+            if let Some(moment) = (acting.moment)(node) {
+                Self::add_force(&mut internal, &Dim::<D>::generalized_with([0.0; D], Dim::<D>::moment_of(moment)));
+            }
         }
         self.internal = internal;
         let mut load = Row::<D>::default();
@@ -383,6 +386,8 @@ pub struct Acting<'a, F: Fn(usize) -> [f64; D], const D: usize = 2> {
     pub loads: &'a [[f64; D]],
     /// Sum of the corner forces at a node, N/m.
     pub internal: F,
+    /// Sum of the moments of elements at a node, N (N m); `None`: it has no rotation.
+    pub moment: &'a dyn Fn(u32) -> Option<[f64; 3]>,
 }
 
 impl<const D: usize> Bodies<D>
@@ -542,6 +547,11 @@ where
             }
         }
         sums
+    }
+
+    /// Gives a body an inertia that is the same about all axes, kg m (kg m²).
+    pub(crate) fn add_inertia(&mut self, body: usize, inertia: f64) {
+        Dim::<D>::add_inertia(&mut self.list[body], inertia);
     }
 
     /// X^{n+1} and θ^{n+1} over a step (s), and the nodes where these say.

@@ -9,10 +9,11 @@ pub(crate) mod free;
 mod keep;
 mod nodes;
 pub(crate) mod relaxation;
+pub(crate) mod rotations;
 
 use crate::assembly::Assembly;
 use crate::block::spring::together;
-use crate::block::{Block, Motion, Report};
+use crate::block::{Block, Motion, NodalForces, Report};
 use crate::contact::law::penalty::LIMIT;
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Springs, Update};
@@ -40,6 +41,7 @@ use erosion::Erosion;
 use free::Groups;
 use nodes::Nodes;
 use relaxation::Relaxation;
+use rotations::NodalRotations;
 
 /// Nodes that one task updates.
 pub(crate) const CHUNK: usize = 1024;
@@ -189,6 +191,8 @@ where
     pub(crate) erosion: Option<Box<Erosion<D>>>,
     /// What brings everything to rest; `None`: nothing.
     pub(crate) relaxation: Option<Relaxation<D>>,
+    /// Nodes that rotate.
+    pub(crate) rotations: NodalRotations,
     /// Mass that was added for longer steps, and the true mass of what it was added to, kg/m.
     pub(crate) mass_added: [f64; 2],
 }
@@ -272,7 +276,8 @@ where
         let free = |&(node, _): &(u32, _)| self.bodies.of_node(node).is_none();
         let kinetic = |(_, (m, v)): (u32, (&f64, &[f64; D]))| 0.5 * m * dot(*v, *v);
         let nodes: f64 = (0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic).sum();
-        self.ledger = Ledger::new(nodes + self.bodies.kinetic(), self.energy_of_round_off());
+        let rotations = self.rotations.start(&self.bodies);
+        self.ledger = Ledger::new(nodes + self.bodies.kinetic() + rotations, self.energy_of_round_off());
         let nodes = self.velocities.iter().map(|&v| dot(v, v)).fold(0.0, f64::max);
         self.positions_old.clone_from(&self.positions);
         self.see_rigid_parts();
@@ -297,6 +302,7 @@ where
         }
         std::mem::swap(&mut self.positions, &mut self.positions_old);
         self.bodies.advance(dt, &mut self.positions);
+        self.rotations.advance(dt, &self.bodies);
         self.time_step_old = dt;
         self.travel += dt * self.speed;
         self.time += dt;
@@ -305,16 +311,18 @@ where
 
     /// Internal forces, energies and steps of the elements at x^n.
     fn strain_elements(&mut self) -> Report {
-        let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: self.time_step_old };
-        let mut rest = &mut self.slots[..];
+        let NodalRotations { now: rotations, slots: moments, .. } = &mut self.rotations;
+        let motion = Motion { rotations, ..Motion::new(&self.positions, &self.velocities, self.time_step_old) };
+        let (mut rest, mut rest_of_moments) = (&mut self.slots[..], &mut moments[..]);
         for (index, ((block, report), rigid)) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid).enumerate() {
             let (slots, others) = rest.split_at_mut(block.slots().len());
             // With all elements gone there is nothing to strain.
             let is_gone = self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index));
+            let (moments, other_moments) = rest_of_moments.split_at_mut(block.moment_slots().len());
             if !rigid && !is_gone {
-                *report = block.advance(&motion, self.level, slots, &mut self.team);
+                *report = block.advance(&motion, self.level, NodalForces { forces: slots, moments }, &mut self.team);
             }
-            rest = others;
+            (rest, rest_of_moments) = (others, other_moments);
         }
         self.joined_reports()
     }
@@ -380,8 +388,9 @@ where
         self.forces.prepare(&self.curves, update, &self.positions);
         let (assembly, slots) = (&self.assembly, &self.slots);
         let internal = |node: usize| assembly.force(node, slots);
+        let moment = |node: u32| self.rotations.moment(node);
         let (curves, positions, loads) = (&self.curves, &self.positions, self.forces.now());
-        self.bodies.set_free(&Acting { mean_step, from, to, curves, positions, loads, internal });
+        self.bodies.set_free(&Acting { mean_step, from, to, curves, positions, loads, internal, moment: &moment });
         self.curves.pass(from, to);
     }
 
@@ -446,6 +455,9 @@ where
         let steps = [nodes.dt, time_step];
         self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
+        if !self.rotations.now.is_empty() {
+            self.of_bodies += &self.rotations.accelerate(steps[0], |node| self.damping.factor(node), &self.bodies);
+        }
         self.time_step = time_step;
         self.speed = self.largest_speed();
     }
@@ -557,17 +569,21 @@ where
     /// Gives rigid parts their first and last look: they never pull. Only where nothing else does, nor the
     /// model, they set the step: that which their elements would need.
     fn see_rigid_parts(&mut self) {
-        let motion = Motion { positions: &self.positions, velocities: &self.velocities, time_step: 0.0 };
+        let NodalRotations { now: rotations, slots: moments, .. } = &mut self.rotations;
+        let motion = Motion { rotations, ..Motion::new(&self.positions, &self.velocities, 0.0) };
         let alone = self.rigid.iter().all(|&rigid| rigid) && self.limits.largest == f64::INFINITY;
-        let mut rest = &mut self.slots[..];
+        let (mut rest, mut rest_of_moments) = (&mut self.slots[..], &mut moments[..]);
         for ((block, report), rigid) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid) {
             let (slots, others) = rest.split_at_mut(block.slots().len());
+            let (moments, other_moments) = rest_of_moments.split_at_mut(block.moment_slots().len());
             if *rigid {
-                let seen = block.advance(&motion, self.level, slots, &mut self.team);
+                let pulls = NodalForces { forces: &mut *slots, moments: &mut *moments };
+                let seen = block.advance(&motion, self.level, pulls, &mut self.team);
                 slots.fill([0.0; D]);
+                moments.fill([0.0; 3]);
                 *report = if alone { Report { stored: 0.0, dissipated: 0.0, ..seen } } else { Report::NOTHING };
             }
-            rest = others;
+            (rest, rest_of_moments) = (others, other_moments);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Rates of kernels and of whole steps, in element-steps per second, and what contact adds to a step.
 
 use super::bodies::{Patch, material, spinning_block};
-use crate::block::{BlockInput, Blocks, Motion, make};
+use crate::block::{BlockInput, Blocks, Motion, NodalForces, make};
 use crate::error::{Error, Fault};
 use crate::model::Model;
 use crate::model::messages::UNKNOWN_NAME;
@@ -59,19 +59,19 @@ where
     let unknown = || Error::Model(vec![Fault::new(&UNKNOWN_NAME, "", format!("there is no block of `{element}` with `{law}`"), "")]);
     let mut block = make(&input).ok_or_else(unknown)?;
     let (mut slots, mut team) = (vec![[0.0; D]; block.slots().len()], Team::alone());
-    let motion = Motion { positions: &patch.positions, velocities: &patch.velocities, time_step: 1e-7 };
+    let motion = Motion::new(&patch.positions, &patch.velocities, 1e-7);
     // Long steps first, so that metals flow in every step that is measured.
     let first = Motion { time_step: 1e-5, ..motion };
-    black_box(block.advance(&Motion { time_step: 0.0, ..motion }, level, &mut slots, &mut team));
+    black_box(block.advance(&Motion { time_step: 0.0, ..motion }, level, NodalForces::new(&mut slots), &mut team));
     for _ in 0..WARM {
-        black_box(block.advance(&first, level, &mut slots, &mut team));
+        black_box(block.advance(&first, level, NodalForces::new(&mut slots), &mut team));
     }
     let once = Instant::now();
-    black_box(block.advance(&motion, level, &mut slots, &mut team));
+    black_box(block.advance(&motion, level, NodalForces::new(&mut slots), &mut team));
     let repeats = repeats(once.elapsed().as_secs_f64(), block.elements(), seconds);
     Ok(best_rate(seconds, || {
         for _ in 0..repeats {
-            black_box(block.advance(&motion, level, &mut slots, &mut team));
+            black_box(block.advance(&motion, level, NodalForces::new(&mut slots), &mut team));
         }
         (repeats * block.elements()) as f64
     }))

@@ -13,7 +13,7 @@
 use super::damping;
 use super::initial::{self, Initial, Wrong};
 use super::make::BlockInput;
-use super::{Block, ElementState, Motion, Report};
+use super::{Block, ElementState, Motion, NodalForces, Report};
 use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::points::{self, PointLaw, Points, RESPONSE, Room};
@@ -225,7 +225,13 @@ where
         &self.slots
     }
 
-    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], _team: &mut Team) -> Report {
+    fn advance(
+        &mut self,
+        motion: &Motion<'_, D>,
+        level: Level,
+        NodalForces { forces: slots, .. }: NodalForces<'_, D>,
+        _team: &mut Team,
+    ) -> Report {
         self.strain(motion.positions);
         self.law.respond(
             level,
@@ -353,7 +359,7 @@ where
         slots[2 * element + corner]
     }
 
-    fn erode(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64> {
+    fn erode(&mut self, elements: &[u32], NodalForces { forces: slots, .. }: NodalForces<'_, D>) -> Vec<f64> {
         let take = |&element: &u32| {
             slots[2 * element as usize..2 * element as usize + 2].fill([0.0; D]);
             let bar = &mut self.bars[element as usize];

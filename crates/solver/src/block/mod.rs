@@ -35,6 +35,7 @@ use crate::failure::Criterion;
 use crate::material::points::PointLaw;
 use crate::material::{VARIABLES_MOST, Variable};
 use crate::reductions;
+use crate::rotations::Rotations;
 use embate_lanes::{Level, Team};
 
 /// A slot of forces without a node.
@@ -49,6 +50,32 @@ pub struct Motion<'a, const D: usize> {
     pub velocities: &'a [[f64; D]],
     /// Step, s; zero for the first evaluation.
     pub time_step: f64,
+    /// Rotations of nodes at the end of the step, and the spins that led there.
+    pub rotations: &'a Rotations,
+}
+
+impl<'a, const D: usize> Motion<'a, D> {
+    /// Of nodes without rotations.
+    #[must_use]
+    pub fn new(positions: &'a [[f64; D]], velocities: &'a [[f64; D]], time_step: f64) -> Self {
+        Self { positions, velocities, time_step, rotations: Rotations::NONE }
+    }
+}
+
+/// Where a block leaves what pulls on its nodes: an entry for each of its slots.
+#[derive(Debug)]
+pub struct NodalForces<'a, const D: usize> {
+    /// Forces in [`Block::slots`], N/m in 2D.
+    pub forces: &'a mut [[f64; D]],
+    /// Moments in [`Block::moment_slots`], N in 2D (N m), about x, y and z.
+    pub moments: &'a mut [[f64; 3]],
+}
+
+impl<'a, const D: usize> NodalForces<'a, D> {
+    /// Of a block without rotations.
+    pub fn new(forces: &'a mut [[f64; D]]) -> Self {
+        Self { forces, moments: &mut [] }
+    }
 }
 
 /// What a block (or a chunk of it) tells after a step.
@@ -113,6 +140,17 @@ pub struct ElementState {
 
 keep_all!(ElementState { stress, variables, energy_density });
 
+/// What a block reports at the start, at rest; its state is that of the first [`Block::advance`].
+pub fn evaluate_at_rest<const D: usize>(block: &mut dyn Block<D>, positions: &[[f64; D]], level: Level) -> Report {
+    let mut nodes: Vec<u32> = block.rotating_nodes().iter().map(|&(node, _)| node).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let (velocities, rotations) = (vec![[0.0; D]; positions.len()], Rotations::at_rest(nodes, D));
+    let motion = Motion { rotations: &rotations, ..Motion::new(positions, &velocities, 0.0) };
+    let (mut forces, mut moments) = (vec![[0.0; D]; block.slots().len()], vec![[0.0; 3]; block.moment_slots().len()]);
+    block.advance(&motion, level, NodalForces { forces: &mut forces, moments: &mut moments }, &mut Team::alone())
+}
+
 /// Elements of one kind and one material.
 pub trait Block<const D: usize>: Send + Sync {
     /// Number of elements.
@@ -120,10 +158,20 @@ pub trait Block<const D: usize>: Send + Sync {
     /// The node of each slot in which [`Block::advance`] leaves forces, or [`NO_NODE`]. A node's slots follow
     /// each other in the order of the elements.
     fn slots(&self) -> &[u32];
-    /// Advances all points to the end of the step and writes to the slots what pulls on their nodes, N/m in
-    /// the plane. The first time is that of time zero, without a step. The result does not depend on `level`
+    /// The node of each slot in which [`Block::advance`] leaves moments, or [`NO_NODE`]; empty where its
+    /// elements have no rotations.
+    fn moment_slots(&self) -> &[u32] {
+        &[]
+    }
+    /// Nodes that rotate, each with what an element adds to its moment of inertia, which is the same about
+    /// all axes, kg m in 2D (kg m²).
+    fn rotating_nodes(&self) -> Vec<(u32, f64)> {
+        Vec::new()
+    }
+    /// Advances all points to the end of the step and writes to the slots what pulls on their nodes. The
+    /// first time is that of time zero, without a step. The result does not depend on `level`
     /// or on the threads of the `team`.
-    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], team: &mut Team) -> Report;
+    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, pulls: NodalForces<'_, D>, team: &mut Team) -> Report;
     /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail. Lines
     /// have slots of their own, and keep nothing besides.
     fn keep_forces(&mut self) {}
@@ -195,7 +243,7 @@ pub trait Block<const D: usize>: Send + Sync {
     /// Takes elements (ascending) out: they pull no more, have no step and store nothing, but keep their
     /// mass. What they dissipated stays in the reports. Returns the elastic energy that each had stored, J/m;
     /// their forces are gone from the slots.
-    fn erode(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64>;
+    fn erode(&mut self, elements: &[u32], pulls: NodalForces<'_, D>) -> Vec<f64>;
     /// What the last [`Block::advance`] told, without the elements that were eroded since.
     fn report(&self, positions: &[[f64; D]]) -> Report;
     /// Keeps what changes with time and is not worked out anew in [`Block::advance`].

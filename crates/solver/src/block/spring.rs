@@ -9,7 +9,7 @@
 //! half a step takes part as 2c/Δt: dt² Σ k / (2m) + dt Σ c / m ≤ 1. [`together`] joins it to that of the
 //! elements.
 
-use super::{Block, ElementState, Initial, Motion, Report, Wrong};
+use super::{Block, ElementState, Initial, Motion, NodalForces, Report, Wrong};
 use crate::archive::{Archive, Keep, Kept, keep_each};
 use crate::failure::Criterion;
 use crate::load::curve::table::Table;
@@ -167,7 +167,13 @@ where
         &self.slots
     }
 
-    fn advance(&mut self, motion: &Motion<'_, D>, _level: Level, slots: &mut [[f64; D]], _team: &mut Team) -> Report {
+    fn advance(
+        &mut self,
+        motion: &Motion<'_, D>,
+        _level: Level,
+        NodalForces { forces: slots, .. }: NodalForces<'_, D>,
+        _team: &mut Team,
+    ) -> Report {
         let mut report = Report::NOTHING;
         for (element, pair) in self.pairs.iter_mut().enumerate() {
             let law = &self.laws[pair.law];
@@ -234,7 +240,7 @@ where
     fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D] {
         slots[2 * element + corner]
     }
-    fn erode(&mut self, _elements: &[u32], _slots: &mut [[f64; D]]) -> Vec<f64> {
+    fn erode(&mut self, _elements: &[u32], _: NodalForces<'_, D>) -> Vec<f64> {
         Vec::new()
     }
     fn report(&self, _positions: &[[f64; D]]) -> Report {

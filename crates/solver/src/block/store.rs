@@ -15,7 +15,7 @@ use super::make::BlockInput;
 use super::nodal::Nodal;
 use super::strain::{Measures, Strain};
 use super::strip::{Every, STRIP, Strip};
-use super::{Block, ElementState, Initial, Motion, Report, Wrong};
+use super::{Block, ElementState, Initial, Motion, NodalForces, Report, Wrong};
 use crate::archive::{Archive, Keep, Kept};
 use crate::failure::Criterion;
 use crate::material::Family;
@@ -337,7 +337,13 @@ where
         self.nodes.slots()
     }
 
-    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, slots: &mut [[f64; D]], team: &mut Team) -> Report {
+    fn advance(
+        &mut self,
+        motion: &Motion<'_, D>,
+        level: Level,
+        NodalForces { forces: slots, .. }: NodalForces<'_, D>,
+        team: &mut Team,
+    ) -> Report {
         if let Some(mut nodal) = self.nodal.take() {
             let report = self.advance_averaged(&mut nodal, motion, level, slots, team);
             self.nodal = Some(nodal);
@@ -464,7 +470,7 @@ where
         std::array::from_fn(|d| self.kept.get(at + d).map_or(0.0, |batch| batch.0[element % BATCH]))
     }
 
-    fn erode(&mut self, elements: &[u32], slots: &mut [[f64; D]]) -> Vec<f64> {
+    fn erode(&mut self, elements: &[u32], NodalForces { forces: slots, .. }: NodalForces<'_, D>) -> Vec<f64> {
         self.take_out(elements, slots)
     }
 

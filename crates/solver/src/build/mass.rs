@@ -2,13 +2,13 @@
 //! the masses of parts.
 
 use super::{Builder, Builds};
-use crate::block::{Block, Motion};
+use crate::block::{Block, evaluate_at_rest};
 use crate::error::Fault;
 use crate::error::MASS_SCALING;
 use crate::masses::PartMasses;
 use crate::mesh::Mesh;
 use crate::tensor::Dim;
-use embate_lanes::{Level, Team};
+use embate_lanes::Level;
 
 impl<const D: usize> Builder<'_, D>
 where
@@ -31,10 +31,7 @@ where
             }
             if let Some(scaling) = self.model.run.mass_scaling {
                 let scaled = masses(block.as_ref());
-                let velocities = vec![[0.0; D]; self.mesh.positions.len()];
-                let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
-                let mut slots = vec![[0.0; D]; block.slots().len()];
-                block.advance(&motion, level, &mut slots, &mut Team::alone());
+                evaluate_at_rest(block.as_mut(), &self.mesh.positions, level);
                 let needed = (scaling.time_step / self.model.run.safety).powi(2);
                 for (element, squared) in block.time_steps_squared().into_iter().enumerate() {
                     let factor = needed / squared;

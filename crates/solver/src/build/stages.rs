@@ -11,7 +11,7 @@ use super::fans::Fans;
 use super::mass::part_masses;
 use super::{Builder, Builds, SERIAL, limits, source_of};
 use crate::assembly::Assembly;
-use crate::block::{Block, BlockInput, Initial, Motion, Report, Wrong, make};
+use crate::block::{Block, BlockInput, Initial, Report, Wrong, evaluate_at_rest, make};
 use crate::contact::Contact;
 use crate::contact::messages::NO_STEP;
 use crate::contact::springs::Springs;
@@ -27,17 +27,19 @@ use crate::load::force::Forces;
 use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::masses::PartMasses;
 use crate::material::messages::INITIAL_STATE;
-use crate::mesh::ElementGroup;
 use crate::mesh::surface::Surface;
 use crate::mesh::surface::tributary::Depth;
+use crate::mesh::{ElementGroup, Mesh};
 use crate::model::messages::UNKNOWN_NAME;
-use crate::model::{self, ContactLaw, Penalty, PenaltySource};
+use crate::model::{self, ContactLaw, Model, Penalty, PenaltySource};
 use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
 use crate::step::relaxation::Relaxation;
+use crate::step::rotations::NodalRotations;
 use crate::step::{CHUNK, Governor, System};
 use crate::tensor::Dim;
 use embate_lanes::{Level, Team};
+use std::collections::BTreeMap;
 use std::mem::take;
 
 /// The bodies as they are given.
@@ -190,6 +192,7 @@ where
         // Without contacts there is nothing to remember of any node.
         let touched = if contacts.is_empty() { 0 } else { nodes };
         let traces = Traces::new(outside, &mesh.positions[..touched.min(mesh.positions.len())], Depth::of(model));
+        let spins = spins(model, &mesh, &blocks);
         let mut system = System {
             slots: vec![[0.0; D]; assembly.count],
             rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).chain(has_springs.then_some(false)).collect(),
@@ -238,8 +241,10 @@ where
             limits,
             level,
             of_revolution: model.is_axisymmetric(),
+            rotations: NodalRotations::default(),
         };
         system.find_free_nodes();
+        system.find_rotations(|node| [0.0, 0.0, spins.get(&node).copied().unwrap_or(0.0)]);
         system
     }
 
@@ -292,14 +297,11 @@ where
         // Springs of the automatic penalty between bodies stiffen by it, too.
         let stiffens = |contact: &model::Contact| matches!(contact.interface.law, ContactLaw::Penalty(Penalty::Automatic { .. }));
         if is_asked || self.model.contacts.iter().any(stiffens) {
-            let velocities = vec![[0.0; D]; self.mesh.positions.len()];
-            let motion = Motion { positions: &self.mesh.positions, velocities: &velocities, time_step: 0.0 };
             let stable = |(block, group): (&mut Box<dyn Block<D>>, &ElementGroup)| {
                 if self.model.parts[group.part].rigid.is_some() {
                     return f64::INFINITY;
                 }
-                let mut slots = vec![[0.0; D]; block.slots().len()];
-                block.advance(&motion, level, &mut slots, &mut Team::alone()).time_step_squared
+                evaluate_at_rest(block.as_mut(), &self.mesh.positions, level).time_step_squared
             };
             let elements =
                 self.model.run.safety * blocks.iter_mut().zip(&self.mesh.groups).map(stable).fold(f64::INFINITY, f64::min).sqrt();
@@ -338,4 +340,19 @@ fn told<T: Default>(made: Result<T, Vec<Fault>>, faults: &mut Vec<Fault>) -> T {
         faults.extend(wrong);
         T::default()
     })
+}
+
+/// Spin at the start of the nodes that rotate, rad/s about z; of a node of several parts the mean by inertia.
+fn spins<const D: usize>(model: &Model, mesh: &Mesh<D>, blocks: &[Box<dyn Block<D>>]) -> BTreeMap<u32, f64>
+where
+    Dim<D>: Builds<D>,
+{
+    let mut sums = BTreeMap::<u32, [f64; 2]>::new();
+    for (group, block) in mesh.groups.iter().zip(blocks) {
+        for (node, inertia) in block.rotating_nodes() {
+            let [momentum, whole] = sums.entry(node).or_default();
+            (*momentum, *whole) = (*momentum + inertia * model.parts[group.part].spin, *whole + inertia);
+        }
+    }
+    sums.into_iter().map(|(node, [momentum, inertia])| (node, momentum / inertia)).collect()
 }

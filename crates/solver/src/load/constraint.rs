@@ -37,6 +37,22 @@ struct Contradiction {
 }
 
 impl<const D: usize> Held<D> {
+    /// Adds a direction of rest; nothing where all of it rests already.
+    pub(crate) fn rest(&mut self, direction: [f64; D]) {
+        // Rest contradicts nothing that rests.
+        let _ = self.add(direction, &Speed::constant(0.0), 0);
+    }
+
+    /// Whether nothing is prescribed.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.directions.is_empty()
+    }
+
+    /// The directions along which something is prescribed.
+    pub(crate) fn directions(&self) -> impl Iterator<Item = [f64; D]> {
+        self.directions.iter().map(|(direction, _)| *direction)
+    }
+
     /// Adds a direction, unless the earlier directions prescribe another velocity along it.
     fn add(&mut self, direction: [f64; D], velocity: &Speed, giver: u32) -> Result<(), Contradiction> {
         let (mut rest, mut speed, mut largest) = (direction, velocity.clone(), velocity.size());

@@ -43,6 +43,16 @@ pub trait RigidMotion<const D: usize>: Sized {
     fn generalized_with(force: [f64; D], moment: Self::Spin) -> Self::Generalized<f64>;
     /// Moment of a force at the end of an arm.
     fn moment(arm: [f64; D], force: [f64; D]) -> Self::Spin;
+    /// The spin in generalized velocities, rad/s, about x, y and z.
+    fn spin_vector(velocity: &Self::Generalized<f64>) -> [f64; 3];
+    /// A moment about x, y and z as one of the dimension.
+    fn moment_of(moment: [f64; 3]) -> Self::Spin;
+    /// Where a body is turned to, as an angle (2D) and as a rotation (3D).
+    fn orientation(angle: &Self::Angle) -> (f64, Attitude);
+    /// Adds an inertia that is the same about all axes, kg m (kg m²).
+    fn add_inertia(body: &mut Body<D>, inertia: f64)
+    where
+        Dim<D>: RigidMotion<D>;
     /// Sum of two moments.
     fn plus(a: Self::Spin, b: Self::Spin) -> Self::Spin;
     /// A vector in the frame of a body, in the global frame.
@@ -142,6 +152,20 @@ impl RigidMotion<2> for Dim<2> {
     #[inline(always)]
     fn moment(arm: [f64; 2], force: [f64; 2]) -> f64 {
         cross(arm, force)
+    }
+    fn spin_vector(&[_, _, spin]: &[f64; 3]) -> [f64; 3] {
+        [0.0, 0.0, spin]
+    }
+    fn moment_of([_, _, moment]: [f64; 3]) -> f64 {
+        moment
+    }
+    fn orientation(&angle: &f64) -> (f64, Attitude) {
+        (angle, Attitude::default())
+    }
+    fn add_inertia(body: &mut Body<2>, inertia: f64) {
+        if body.drives[2].is_none() {
+            body.mass[2] += inertia;
+        }
     }
     #[inline(always)]
     fn plus(a: f64, b: f64) -> f64 {
@@ -245,6 +269,18 @@ impl RigidMotion<3> for Dim<3> {
     #[inline(always)]
     fn moment(arm: [f64; 3], force: [f64; 3]) -> [f64; 3] {
         cross_space(arm, force)
+    }
+    fn spin_vector(&[_, _, _, a, b, c]: &[f64; 6]) -> [f64; 3] {
+        [a, b, c]
+    }
+    fn moment_of(moment: [f64; 3]) -> [f64; 3] {
+        moment
+    }
+    fn orientation(&angle: &Attitude) -> (f64, Attitude) {
+        (0.0, angle)
+    }
+    fn add_inertia(body: &mut Body<3>, inertia: f64) {
+        [0, 3, 5].into_iter().for_each(|k| body.turning.inertia[k] += inertia);
     }
     #[inline(always)]
     fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -326,6 +326,7 @@ mod tests {
                 positions: &at,
                 loads: &[],
                 internal: |_| [0.0; 3],
+                moment: &|_| None,
             });
             let mut forces = ContactForces::new(positions.len());
             push(step, &mut forces);

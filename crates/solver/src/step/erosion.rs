@@ -9,7 +9,7 @@
 
 use super::System;
 use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
-use crate::block::Report;
+use crate::block::{NodalForces, Report};
 use crate::contact::rebuild::{ContactParts, ContactSource};
 use crate::dimension::Dimension;
 use crate::failure::{Criterion, by_name};
@@ -173,6 +173,8 @@ where
         let index = failed[0].0;
         let first = self.blocks[..index].iter().map(|block| block.slots().len()).sum::<usize>();
         let slots = first..first + self.blocks[index].slots().len();
+        let first = self.blocks[..index].iter().map(|block| block.moment_slots().len()).sum::<usize>();
+        let moments = first..first + self.blocks[index].moment_slots().len();
         let numbers: Vec<u32> = failed.iter().map(|&(_, element, _)| element).collect();
         let group = &self.mesh.groups[index];
         for &(_, element, criterion) in failed {
@@ -197,7 +199,8 @@ where
         }
         let part = group.part;
         erosion.by_part[part] += failed.len();
-        erosion.energy += self.blocks[index].erode(&numbers, &mut self.slots[slots]).iter().sum::<f64>();
+        let pulls = NodalForces { forces: &mut self.slots[slots], moments: &mut self.rotations.slots[moments] };
+        erosion.energy += self.blocks[index].erode(&numbers, pulls).iter().sum::<f64>();
         for &element in &numbers {
             self.mesh.groups[index].erode(element as usize);
         }

@@ -37,6 +37,10 @@ where
         self.keep_system(archive)?;
         archive.section("nodes")?;
         self.keep_nodes(archive)?;
+        if !self.rotations.now.is_empty() {
+            archive.section("rotations")?;
+            self.rotations.keep(archive)?;
+        }
         for (number, block) in self.blocks.iter_mut().enumerate() {
             archive.section(&format!("elements {number}"))?;
             block.keep(archive)?;
@@ -62,7 +66,7 @@ where
             mesh: _, assembly: _, mass: _, body_parts: _, rigid: _, has_springs: _, shares: _, outlines: _, constraints: _, damping: _, body_forces: _,
             boundary: _, joins: _, level: _, team: _, of_revolution: _, slots: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
             mass_added: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
-            springs: _, erosion: _,
+            springs: _, erosion: _, rotations: _,
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
             bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation,
         } = self;
@@ -112,13 +116,14 @@ where
 
     /// Blocks without elements are not strained: they leave their slots as they are.
     fn still_what_is_gone(&mut self) {
-        let mut first = 0;
+        let (mut first, mut first_moment) = (0, 0);
         for (index, block) in self.blocks.iter().enumerate() {
-            let count = block.slots().len();
+            let (count, moments) = (block.slots().len(), block.moment_slots().len());
             if self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index)) {
                 self.slots[first..first + count].fill([0.0; D]);
+                self.rotations.slots[first_moment..first_moment + moments].fill([0.0; 3]);
             }
-            first += count;
+            (first, first_moment) = (first + count, first_moment + moments);
         }
     }
 }

@@ -52,7 +52,7 @@ where
 }
 
 /// What pulls on a node or on a group, seen from its leader.
-struct Pull<'a, const D: usize> {
+pub(super) struct Pull<'a, const D: usize> {
     mass: f64,
     old: [f64; D],
     internal: [f64; D],
@@ -66,10 +66,15 @@ struct Pull<'a, const D: usize> {
     held: Option<&'a Held<D>>,
 }
 
-impl<const D: usize> Pull<'_, D>
+impl<'a, const D: usize> Pull<'a, D>
 where
     Dim<D>: Dimension<D>,
 {
+    /// Of what elements alone pull on.
+    pub(super) fn of_elements(mass: f64, old: [f64; D], internal: [f64; D], slowing: f64, held: Option<&'a Held<D>>) -> Self {
+        Self { mass, old, internal, contact: [0.0; D], load: None, gravity: None, slowing, dashpot: None, held }
+    }
+
     /// m̃.
     fn inertia(&self) -> Square<D> {
         let m = self.mass * (1.0 + self.slowing);
@@ -189,7 +194,17 @@ where
 
     /// v^{n+½}, and its part in the books.
     fn advance(&self, pull: &Pull<'_, D>, sums: &mut Sums) -> [f64; D] {
-        let (m, old, dt) = (pull.mass, pull.old, self.dt);
+        pull.advance(self.dt, sums)
+    }
+}
+
+impl<const D: usize> Pull<'_, D>
+where
+    Dim<D>: Dimension<D>,
+{
+    /// v^{n+½} after Δt, and its part in the books.
+    pub(super) fn advance(&self, dt: f64, sums: &mut Sums) -> [f64; D] {
+        let (pull, m, old) = (self, self.mass, self.old);
         let scale = dt / m;
         let mut v = plus(old, times(scale, plus(pull.internal, pull.contact)));
         if let Some(load) = pull.load {

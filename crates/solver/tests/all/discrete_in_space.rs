@@ -169,10 +169,11 @@ fn a_bar_in_space_pulls_along_its_line_and_turns_without_strain() {
             let (n, across) = (unit(SKEW), unit(cross(SKEW, [1.0, 0.0, 0.0])));
             let direction = plus(n.map(|n| angle.cos() * n), angle.sin(), across);
             let positions = [start[0], plus(start[0], l, direction)];
-            let motion = Step { positions: &positions, velocities: &[[0.0; 3]; 2], time_step: 1e-3 };
-            let report = bar.advance(&motion, Level::best(), &mut slots, &mut Team::alone());
-            let motion = Step { positions: &[[0.0; 2], [l, 0.0]], velocities: &[[0.0; 2]; 2], time_step: 1e-3 };
-            let flat = same.advance(&motion, Level::best(), &mut others, &mut Team::alone());
+            let motion = Step::new(&positions, &[[0.0; 3]; 2], 1e-3);
+            let report = bar.advance(&motion, Level::best(), embate_solver::block::NodalForces::new(&mut slots), &mut Team::alone());
+            let flat_positions = [[0.0; 2], [l, 0.0]];
+            let motion = Step::new(&flat_positions, &[[0.0; 2]; 2], 1e-3);
+            let flat = same.advance(&motion, Level::best(), embate_solver::block::NodalForces::new(&mut others), &mut Team::alone());
             let force = others[0][0];
             assert!(force > 0.0 && distance(slots[0], direction.map(|n| force * n)) < 1e-9 * force, "{law} {k}: {slots:?} for {force}");
             assert_eq!(slots[0].map(|f| -f), slots[1]);

@@ -308,8 +308,8 @@ where
     }
 
     fn go(&mut self, positions: &[[f64; D]], velocities: &[[f64; D]], time_step: f64) {
-        let motion = Motion { positions, velocities, time_step };
-        self.report = self.block.advance(&motion, self.level, &mut self.slots, &mut self.team);
+        let motion = Motion::new(positions, velocities, time_step);
+        self.report = self.block.advance(&motion, self.level, embate_solver::block::NodalForces::new(&mut self.slots), &mut self.team);
         self.positions = positions.to_vec();
     }
 
@@ -318,8 +318,8 @@ where
         for (x, v) in self.positions.iter_mut().zip(velocities) {
             *x = std::array::from_fn(|d| x[d] + v[d] * time_step);
         }
-        let motion = Motion { positions: &self.positions, velocities, time_step };
-        self.report = self.block.advance(&motion, self.level, &mut self.slots, &mut self.team);
+        let motion = Motion::new(&self.positions, velocities, time_step);
+        self.report = self.block.advance(&motion, self.level, embate_solver::block::NodalForces::new(&mut self.slots), &mut self.team);
     }
 
     /// One step in which every node goes to `to(x)`.

@@ -171,14 +171,18 @@ fn the_step_is_stable_up_to_its_bound_and_the_bound_of_a_bar_is_sharp() {
         let mut bar = embate_solver::block::make(&input).unwrap();
         let (mut positions, mut velocities) = (nodes, [[-1e-9, 0.0], [1e-9, 0.0]]);
         let mut slots = [[0.0; 2]; 2];
-        let still = embate_solver::block::Motion { positions: &nodes, velocities: &[[0.0; 2]; 2], time_step: 0.0 };
-        let step = factor * bar.advance(&still, Level::SCALAR, &mut slots, &mut embate_lanes::Team::alone()).time_step_squared.sqrt();
+        let still = embate_solver::block::Motion::new(&nodes, &[[0.0; 2]; 2], 0.0);
+        let step = factor
+            * bar
+                .advance(&still, Level::SCALAR, embate_solver::block::NodalForces::new(&mut slots), &mut embate_lanes::Team::alone())
+                .time_step_squared
+                .sqrt();
         for _ in 0..1500 {
             for (x, v) in positions.iter_mut().zip(&velocities) {
                 x[0] += step * v[0];
             }
-            let motion = embate_solver::block::Motion { positions: &positions, velocities: &velocities, time_step: step };
-            bar.advance(&motion, Level::SCALAR, &mut slots, &mut embate_lanes::Team::alone());
+            let motion = embate_solver::block::Motion::new(&positions, &velocities, step);
+            bar.advance(&motion, Level::SCALAR, embate_solver::block::NodalForces::new(&mut slots), &mut embate_lanes::Team::alone());
             for (node, v) in velocities.iter_mut().enumerate() {
                 v[0] += step * slots[node][0] / bar.corner_mass(0, node);
             }

@@ -583,7 +583,7 @@ fn a_block_pulls_without_its_eroded_elements() {
         }
         let size = largest(expected.iter().flatten());
         assert!(size > 0.0);
-        body.block.erode(&gone, &mut body.slots);
+        body.block.erode(&gone, embate_solver::block::NodalForces::new(&mut body.slots));
         let forces = body.forces();
         let worst = forces.iter().flatten().zip(expected.iter().flatten()).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs()));
         assert!(worst < 1e-12 * size, "{element} {law}: {worst} of {size}");

@@ -36,8 +36,9 @@ impl OneBar {
     fn go(&mut self, end: [f64; 2]) {
         let positions = [[0.0; 2], end];
         let velocities = [[0.0; 2], [0, 1].map(|d| (end[d] - self.positions[1][d]) / self.time_step)];
-        let motion = Motion { positions: &positions, velocities: &velocities, time_step: self.time_step };
-        self.report = self.block.advance(&motion, Level::best(), &mut self.slots, &mut Team::alone());
+        let motion = Motion::new(&positions, &velocities, self.time_step);
+        self.report =
+            self.block.advance(&motion, Level::best(), embate_solver::block::NodalForces::new(&mut self.slots), &mut Team::alone());
         self.positions = positions;
     }
 

@@ -451,6 +451,7 @@ mod tests {
                 positions: &x,
                 loads: &[],
                 internal: |_| [0.0; 3],
+                moment: &|_| None,
             });
             springs.clear();
             contact.detect(&Scene { sweep: Sweep::between(&old, &x), bodies: &bodies, time: 0.0 }, &mut springs);

@@ -299,6 +299,7 @@ fn a_rigid_body_that_bounces_on_its_corners_keeps_its_energy_and_with_friction_l
                 positions: &[],
                 loads: &[],
                 internal: |_| [0.0; 3],
+                moment: &|_| None,
             });
             let body = bodies.state(0);
             let mut springs = Springs::new(0, 1, vec![terms(tangential)]);

@@ -1,0 +1,65 @@
+//! Nodes with rotational degrees of freedom, as elements see them: a sparse list beside the positions.
+//!
+//! Every such node has an attitude, its rotation since the start, and a spin; its moment of inertia is the
+//! same about all axes, so that the spin changes by I⁻¹ times the moment and no gyroscopic term appears.
+//! Blocks that have rotations read this list and leave moments in slots of their own; the update is in
+//! `step/rotations.rs`. The list is empty in models without such blocks.
+
+use crate::rigid::space::Attitude;
+
+/// The nodes that rotate, and how far and fast.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rotations {
+    /// The nodes, ascending.
+    pub nodes: Vec<u32>,
+    /// Of 2D models: rotation of each node since the start, rad, counter-clockwise. Empty in 3D.
+    pub angles: Vec<f64>,
+    /// Of 3D models: rotation of each node since the start. Empty in 2D.
+    pub attitudes: Vec<Attitude>,
+    /// Spins ω of the step that led to these rotations, rad/s, about x, y and z; in 2D the third alone.
+    pub spins: Vec<[f64; 3]>,
+}
+
+impl Rotations {
+    /// No node rotates.
+    pub const NONE: &'static Self = &Self { nodes: Vec::new(), angles: Vec::new(), attitudes: Vec::new(), spins: Vec::new() };
+
+    /// Nodes (ascending) of a model of `dimension` at rest in their first place.
+    #[must_use]
+    pub fn at_rest(nodes: Vec<u32>, dimension: usize) -> Self {
+        let count = nodes.len();
+        let (angles, attitudes) = if dimension == 2 { (count, 0) } else { (0, count) };
+        Self { nodes, angles: vec![0.0; angles], attitudes: vec![Attitude::default(); attitudes], spins: vec![[0.0; 3]; count] }
+    }
+
+    /// Where a node is in the lists; `None`: it has no rotation.
+    #[must_use]
+    pub fn place(&self, node: u32) -> Option<usize> {
+        self.nodes.binary_search(&node).ok()
+    }
+
+    /// Whether no node rotates.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Rotates a node by the vector θ (rad) from where it is: R ← exp(θ) R. In 2D the angle is an exact sum.
+    pub(crate) fn rotate(&mut self, place: usize, theta: [f64; 3]) {
+        if let Some(angle) = self.angles.get_mut(place) {
+            *angle += theta[2];
+        }
+        if let Some(attitude) = self.attitudes.get_mut(place) {
+            *attitude = Attitude::exponential(theta).after(attitude);
+        }
+    }
+
+    /// Numbers that say how a node is turned and how it spins, for hashes; none where it has no rotation.
+    pub(crate) fn numbers(&self, node: u32) -> impl Iterator<Item = f64> + use<> {
+        let place = self.place(node);
+        let angle = place.and_then(|place| self.angles.get(place).copied());
+        let attitude = place.and_then(|place| self.attitudes.get(place).copied());
+        let spin = place.map(|place| self.spins[place]);
+        angle.into_iter().chain(attitude.into_iter().flat_map(|attitude| attitude.0)).chain(spin.into_iter().flatten())
+    }
+}

@@ -1,4 +1,5 @@
-//! Cosine and sine with the same bits on every platform: those of the standard library are the platform's.
+//! Cosine and sine with the same bits on every platform; those of the standard library differ between
+//! platforms.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,5 +1,5 @@
-//! The state of a run as bytes, and back: one walk through the state for both directions, so that writing and
-//! reading cannot part.
+//! The state of a run as bytes: one function of each type for both directions, so that writing and reading
+//! cannot diverge.
 //!
 //! Whatever changes while a run goes on and can't be made again of the model, bit for bit, is [`Keep`]: its
 //! one function hands every value to an [`Archive`], which either writes it down or fills it. Values are

@@ -1,5 +1,5 @@
-//! From the forces that chunks of elements leave to nodal forces: each node sums its slots in a fixed order,
-//! whoever does it.
+//! Assembly of nodal forces from the forces of chunks of elements: each node sums its slots in a fixed order,
+//! for any number of threads.
 //!
 //! A chunk has summed the forces of its own elements on its nodes already, in the order of the elements
 //! (`block/local.rs`), so most nodes have one slot. The slots of a node ascend by block and chunk.

@@ -1,5 +1,5 @@
-//! From a model to a [`System`]: mesh, blocks, masses, contacts, obstacles, rigid bodies, conditions. All
-//! faults are collected before anything runs.
+//! The builder: from a model to a [`System`] with mesh, blocks, masses, contacts, obstacles, rigid bodies and
+//! conditions. All faults are collected before anything runs.
 
 mod again;
 mod bodies;

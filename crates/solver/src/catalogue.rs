@@ -1,4 +1,4 @@
-//! All messages of the solver: the rooms that raise them list their own.
+//! All messages of the solver, from the lists of the modules that raise them.
 
 use crate::message::Message;
 use crate::{contact, error, load, material, mesh, model, watch};

@@ -1,5 +1,4 @@
-//! Contact forces on nodes: few nodes of a model have any, so they are kept with what tells where they are,
-//! eight nodes at a time.
+//! Contact forces on nodes, stored sparsely in groups of eight nodes, since few nodes of a model have any.
 //!
 //! Solved springs add to them ([`crate::contact::Contact::collect`]); the velocity update, rigid bodies and
 //! records read them. A step costs as much as there are nodes in contact.

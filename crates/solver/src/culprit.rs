@@ -1,4 +1,4 @@
-//! Who is to blame: names elements, nodes and contacts with their places, for errors, progress and the
+//! Failure locations: names elements, nodes and contacts with their positions, for errors, progress and the
 //! summary. Called rarely.
 
 use crate::contact::Contact;

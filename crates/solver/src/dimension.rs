@@ -1,4 +1,4 @@
-//! What the system asks of a dimension, under one name.
+//! The traits of a dimension that the system needs, under one name.
 
 use crate::block::Blocks;
 use crate::contact::springs::TangentSpace;

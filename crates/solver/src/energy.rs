@@ -1,5 +1,5 @@
-//! The ledger: what every force took and gave (an identity that must close), and what is found in the stores
-//! (the energy drift).
+//! The energy balance: the ledger of the works of all forces, which is an identity, and the energy drift,
+//! which compares stored energies with external work.
 //!
 //! Momentum update times mean velocity: Δ ½Σ m|v^{n+1/2}|² = Σ_k ½(dt^n + dt^{n-1}) f_k^n · v̄^n for every
 //! kind k of force. The residual of this sum is round-off or a bug. The drift compares energies at the whole

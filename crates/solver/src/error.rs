@@ -1,6 +1,6 @@
-//! What can go wrong: faults of a model (all are reported at once), warnings of one that is accepted,
-//! failures of a run (the first ends it), and what should be known of one that goes on. Each is of a kind
-//! that is in the catalogue of messages (`message.rs`); those of runs are here.
+//! Faults and warnings of a model, errors and notices of a run. All faults of a model are reported at once; a
+//! model with warnings is accepted; the first error ends a run; a notice is for the user of a run that
+//! continues. Each is of a kind that is in the catalogue of messages (`message.rs`); those of runs are here.
 
 use crate::archive::Misfit;
 use crate::message::{Example, Message};

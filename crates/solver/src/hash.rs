@@ -1,5 +1,5 @@
-//! Hashes (64 bit) that tell states and models apart: FNV-1a byte by byte, and a faster one number by number.
-//! No safeguard against anybody who means harm.
+//! Hashes of 64 bits by which states and models are compared: FNV-1a byte by byte, and a faster one number by
+//! number. They do not protect against deliberate collisions.
 
 use std::fmt;
 

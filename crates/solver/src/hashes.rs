@@ -1,5 +1,5 @@
-//! What a state was, as few numbers: hashes of each part, of the contacts and of the rigid bodies, for a log
-//! by which two runs are told apart later.
+//! Hashes of the state of each part, of the contacts and of the rigid bodies, for the log by which two runs
+//! are compared later.
 //!
 //! [`crate::simulation`] takes them every `output.hash_steps` steps and tells its observer. They are made of
 //! the values that [`crate::parting`] compares one by one: positions and velocities of the nodes, energies of

@@ -1,4 +1,4 @@
-//! Masses of parts: as a whole, and on their nodes.
+//! Masses of parts: in total, and on their nodes.
 
 /// What parts weigh.
 pub(crate) struct PartMasses {

@@ -1,10 +1,10 @@
-//! The catalogue of messages: each kind of error and warning has a code that stays, a title, an example, a
-//! cause and a cure.
+//! The catalogue of messages: each kind of error and warning has a permanent code, a title, an example, a
+//! cause and a remedy.
 //!
 //! Entries stand beside the code that raises them, as statics that a `MESSAGES` list of their file names;
-//! [`crate::catalogue`] joins those of the solver, and the rooms above add theirs. Whatever tells an error
-//! takes a `&'static Message`, so there is none without an entry. `embate explain` and `docs/messages.md`
-//! print them.
+//! [`crate::catalogue`] joins those of the solver, and the crates above add theirs. Every error is made with
+//! a `&'static Message`, so there is none without an entry. `embate explain` and `docs/messages.md` print
+//! them.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Outlines of obstacles, as they are shown: lines in 2D, facets in 3D.
+//! Outlines of obstacles for output: lines in 2D, facets in 3D.
 
 /// Where an obstacle is at one output time.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,5 +1,5 @@
-//! What a run can show: the cells once, a frame per output time, a row of the history, the summary at the
-//! end. Values only, no formats; goes to the writers of `embate-files`.
+//! Output data of a run: the cells once, a frame per output time, a row of the history, the summary at the
+//! end. Values only, no formats; they go to the writers of `embate-files`.
 
 use crate::contact::tracker::Certificate;
 use crate::error::Notice;

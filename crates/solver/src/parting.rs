@@ -1,4 +1,4 @@
-//! Where two simulations part: their states held against each other, value by value, after each step.
+//! Divergence of two simulations: their states are compared value by value after each step.
 //!
 //! Made for `embate diff`, which steps two simulations side by side. Compared are the values of which
 //! [`crate::hashes`] makes hashes. Parts correspond by their names and nodes by their places in them,

@@ -1,5 +1,5 @@
-//! What a number means: its dimension, the range it may lie in, and the description that the input
-//! reader, the JSON schema, `embate list` and the documentation are made from.
+//! Physical quantities of the input: dimension, range, and the description from which the input reader, the
+//! JSON schema, `embate list` and the documentation are made.
 
 use std::fmt;
 

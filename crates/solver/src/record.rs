@@ -1,5 +1,5 @@
-//! What is recorded of a system: which fields (`field` has their values), history rows, momentum, the state
-//! hash. Values only; formats are elsewhere.
+//! The data that are recorded of a system: which fields (`field` has their values), history rows, momentum,
+//! the state hash. Values only; formats are elsewhere.
 
 use crate::archive::{Archive, Keep, Kept};
 use crate::body_columns::BodyColumns;

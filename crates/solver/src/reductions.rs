@@ -1,6 +1,5 @@
-//! Reductions: what a step learns of all chunks, bodies and contacts together. Minima and maxima don't depend
-//! on the order of what they are taken over, and sums here don't either: they are exact until they are
-//! rounded once, so whoever adds what, and in which order, finds the same bits.
+//! Minima, maxima and exact sums over chunks, bodies and contacts, whose bits do not depend on the order of
+//! their terms. Sums are exact until they are rounded once.
 //!
 //! Loops over chunks themselves go through [`embate_lanes::Team::each`].
 

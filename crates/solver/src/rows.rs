@@ -1,5 +1,5 @@
-//! Lists side by side, one for each key: slots of a node, elements at it, edges from it. Counted, then put
-//! into their places, so that building costs what there is.
+//! Lists of any length, one for each key, in one array (compressed rows): slots of a node, elements at it,
+//! edges from it. Counted, then put into their places, so that building costs what there is.
 //!
 //! Mesh, blocks, assembly and contact make them from connectivities; whoever walks around a node reads them.
 

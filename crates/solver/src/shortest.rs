@@ -1,4 +1,4 @@
-//! The shortest step of a run, for the summary: the system tells it after every step.
+//! The shortest time step of a run, for the summary; it is updated after every step.
 
 use crate::archive::keep_all;
 use crate::dimension::Dimension;

@@ -1,5 +1,5 @@
-//! A model that is stepped: of the plane or of space, with one face. Speaks to an [`Observer`]; what it does
-//! is in `simulation/run.rs`, written once for both.
+//! Simulations: a model in 2D or 3D that is stepped, behind one interface. It reports to an [`Observer`]; the
+//! loop is in `simulation/run.rs`, written once for both dimensions.
 
 mod clock;
 mod course;

@@ -1,5 +1,5 @@
-//! The system at an output time as writers take it ([`Shown`]), piece by piece, so that a large model is
-//! never there a second time; or put into a [`Frame`] as a whole.
+//! Snapshots: the system at an output time as writers read it ([`Shown`]), piece by piece, so that a large
+//! model is not in memory twice, or as a whole in a [`Frame`].
 
 use crate::field::NodeFields;
 use crate::field::kind::{FieldKind, Location};

@@ -1,4 +1,4 @@
-//! One step of the central difference method, in the order of the textbook box.
+//! The system (bodies, what acts on them, their state) and one step of the central difference method.
 //!
 //! The state between two steps is x^n, v^{n+1/2} and the step dt^n that leads to x^{n+1}; forces have been
 //! evaluated at x^n. Everything that is shared by threads is cut in chunks that come from the mesh, and sums

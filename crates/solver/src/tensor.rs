@@ -1,6 +1,5 @@
-//! Small tensors over lanes: symmetric second-order tensors of the plane (xx yy zz xy) and of space (xx yy zz
-//! xy yz zx) behind one trait, and what a dimension knows of matrices ([`Space`]). Material laws see only
-//! [`SymmetricTensor`].
+//! Small tensors over lanes: symmetric second-order tensors in 2D (xx yy zz xy) and 3D (xx yy zz xy yz zx)
+//! behind one trait, and the matrices of a dimension ([`Space`]). Material laws see only [`SymmetricTensor`].
 //!
 //! Code over lanes has no closures: the compiler gives a closure the instruction set of the machine's
 //! baseline, and every operation in it becomes a call (measured: ten times slower than scalar code). Loops

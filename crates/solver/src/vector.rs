@@ -1,4 +1,4 @@
-//! Vectors of the plane and of space, of numbers or of lanes: the same text, and so the same bits, for both.
+//! Vectors in 2D and 3D, of numbers or of lanes: one source for both, and so the same bits.
 //!
 //! Sums run from the first component to the last.
 

@@ -1,5 +1,5 @@
-//! What a description of the model file is made of: sections, keys, kinds of values, ranges, rules; and what
-//! is said of a wrong name or number.
+//! The types that describe the model file (sections, keys, kinds of values, ranges, rules), and the messages
+//! about wrong names and numbers.
 //!
 //! The descriptions are in `input/sections/`, those of shapes beside the shapes. The reader, the range
 //! checks, "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from them by

@@ -1,6 +1,6 @@
-//! What a run is watched for while it goes on: energies that only control or penalties have, elements that
-//! become needles, strains beyond what was measured, and a step that collapses. Each is told once for each
-//! part, with time and place, and counted for the summary.
+//! Monitoring of a run: energies of hourglass control and contact springs, elements of poor shape, strains
+//! beyond the measured range, and a collapsing time step. Each is reported once for each part, with time and
+//! position, and counted for the summary.
 //!
 //! [`Simulation::run`](crate::simulation::Simulation::run) looks between its steps, where the history is
 //! written: energies are summed there already, and elements are looked at only every 256 steps or more.

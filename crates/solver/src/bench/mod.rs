@@ -1,6 +1,6 @@
-//! What speed is measured with, for `embate bench` and for the benchmarks of this crate: bodies of any
-//! element and law (`bodies.rs`), rates of kernels and whole steps (`rates.rs`), numbers that look random
-//! (`random.rs`), and what the machine could do at best (`ceilings.rs`).
+//! Measurement of speed, for `embate bench` and for the benchmarks of this crate: bodies of any element and
+//! law (`bodies.rs`), rates of kernels and whole steps (`rates.rs`), numbers that look random (`random.rs`),
+//! and the limits of the machine (`ceilings.rs`).
 //!
 //! Times are those of the machine's clock, the best of several rounds: other work on the machine makes rounds
 //! slower, never faster.

@@ -1,4 +1,4 @@
-//! Contact: search -> project -> springs -> forces, everything on the same configuration.
+//! Contact: search, projection, springs and forces, all on the same configuration.
 //!
 //! Sees surfaces, positions and stiffnesses; knows nothing of elements and materials. A [`Contact`] is a
 //! [`Formulation`] (what it makes springs of) and what the springs sum up to; laws and friction are in the

@@ -1,5 +1,5 @@
-//! Elements as declared facts plus two functions: the map from nodal vectors to natural gradients, and its
-//! transpose.
+//! Element formulations: declared facts and two functions, the map from nodal vectors to natural gradients
+//! and its transpose.
 //!
 //! Everything else (strain, internal force, volume) follows in the block. To add an element: one file, one
 //! line in `elements!`.

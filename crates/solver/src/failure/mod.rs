@@ -1,4 +1,4 @@
-//! When an element fails: criteria on its mean state, and the registry that everything else iterates over.
+//! Failure criteria of elements on their mean state, and the registry that everything else iterates over.
 //!
 //! A material lists limits (`failure`); after the law has answered, a block asks its criteria about each
 //! batch of eight elements (`Seen`), and the step erodes what fails. The mean over the points decides, the

@@ -1,5 +1,4 @@
-//! The output fields: each carries the function of its values, and the registry that everything else iterates
-//! over.
+//! Output fields: each with the function of its values, and the registry that everything else iterates over.
 //!
 //! A field of nodes is a function of a system as it is shown ([`LiveSnapshot`]) and a node, one of cells a
 //! function of the mean state of an element ([`Cell`]). History variables that laws and equations of state

@@ -1,5 +1,4 @@
-//! What a user may write: the sections and keys of the model file, and the check of a model before it is
-//! meshed.
+//! The model file as it may be written: its sections and keys, and the check of a model before it is meshed.
 
 mod check;
 pub mod sections;

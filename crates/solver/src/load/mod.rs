@@ -1,5 +1,5 @@
-//! What acts on bodies from outside: prescribed motion and symmetry, joined nodes, forces, damping,
-//! boundaries that reflect nothing; and the curves that they follow.
+//! Loads and constraints: prescribed motion and symmetry, joined nodes, forces, damping, non-reflecting
+//! boundaries, and the curves that they follow.
 //!
 //! A load's part in the velocity update is in `step/nodes.rs`. Forces are evaluated at x^n; what follows a
 //! curve takes its mean over the update, from the middle of the last step to the middle of the next: so its

@@ -1,5 +1,4 @@
-//! Nodes, element groups, surfaces and sets: what the shapes and mesh files become before blocks are made
-//! from them.
+//! The mesh: nodes, element groups, surfaces and sets, made from the shapes and mesh files of a model.
 //!
 //! [`Mesh::new`] puts the bodies of a model side by side with one node numbering; names (`part`, `part.side`,
 //! groups of a mesh file) are resolved to nodes and surfaces here and nowhere else.

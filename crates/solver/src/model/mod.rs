@@ -1,5 +1,5 @@
-//! What the user wrote, as plain data in SI units. Comes from a model file or from code; goes to the mesh
-//! builder.
+//! The model: what the user wrote, as plain data in SI units. It comes from a model file or from code and
+//! goes to the mesh builder.
 //!
 //! Nothing here is checked on construction: [`Model::check`] returns *all* faults, each with its path in the
 //! input.

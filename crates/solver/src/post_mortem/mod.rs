@@ -1,10 +1,10 @@
-//! What a failed run knows of its failure: the culprit, its neighbourhood, and what became of both over the
-//! last steps.
+//! Analysis of a failed run: the failure location, its neighbourhood, and what happened to both over the last
+//! steps.
 //!
-//! After a failure [`Simulation::suspect`] names the culprit as the state of the
-//! failure shows it. A second simulation of the same model, set out from a state before, goes to the failure
-//! once more and follows ([`Simulation::follow`]) the culprit step by step (`trace.rs`); the
-//! steps are the same to the last bit. Values only: who writes a page of them is not known here.
+//! After a failure [`Simulation::suspect`] names the failure location as the state of the failure shows it. A
+//! second simulation of the same model, resumed from an earlier state, repeats the steps until the failure,
+//! to the same last bit, and follows the location step by step ([`Simulation::follow`], `trace.rs`). Values
+//! only; their page is written elsewhere.
 
 mod acting;
 mod mass;

@@ -1,5 +1,5 @@
-//! Blocks: the elements of one kind with one material. A block gathers node motion, updates strain and
-//! stress, and returns forces.
+//! Blocks: the elements of one kind with one material, which gather node motion, update strain and stress,
+//! and return forces.
 //!
 //! The state of the elements lives in the store (`store.rs`), in batches of eight (`batch.rs`); it is the
 //! same type for every element and every law. A step goes chunk by chunk (`local.rs`: nodes side by side,

@@ -1,5 +1,6 @@
 //! The stages of the builder, in their order. Each takes what those before it made and returns what it makes;
-//! none knows whether it is the first time, so what changes cells or surfaces later calls those that it needs.
+//! none knows whether it is the first time, so what changes cells or surfaces later calls those that it
+//! needs.
 //!
 //! 1. [`Builder::start`]: the outside of the bodies, and who penetrates whom;
 //! 2. [`Builder::elements`]: blocks, masses, velocities, rigid parts;

@@ -29,7 +29,7 @@ LAYERS = {
     "material": "Laws, elements, loads, rigid bodies",
     "block": "Blocks, contact, assembly",
     "step": "Step and builder",
-    "culprit": "Output",
+    "failure_location": "Output",
     "input": "Model file: keys and checks",
     "body_columns": "Records and monitoring",
     "simulation": "Simulation and analysis",

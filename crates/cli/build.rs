@@ -1,8 +1,8 @@
 //! Notes the commit that the program is built from: of the repository, or of the package that was made from
-//! one. Where neither tells, the program has its version alone.
+//! one. Where neither reports, the program has its version alone.
 //!
 //! What is watched changes with each commit and no more often: a build after which nothing was committed
-//! compiles nothing anew.
+//! compiles nothing again.
 
 use std::path::Path;
 use std::process::Command;

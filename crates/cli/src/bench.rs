@@ -4,7 +4,7 @@
 //! Bodies and rates are those of `embate_solver::bench`; here are the choice of rows, the time that each may
 //! take, the tables and the JSON.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::interrupt::Interrupt;
 use crate::numbers::{grouped, table};
 use crate::{Failure, machine, terminal, version};
@@ -136,11 +136,11 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
         "wall_seconds": begin.elapsed().as_secs_f64(),
     });
     let text = serde_json::to_string_pretty(&value).expect("plain numbers, texts and lists always have a JSON form") + "\n";
-    write_whole(file, text.as_bytes()).map_err(|error| Failure::Run(Complaint::new(error.kind(), error)))
+    write_whole(file, text.as_bytes()).map_err(|error| Failure::Run(CliError::new(error.kind(), error)))
 }
 
 impl Bench {
-    fn go_on(&self) -> Result<(), Failure> {
+    fn continue_run(&self) -> Result<(), Failure> {
         if self.interrupt.is_pressed() { Err(Failure::Interrupted) } else { Ok(()) }
     }
 
@@ -148,7 +148,7 @@ impl Bench {
         let bytes = machine::memory_available().map_or(TRIAD, |all| TRIAD.min(all / 16));
         let mut triad = Vec::new();
         for threads in if threads > 1 { vec![1, threads] } else { vec![1] } {
-            self.go_on()?;
+            self.continue_run()?;
             triad.push((threads, bench::triad(Level::best(), threads, bytes as usize, self.each)));
         }
         let arithmetic = Level::available().into_iter().map(|level| (level.name(), bench::multiply_add(level, self.each))).collect();
@@ -167,7 +167,7 @@ impl Bench {
         }
         let mut rows = Vec::new();
         for (element, law, level) in wanted {
-            self.go_on()?;
+            self.continue_run()?;
             let rate = bench::kernel(element, law, &patch, level, self.each).map_err(failed)?;
             rows.push(Row { element, law, elements: SMALL * SMALL, threads: 1, level: level.name(), rate, memory: None });
         }
@@ -179,7 +179,7 @@ impl Bench {
         let one = Options { threads: 1, simd: None };
         let mut rows = Vec::new();
         for (element, law) in [("quad4", "elastic"), ("quad4", "j2"), ("quad4_reduced", "elastic"), ("quad4_reduced", "j2")] {
-            self.go_on()?;
+            self.continue_run()?;
             let rate = bench::step(element, law, SMALL, Size::Small, &one, self.each).map_err(failed)?;
             rows.push(Row { element, law, elements: SMALL * SMALL, threads: 1, level, rate, memory: None });
         }
@@ -189,7 +189,7 @@ impl Bench {
         let n = self.large();
         for element in ["quad4", "quad4_reduced"] {
             for threads in if threads > 1 { vec![1, threads] } else { vec![1] } {
-                self.go_on()?;
+                self.continue_run()?;
                 let model = bench::spinning_block(element, "j2", n);
                 let before = machine::memory_used();
                 let mut simulation = Simulation::new(&model, &Options { threads, simd: None }).map_err(failed)?;
@@ -218,7 +218,7 @@ impl Bench {
     }
 
     fn contact(&mut self) -> Result<Share, Failure> {
-        self.go_on()?;
+        self.continue_run()?;
         let plain = bench::strips(STRIPS, 2.0);
         let mut touching = plain.clone();
         touching.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), ..Contact::default() });
@@ -229,7 +229,7 @@ impl Bench {
 }
 
 fn failed(error: Error) -> Failure {
-    Failure::Run(Complaint::from(&error))
+    Failure::Run(CliError::from(&error))
 }
 
 impl Ceilings {

@@ -1,6 +1,6 @@
 //! `embate check`: what a model is, without running it, and a picture of its mesh.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::input::{self, ModelArguments};
 use crate::numbers::{grouped, table, with_unit};
 use crate::{Failure, terminal};
@@ -30,7 +30,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
     let folder = input::folder(arguments.out.as_deref(), input::default_folder(model))?;
     match draw(model, &simulation, &folder) {
         Ok(path) => text.push_str(&format!("picture: {}\n", path.display())),
-        Err(message) => terminal::complain(&Complaint::new(&NO_PICTURES, message).to_string()),
+        Err(message) => terminal::report_error(&CliError::new(&NO_PICTURES, message).to_string()),
     }
     terminal::print(&text)
 }

@@ -1,6 +1,6 @@
 //! `embate explain`: what a message is, how it comes about, and what to do.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::messages::{MESSAGES, NO_CODE};
 use crate::numbers::table;
 use crate::{Failure, terminal};
@@ -25,7 +25,7 @@ pub(crate) fn explain(arguments: &Arguments) -> Result<(), Failure> {
     }
     let near = nearest(&wanted, all.iter().map(|message| message.code));
     let help = near.map_or("`embate explain` lists all codes".to_string(), |near| format!("did you mean {near}?"));
-    Err(Failure::Input(Complaint::new(&NO_CODE, format!("there is no message `{code}`")).help(help)))
+    Err(Failure::Input(CliError::new(&NO_CODE, format!("there is no message `{code}`")).help(help)))
 }
 
 /// Every message that the program has, by code.

@@ -1,9 +1,9 @@
 //! What `run` and `check` share: reading a model, making it ready, and where its results go.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::{Failure, machine, terminal};
 use clap::Args;
-use embate_files::Reach;
+use embate_files::PathPolicy;
 use embate_files::checkpoint::Origin;
 use embate_files::model_file::{self, Loaded};
 use embate_files::results::ResultFolder;
@@ -34,8 +34,8 @@ pub(crate) struct Leave {
 }
 
 impl Leave {
-    pub(crate) fn reach(self) -> Reach {
-        if self.allow_outside { Reach::Anywhere } else { Reach::Folder }
+    pub(crate) fn reach(self) -> PathPolicy {
+        if self.allow_outside { PathPolicy::Anywhere } else { PathPolicy::Folder }
     }
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn key_and_value(text: &str) -> Result<String, String> {
 /// Reads a model; all faults of the file become one message.
 pub(crate) fn load(arguments: &ModelArguments) -> Result<Loaded, Failure> {
     model_file::load_with_places(&arguments.model, &arguments.set, arguments.leave.reach())
-        .map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))
+        .map_err(|diagnostics| Failure::Input(CliError::from(&diagnostics)))
 }
 
 /// Where a model came from, to find it again.
@@ -60,7 +60,7 @@ pub(crate) fn origin(arguments: &ModelArguments) -> Origin {
 
 /// Makes a model ready to step.
 pub(crate) fn ready(model: &Model, options: &Options) -> Result<Simulation, Failure> {
-    simulation(model, options).map_err(|error| Failure::Input(Complaint::from(&error)))
+    simulation(model, options).map_err(|error| Failure::Input(CliError::from(&error)))
 }
 
 /// The simulation of a model, if the machine has the memory.
@@ -74,9 +74,9 @@ pub(crate) fn simulation(model: &Model, options: &Options) -> Result<Simulation,
 
 /// Prints what the user should know of a model before he trusts its results.
 pub(crate) fn warn(loaded: &Loaded, simulation: &Simulation) {
-    let warnings = loaded.told(simulation.model_warnings());
+    let warnings = loaded.reported(simulation.model_warnings());
     if warnings.count > 0 {
-        terminal::complain(&warnings.rendered);
+        terminal::report_error(&warnings.rendered);
     }
 }
 
@@ -91,7 +91,7 @@ pub(crate) fn default_folder(model: &Model) -> PathBuf {
 pub(crate) fn folder(named: Option<&Path>, default: PathBuf) -> Result<PathBuf, Failure> {
     match named {
         Some(named) => Ok(named.to_path_buf()),
-        None => ResultFolder::refuse_link(&default).map(|()| default).map_err(|error| Failure::Input(Complaint::new(error.kind(), error))),
+        None => ResultFolder::refuse_link(&default).map(|()| default).map_err(|error| Failure::Input(CliError::new(error.kind(), error))),
     }
 }
 

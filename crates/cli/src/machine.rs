@@ -1,4 +1,4 @@
-//! The machine that the program runs on: its processor and its memory, as far as the system tells.
+//! The machine that the program runs on: its processor and its memory, as far as the system reports.
 
 /// Name of the processor; empty where the system does not tell.
 pub(crate) fn processor() -> String {

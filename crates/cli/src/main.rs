@@ -6,7 +6,7 @@
 
 mod bench;
 mod check;
-mod complaint;
+mod cli_error;
 mod completions;
 mod cpu;
 mod diff;
@@ -36,7 +36,7 @@ mod watch;
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
-use complaint::Complaint;
+use cli_error::CliError;
 use embate_files::program;
 use std::process::ExitCode;
 
@@ -52,7 +52,7 @@ struct CommandLine {
 enum Command {
     /// Run a model and write its results
     Run(run::Arguments),
-    /// Go on with a run that was stopped, from its newest checkpoint
+    /// Continue with a run that was stopped, from its newest checkpoint
     Resume(resume::Arguments),
     /// Go through a stretch of a run once more, with denser output
     Replay(replay::Arguments),
@@ -91,13 +91,13 @@ enum Command {
 #[derive(Debug)]
 enum Failure {
     /// Bad input, or results in the way; nothing was done.
-    Input(Complaint),
+    Input(CliError),
     /// A run failed, or its results could not be written.
-    Run(Complaint),
-    /// Two runs are not the same; this has been told.
+    Run(CliError),
+    /// Two runs are not the same; this has been reported.
     Different,
     /// A deck was imported, but not all of it acts in the model.
-    Incomplete(Complaint),
+    Incomplete(CliError),
     /// The user stopped a run.
     Interrupted,
 }
@@ -121,7 +121,7 @@ fn main() -> ExitCode {
         Ok(line) => line.command,
         Err(error) => return not_understood(&error),
     };
-    // The hook has told the user about a panic; here it only becomes an exit code.
+    // The hook has reported the user about a panic; here it only becomes an exit code.
     let Ok(result) = std::panic::catch_unwind(|| obey(&command)) else {
         return ExitCode::from(1);
     };
@@ -129,7 +129,7 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             if let Failure::Input(text) | Failure::Run(text) | Failure::Incomplete(text) = &failure {
-                terminal::complain(&text.to_string());
+                terminal::report_error(&text.to_string());
             }
             ExitCode::from(failure.code())
         }
@@ -142,7 +142,7 @@ fn not_understood(error: &clap::Error) -> ExitCode {
         error.exit();
     }
     let text = error.to_string();
-    terminal::complain(&Complaint::new(&messages::USAGE, text.strip_prefix("error: ").unwrap_or(&text)).to_string());
+    terminal::report_error(&CliError::new(&messages::USAGE, text.strip_prefix("error: ").unwrap_or(&text)).to_string());
     ExitCode::from(2)
 }
 

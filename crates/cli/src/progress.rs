@@ -1,5 +1,5 @@
-//! How a run goes on: a bar on a terminal, a line every tenth otherwise, nothing when quiet. All on standard
-//! error.
+//! How a run continues: a bar on a terminal, a line every tenth otherwise, nothing when quiet. All on
+//! standard error.
 
 use crate::numbers::{grouped, per_cent, with_unit};
 use crate::terminal;
@@ -18,7 +18,7 @@ pub(crate) enum Display {
     /// Nothing.
     Quiet,
     /// A line for each tenth of the run; `next` is the next tenth, `from` what was done when it began: more
-    /// than nothing of a run that goes on.
+    /// than nothing of a run that continues.
     Lines { next: u64, begin: Instant, from: Option<f64> },
     /// A bar.
     Bar { bar: ProgressBar, updated: Instant },
@@ -61,7 +61,7 @@ impl Display {
                 });
                 if tenth >= *next {
                     let left = begin.elapsed().as_secs_f64() * (1.0 - done) / (done - from);
-                    terminal::complain(&format!("{:>3} %  {}  ETA {}", 10 * tenth, state(), with_unit(left, "s")));
+                    terminal::report_error(&format!("{:>3} %  {}  ETA {}", 10 * tenth, state(), with_unit(left, "s")));
                     *next = tenth + 1;
                 }
             }
@@ -75,12 +75,12 @@ impl Display {
         }
     }
 
-    /// Says something while the run goes on.
+    /// Says something while the run continues.
     pub(crate) fn say(&self, text: &str) {
         match self {
             Self::Quiet => {}
-            Self::Lines { .. } => terminal::complain(text),
-            Self::Bar { bar, .. } => bar.suspend(|| terminal::complain(text)),
+            Self::Lines { .. } => terminal::report_error(text),
+            Self::Bar { bar, .. } => bar.suspend(|| terminal::report_error(text)),
         }
     }
 

@@ -1,7 +1,7 @@
-//! What `run` and `resume` share: a simulation that is run and recorded, with its checkpoints, what is told
-//! on the way, and how it ended.
+//! What `run` and `resume` share: a simulation that is run and recorded, with its checkpoints, what is
+//! reported on the way, and how it ended.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::interrupt::Interrupt;
 use crate::numbers::{grouped, per_cent, table, with_unit};
 use crate::progress::Display;
@@ -19,7 +19,7 @@ use embate_viewer::Tap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// How a model is run, and what is told of it; changes no result.
+/// How a model is run, and what is reported about it; changes no result.
 #[derive(Args)]
 pub(crate) struct Manner {
     /// Threads; 0: one per processor (changes no result)
@@ -28,7 +28,7 @@ pub(crate) struct Manner {
     /// Instruction set: scalar, avx2, avx512 [default: the best of this machine] (changes no result)
     #[arg(long, value_name = "LEVEL")]
     simd: Option<String>,
-    /// No progress and no summary; warnings of the model are told all the same
+    /// No progress and no summary; warnings of the model are reported all the same
     #[arg(long, short)]
     pub(crate) quiet: bool,
 }
@@ -49,7 +49,7 @@ const FILES: &[(&str, &str)] = &[
     ("fields.pvd", "all fields, for ParaView"),
     ("obstacles.pvd", "the obstacles, for ParaView"),
     ("summary.json", "the figures of the run"),
-    ("checkpoint", "states from which `embate resume` goes on"),
+    ("checkpoint", "states from which `embate resume` continues"),
 ];
 
 /// What is run, and where its results go.
@@ -81,7 +81,7 @@ const ROOM: usize = 64 << 20;
 
 /// What an error of results is before anything was run.
 pub(crate) fn in_the_way(error: ResultsError) -> Failure {
-    Failure::Input(Complaint::new(error.kind(), error))
+    Failure::Input(CliError::new(error.kind(), error))
 }
 
 /// Runs a simulation by `go` and records it by what `make` makes, to the last word.
@@ -94,20 +94,20 @@ pub(crate) fn record<'a>(
     let Recording { path, manner, ref watched, .. } = recording;
     let interrupt = Interrupt::watch();
     let display = Arc::new(Mutex::new(Display::new(manner.quiet)));
-    let told = Arc::new(Mutex::new(Vec::new()));
-    let (seen, shown, notices) = (interrupt.clone(), display.clone(), told.clone());
-    let mut is_told = false;
+    let reported = Arc::new(Mutex::new(Vec::new()));
+    let (seen, shown, notices) = (interrupt.clone(), display.clone(), reported.clone());
+    let mut is_reported = false;
     let on_progress = move |progress: &Progress<'_>| {
         let mut display = of(&shown);
         display.update(progress);
         for notice in progress.notices {
-            display.say(&Complaint::from(notice).to_string());
+            display.say(&CliError::from(notice).to_string());
             of(&notices).push(notice.text.clone());
         }
         if !seen.is_pressed() {
             return Control::Continue;
         }
-        if !std::mem::replace(&mut is_told, true) {
+        if !std::mem::replace(&mut is_reported, true) {
             display.say("stopping; results so far are kept (Ctrl-C again ends at once)");
         }
         Control::Stop
@@ -118,37 +118,37 @@ pub(crate) fn record<'a>(
         Some(Watched { live, .. }) => go(simulation, &mut Tap::new(&mut recorder, live.clone(), || interrupt.is_pressed())),
         None => go(simulation, &mut recorder),
     };
-    let mut told_late = Vec::new();
+    let mut reported_late = Vec::new();
     if let Err(error) = &ran
         && !matches!(error, Error::Output(_) | Error::State(_))
         && !interrupt.is_pressed()
     {
         of(&display).say("the run failed; going once more to its last steps, to see how it came (Ctrl-C: not)");
-        told_late = look_into(&recording, simulation, error, &interrupt, &mut recorder);
+        reported_late = look_into(&recording, simulation, error, &interrupt, &mut recorder);
     }
     let outcome = recorder.finish(ran.as_ref().err().map(Error::with_code), &simulation.summary(), cpu::user_seconds);
     if let Some(display) = Arc::into_inner(display) {
         display.into_inner().unwrap_or_else(PoisonError::into_inner).close();
     }
     // What went wrong first is what matters.
-    let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(Complaint::new(error.kind(), error)));
+    let unwritten = outcome.unwritten.map_or(Ok(()), |error| Err(CliError::new(error.kind(), error)));
     if let Some(watched) = watched {
         watched.show_last(simulation, &interrupt);
         watched.end(&outcome.report);
     }
-    let result = ran.map_err(|error| Complaint::from(&error)).and(unwritten);
+    let result = ran.map_err(|error| CliError::from(&error)).and(unwritten);
     let report = outcome.report;
-    told_late.iter().for_each(|complaint| terminal::complain(&complaint.to_string()));
+    reported_late.iter().for_each(|cli_error| terminal::report_error(&cli_error.to_string()));
     if !manner.quiet {
-        // Those of the model come first, and have been told, as has what was seen on the way: the summary
-        // says how it went on.
-        let told = of(&told);
+        // Those of the model come first, and have been reported, as has what was seen on the way: the summary
+        // says how it continued.
+        let reported = of(&reported);
         let of_run = report.warnings.iter().skip(simulation.model_warnings().len());
-        let of_run = of_run.filter(|notice| !told.iter().any(|text: &String| notice.text.starts_with(text)));
-        of_run.for_each(|notice| terminal::complain(&Complaint::from(notice).to_string()));
+        let of_run = of_run.filter(|notice| !reported.iter().any(|text: &String| notice.text.starts_with(text)));
+        of_run.for_each(|notice| terminal::report_error(&CliError::from(notice).to_string()));
     }
     let is_stopped = interrupt.is_pressed() || watched.as_ref().is_some_and(|watched| watched.live.is_stopped());
-    let result = result.map_err(|complaint| Failure::Run(with_results(complaint, path))).and_then(|()| {
+    let result = result.map_err(|cli_error| Failure::Run(with_results(cli_error, path))).and_then(|()| {
         if !manner.quiet {
             terminal::print(&closing_text(&report, path))?;
         }
@@ -176,7 +176,7 @@ fn look_into(
     error: &Error,
     interrupt: &Interrupt,
     recorder: &mut Recorder<'_>,
-) -> Vec<Complaint> {
+) -> Vec<CliError> {
     let Recording { loaded, path, checkpoints, keeps_last_good, manner, .. } = *recording;
     let options = manner.options();
     let failed = Failed { model: &loaded.model, loaded, options: &options, simulation, error, checkpoints, keeps_last_good };
@@ -184,25 +184,25 @@ fn look_into(
     let mut complaints = Vec::new();
     let kept = findings.last_good.take().map_or(Ok(()), |state| recorder.state(state).map_err(|error| error.to_string()));
     if let Some(fault) = kept.err().or(findings.fault.take()) {
-        complaints.push(Complaint::new(&LAST_GOOD, fault));
+        complaints.push(CliError::new(&LAST_GOOD, fault));
     }
     match failed.write(&findings, path) {
         Ok(_) => recorder.point_to_post_mortem(),
-        Err(error) => complaints.push(Complaint::new(&NO_POST_MORTEM, format!("the post-mortem is missing: {error}"))),
+        Err(error) => complaints.push(CliError::new(&NO_POST_MORTEM, format!("the post-mortem is missing: {error}"))),
     }
     complaints
 }
 
 /// A complaint that points to the page about it.
-pub(crate) fn with_page(complaint: Complaint, page: &Path) -> Complaint {
-    complaint.and(format!("  post-mortem: {}", page.display()))
+pub(crate) fn with_page(cli_error: CliError, page: &Path) -> CliError {
+    cli_error.and(format!("  post-mortem: {}", page.display()))
 }
 
-fn with_results(complaint: Complaint, path: &Path) -> Complaint {
+fn with_results(cli_error: CliError, path: &Path) -> CliError {
     let kept: Vec<&str> = FILES.iter().map(|(name, _)| *name).filter(|name| path.join(name).exists()).collect();
     let page = path.join(post_mortem::PAGE);
-    let complaint = if page.exists() { with_page(complaint, &page) } else { complaint };
-    if kept.is_empty() { complaint } else { complaint.and(format!("  results until then: {} ({})", path.display(), kept.join(", "))) }
+    let cli_error = if page.exists() { with_page(cli_error, &page) } else { cli_error };
+    if kept.is_empty() { cli_error } else { cli_error.and(format!("  results until then: {} ({})", path.display(), kept.join(", "))) }
 }
 
 /// A line for each contact between surfaces.

@@ -77,7 +77,7 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Where the model of a run came from, and its newest checkpoint that is not after a time; without one the
-/// run begins anew.
+/// run begins again.
 fn nearest(path: &Path, time: f64, options: &Options, place: &Place) -> Result<(Origin, Option<Checkpoint>), Failure> {
     let threads = Threads::new(options.thread_count());
     let mut origin = None;

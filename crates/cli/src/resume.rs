@@ -1,7 +1,7 @@
-//! `embate resume`: a run that was stopped goes on from its newest checkpoint, as if it had never been
+//! `embate resume`: a run that was stopped continues from its newest checkpoint, as if it had never been
 //! stopped.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::input::{self, Leave, ModelArguments, key_and_value};
 use crate::messages::USAGE;
 use crate::recording::{self, Manner, Recording};
@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     /// Folder of the results of the run
     #[arg(value_name = "DIR")]
     folder: PathBuf,
-    /// Go on to this time instead of `run.end`, "5 ms" for example
+    /// Continue to this time instead of `run.end`, "5 ms" for example
     #[arg(long, value_name = "TIME")]
     until: Option<String>,
     #[command(flatten)]
@@ -89,7 +89,7 @@ pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
     past.release_state();
     input::warn(&loaded, &simulation);
     if !arguments.manner.quiet {
-        terminal::complain(&format!("going on from step {} at {:.6e} s", past.state.step, past.state.time));
+        terminal::report_error(&format!("continuing from step {} at {:.6e} s", past.state.step, past.state.time));
     }
     let watched = arguments.watching.begin(model, &simulation, path)?;
     let frame = simulation.frame();
@@ -102,29 +102,29 @@ pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
     recording::record(recording, &mut simulation, make, Simulation::run)
 }
 
-/// The newest sound checkpoint of a run; what is wrong with newer ones is told.
+/// The newest sound checkpoint of a run; what is wrong with newer ones is reported.
 fn newest(path: &Path, options: &Options) -> Result<Checkpoint, Failure> {
     let none = |faults: Vec<CheckpointError>| {
-        let told = faults.into_iter().map(|fault| Complaint::new(fault.kind(), fault));
-        Failure::Input(told.reduce(Complaint::and).unwrap_or_else(|| no_checkpoint(path)))
+        let reported = faults.into_iter().map(|fault| CliError::new(fault.kind(), fault));
+        Failure::Input(reported.reduce(CliError::and).unwrap_or_else(|| no_checkpoint(path)))
     };
     let (checkpoint, faults) = checkpoint::newest(path, &Threads::new(options.thread_count()), |_| true).map_err(none)?;
     for fault in faults {
         let text = format!("{fault}; the checkpoint before it is used, of step {}", checkpoint.state.step);
-        terminal::complain(&Complaint::new(&OLDER, text).to_string());
+        terminal::report_error(&CliError::new(&OLDER, text).to_string());
     }
     Ok(checkpoint)
 }
 
-/// That there is nothing to go on from.
-pub(crate) fn no_checkpoint(path: &Path) -> Complaint {
-    let complaint = Complaint::new(&NO_CHECKPOINT, format!("there is no checkpoint in {}", path.display()));
-    complaint.help("a run leaves some with `run.checkpoint`, and one when it is stopped by Ctrl-C or SIGTERM")
+/// That there is nothing to continue from.
+pub(crate) fn no_checkpoint(path: &Path) -> CliError {
+    let cli_error = CliError::new(&NO_CHECKPOINT, format!("there is no checkpoint in {}", path.display()));
+    cli_error.help("a run leaves some with `run.checkpoint`, and one when it is stopped by Ctrl-C or SIGTERM")
 }
 
 /// Arguments that can't be.
 pub(crate) fn usage(text: impl std::fmt::Display) -> Failure {
-    Failure::Input(Complaint::new(&USAGE, text))
+    Failure::Input(CliError::new(&USAGE, text))
 }
 
 /// Refuses a model that is not the one that ran.
@@ -133,11 +133,11 @@ pub(crate) fn refuse_changes(changes: &[String], may: &str) -> Result<(), Failur
         return Ok(());
     }
     let lines: String = changes.iter().map(|change| format!("\n  {change}")).collect();
-    let complaint = Complaint::new(&MODEL_CHANGED, format!("the model is not the one that ran{lines}"));
-    Err(Failure::Input(complaint.help(format!("put it back as it was, or run it anew; {may}"))))
+    let cli_error = CliError::new(&MODEL_CHANGED, format!("the model is not the one that ran{lines}"));
+    Err(Failure::Input(cli_error.help(format!("put it back as it was, or run it again; {may}"))))
 }
 
 /// A simulation that stands where a checkpoint was written.
 pub(crate) fn ready(model: &Model, options: &Options, past: &Checkpoint) -> Result<Simulation, Failure> {
-    Simulation::resumed(model, options, &past.state.sections).map_err(|error| Failure::Input(Complaint::from(&error)))
+    Simulation::resumed(model, options, &past.state.sections).map_err(|error| Failure::Input(CliError::from(&error)))
 }

@@ -1,7 +1,7 @@
 //! `embate run`: a model from its file to its results.
 
 use crate::Failure;
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::input::{self, ModelArguments};
 use crate::recording::{self, Manner, Recording, in_the_way};
 use crate::watch::Watching;
@@ -45,8 +45,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     refuse(&path)?;
     let options = arguments.manner.options();
     let mut simulation = input::simulation(model, &options).map_err(|error| match &error {
-        Error::Model(faults) => with_page(Complaint::from(&error), arguments, &loaded, faults),
-        _ => Failure::Input(Complaint::from(&error)),
+        Error::Model(faults) => with_page(CliError::from(&error), arguments, &loaded, faults),
+        _ => Failure::Input(CliError::from(&error)),
     })?;
     // Also of a quiet run, and before it: who reads them late has waited for nothing.
     input::warn(&loaded, &simulation);
@@ -65,23 +65,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 /// Reads the model; of one that needs too much memory there is a page.
 fn load(arguments: &Arguments) -> Result<Loaded, Failure> {
     input::load(&arguments.model).map_err(|failure| {
-        let Failure::Input(complaint) = failure else { return failure };
+        let Failure::Input(cli_error) = failure else { return failure };
         let Some(loaded) = model_file::load_despite(&MEMORY, &arguments.model.model, &arguments.model.set, arguments.model.leave.reach())
         else {
-            return Failure::Input(complaint);
+            return Failure::Input(cli_error);
         };
-        with_page(complaint, arguments, &loaded, &loaded.model.check())
+        with_page(cli_error, arguments, &loaded, &loaded.model.check())
     })
 }
 
 /// That a model can't begin: of what its numbers need there is a page, beside the results of earlier runs if
 /// there are any.
-fn with_page(complaint: Complaint, arguments: &Arguments, loaded: &Loaded, faults: &[Fault]) -> Failure {
-    let Ok(path) = folder(arguments, &loaded.model) else { return Failure::Input(complaint) };
+fn with_page(cli_error: CliError, arguments: &Arguments, loaded: &Loaded, faults: &[Fault]) -> Failure {
+    let Ok(path) = folder(arguments, &loaded.model) else { return Failure::Input(cli_error) };
     Failure::Input(match post_mortem::at_start(loaded, &arguments.manner.options(), faults, &path) {
-        Ok(None) => complaint,
-        Ok(Some(page)) => recording::with_page(complaint, &page),
-        Err(error) => complaint.and(Complaint::new(&NO_POST_MORTEM, format!("the post-mortem is missing: {error}"))),
+        Ok(None) => cli_error,
+        Ok(Some(page)) => recording::with_page(cli_error, &page),
+        Err(error) => cli_error.and(CliError::new(&NO_POST_MORTEM, format!("the post-mortem is missing: {error}"))),
     })
 }
 

@@ -1,9 +1,9 @@
 //! `embate sweep`: a model with many values, one run on each core, and one table of what came out.
 //!
 //! Plan, runs, table and plot are those of `embate-files`; here are the command line, the progress and what
-//! is told at the end.
+//! is reported at the end.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::input::{self, ModelArguments};
 use crate::interrupt::Interrupt;
 use crate::messages::RUNS_FAILED;
@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
     /// No progress and no summary
     #[arg(long, short)]
     quiet: bool,
-    /// Forget what the folder holds and start anew
+    /// Forget what the folder holds and start again
     #[arg(long)]
     force: bool,
 }
@@ -73,8 +73,8 @@ pub(crate) fn sweep(arguments: &Arguments) -> Result<(), Failure> {
         None if arguments.zip => Request::Zip(&arguments.vary),
         None => Request::Factorial(&arguments.vary),
     };
-    let prepared =
-        Sweep::prepare(model, leave.reach(), set, request, &arguments.output, arguments.simd.clone(), jobs, &is_stopped).map_err(told)?;
+    let prepared = Sweep::prepare(model, leave.reach(), set, request, &arguments.output, arguments.simd.clone(), jobs, &is_stopped)
+        .map_err(reported)?;
     let Some(sweep) = prepared else { return Err(Failure::Interrupted) };
     let mut name = input::default_folder(sweep.first()).into_os_string();
     name.push("-sweep");
@@ -102,19 +102,19 @@ pub(crate) fn sweep(arguments: &Arguments) -> Result<(), Failure> {
         is_stopped: &is_stopped,
         on_advance: &on_advance,
     };
-    let ended = sweep.run(&running).map_err(told)?;
+    let ended = sweep.run(&running).map_err(reported)?;
     display.into_inner().unwrap_or_else(PoisonError::into_inner).close();
     closing(&ended, &folder, begin.elapsed().as_secs_f64(), arguments.quiet)?;
     let left = ended.advance.of - ended.advance.ended;
     match &ended.failure {
         _ if left > 0 => {
-            terminal::complain(&format!("stopped with {left} of {} runs left; the same command goes on from here", ended.advance.of));
+            terminal::report_error(&format!("stopped with {left} of {} runs left; the same command continues from here", ended.advance.of));
             Err(Failure::Interrupted)
         }
         Some((run, error)) => {
             let failed = ended.advance.failed;
             let what = if failed == 1 { "1 run".to_string() } else { format!("{failed} runs") };
-            Err(Failure::Run(Complaint::new(
+            Err(Failure::Run(CliError::new(
                 &RUNS_FAILED,
                 format!("{what} of {} failed; the first is run {run}: {error}", ended.advance.of),
             )))
@@ -128,14 +128,14 @@ fn state(advance: &Advance) -> String {
     format!("run {} of {}{failed}", grouped(advance.ended as u64), grouped(advance.of as u64))
 }
 
-fn told(error: SweepError) -> Failure {
-    let complaint = match (&error, error.kind()) {
-        (SweepError::Model(diagnostics), _) => Complaint::from(diagnostics),
-        (_, kind) => Complaint::new(kind.unwrap_or(&BUG), &error),
+fn reported(error: SweepError) -> Failure {
+    let cli_error = match (&error, error.kind()) {
+        (SweepError::Model(diagnostics), _) => CliError::from(diagnostics),
+        (_, kind) => CliError::new(kind.unwrap_or(&BUG), &error),
     };
     match error {
-        SweepError::Output(_) | SweepError::Results(_) | SweepError::Plot(_) => Failure::Run(complaint),
-        _ => Failure::Input(complaint),
+        SweepError::Output(_) | SweepError::Results(_) | SweepError::Plot(_) => Failure::Run(cli_error),
+        _ => Failure::Input(cli_error),
     }
 }
 

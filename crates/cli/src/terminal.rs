@@ -1,6 +1,6 @@
-//! Standard output and standard error: a reader that goes away is no fault, and a bug is told as one.
+//! Standard output and standard error: a reader that goes away is no fault, and a bug is reported as one.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::{Failure, version};
 use embate_files::results::messages::{BUG, REFUSED};
 use std::io::{ErrorKind, Write};
@@ -10,14 +10,14 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::Run(Complaint::new(&REFUSED, format!("can't write to standard output: {error}"))))
+            Err(Failure::Run(CliError::new(&REFUSED, format!("can't write to standard output: {error}"))))
         }
         _ => Ok(()),
     }
 }
 
 /// Writes `text` to standard error, where nothing can be done when it fails.
-pub(crate) fn complain(text: &str) {
+pub(crate) fn report_error(text: &str) {
     let end = if text.ends_with('\n') { "" } else { "\n" };
     let _ = write!(std::io::stderr().lock(), "{text}{end}");
 }
@@ -29,6 +29,6 @@ pub(crate) fn announce_bugs() {
         let text = payload.downcast_ref::<&str>().copied().or_else(|| payload.downcast_ref::<String>().map(String::as_str));
         let place = panic.location().map(|l| format!(" at {}:{}", l.file(), l.line())).unwrap_or_default();
         let what = format!("this is a bug in embate {}: {}{place}", version::short(), text.unwrap_or("unknown"));
-        complain(&Complaint::new(&BUG, what).help("please report it with this message, the command and the model file").to_string());
+        report_error(&CliError::new(&BUG, what).help("please report it with this message, the command and the model file").to_string());
     }));
 }

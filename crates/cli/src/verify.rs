@@ -3,7 +3,7 @@
 //! Cases come from `embate-files`; here are the choice of cases, the table and the exit code: 1 when a check
 //! fails.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::input::Leave;
 use crate::interrupt::Interrupt;
 use crate::messages::{CHECKS_FAILED, NO_CASE};
@@ -69,10 +69,10 @@ pub(crate) fn verify(arguments: &Arguments) -> Result<(), Failure> {
     let options = Options::default();
     // All faults before the first run.
     for case in &cases {
-        case.examine(&options).map_err(|error| told(&error))?;
+        case.examine(&options).map_err(|error| reported(&error))?;
         for (model, _) in arguments.out.iter().filter(|_| !arguments.force).flat_map(|_| &case.models) {
             let folder = arguments.out.iter().fold(PathBuf::new(), |_, out| out.join(&case.name).join(model));
-            ResultFolder::refuse_existing(&folder).map_err(|error| Failure::Input(Complaint::new(error.kind(), error)))?;
+            ResultFolder::refuse_existing(&folder).map_err(|error| Failure::Input(CliError::new(error.kind(), error)))?;
         }
     }
     let interrupt = Interrupt::watch();
@@ -89,10 +89,10 @@ pub(crate) fn verify(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(file) = &arguments.json {
         let mut json = serde_json::to_string_pretty(&outcomes).expect("plain numbers, texts and lists always have a JSON form");
         json.push('\n');
-        write_whole(file, json.as_bytes()).map_err(|error| Failure::Run(Complaint::new(error.kind(), error)))?;
+        write_whole(file, json.as_bytes()).map_err(|error| Failure::Run(CliError::new(error.kind(), error)))?;
     }
     for file in &arguments.report {
-        report::write(file, &outcomes, &about, &arguments.folder).map_err(|error| Failure::Run(Complaint::new(error.kind(), error)))?;
+        report::write(file, &outcomes, &about, &arguments.folder).map_err(|error| Failure::Run(CliError::new(error.kind(), error)))?;
     }
     closing(&outcomes)
 }
@@ -110,7 +110,7 @@ fn verified(case: &Case, options: &Options, arguments: &Arguments, interrupt: &I
     if interrupt.is_pressed() {
         return Err(Failure::Interrupted);
     }
-    outcome.map_err(|error| told(&error))
+    outcome.map_err(|error| reported(&error))
 }
 
 /// The cases that are wanted, read.
@@ -120,13 +120,13 @@ fn chosen(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
     if let Some(unknown) = arguments.cases.iter().find(|name| !names.contains(name)) {
         let help = suggestion(unknown, &known);
         return Err(Failure::Input(
-            Complaint::new(&NO_CASE, format!("there is no case `{unknown}` in {}", arguments.folder.display())).help(help),
+            CliError::new(&NO_CASE, format!("there is no case `{unknown}` in {}", arguments.folder.display())).help(help),
         ));
     }
     let mut cases = Vec::new();
     for name in names.iter().filter(|name| arguments.cases.is_empty() || arguments.cases.contains(name)) {
         let case = verification::load(&arguments.folder.join(name), arguments.leave.reach())
-            .map_err(|diagnostics| Failure::Input(Complaint::from(&diagnostics)))?;
+            .map_err(|diagnostics| Failure::Input(CliError::from(&diagnostics)))?;
         if !arguments.cases.is_empty() || arguments.all || arguments.list || case.tier == Tier::Every {
             cases.push(case);
         }
@@ -134,7 +134,7 @@ fn chosen(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
     if cases.is_empty() {
         let help = "name cases, or run all with --all";
         return Err(Failure::Input(
-            Complaint::new(&NO_CASE, format!("no case in {} has tier `every`", arguments.folder.display())).help(help),
+            CliError::new(&NO_CASE, format!("no case in {} has tier `every`", arguments.folder.display())).help(help),
         ));
     }
     Ok(cases)
@@ -145,7 +145,7 @@ fn names(folder: &Path) -> Result<Vec<String>, Failure> {
     let nowhere = |why: &str| {
         let shown = folder.display();
         let help = "the cases lie in the folder `verification` of embate's source: go there, or name the folder with --in DIR";
-        Failure::Input(Complaint::new(&NO_CASE, format!("{shown} {why}")).help(help))
+        Failure::Input(CliError::new(&NO_CASE, format!("{shown} {why}")).help(help))
     };
     let entries = std::fs::read_dir(folder).map_err(|error| nowhere(&format!("can't be read as a folder of cases: {error}")))?;
     let cases = entries.flatten().filter(|entry| entry.path().join(verification::FILE_NAME).is_file());
@@ -154,13 +154,13 @@ fn names(folder: &Path) -> Result<Vec<String>, Failure> {
     if names.is_empty() { Err(nowhere(&format!("holds no case: no folder with {} in it", verification::FILE_NAME))) } else { Ok(names) }
 }
 
-fn told(error: &VerifyError) -> Failure {
+fn reported(error: &VerifyError) -> Failure {
     match error {
-        VerifyError::Expected(diagnostics) => Failure::Input(Complaint::from(diagnostics)),
+        VerifyError::Expected(diagnostics) => Failure::Input(CliError::from(diagnostics)),
         VerifyError::Model { case, name, error } => {
-            Failure::Input(Complaint::from(error).under(format!("model `{name}` of the case `{case}`")))
+            Failure::Input(CliError::from(error).under(format!("model `{name}` of the case `{case}`")))
         }
-        VerifyError::Results(error) => Failure::Run(Complaint::new(error.kind(), error)),
+        VerifyError::Results(error) => Failure::Run(CliError::new(error.kind(), error)),
     }
 }
 
@@ -193,5 +193,5 @@ fn closing(outcomes: &[CaseOutcome]) -> Result<(), Failure> {
     if cases.is_empty() {
         return terminal::print(&format!("all {count} checks hold (cases: {})\n", outcomes.len()));
     }
-    Err(Failure::Run(Complaint::new(&CHECKS_FAILED, format!("{failed} of {count} checks fail, in {}", cases.join(", ")))))
+    Err(Failure::Run(CliError::new(&CHECKS_FAILED, format!("{failed} of {count} checks fail, in {}", cases.join(", ")))))
 }

@@ -4,13 +4,13 @@
 use embate_files::program;
 use std::sync::LazyLock;
 
-/// Version and commit, as `embate -V` tells them.
+/// Version and commit, as `embate -V` reports them.
 static SHORT: LazyLock<String> = LazyLock::new(|| match commit() {
     Some(commit) => format!("{} ({commit})", program::VERSION),
     None => program::VERSION.to_string(),
 });
 
-/// What `embate --version` tells: also what it was compiled for, which reports of faults should say.
+/// What `embate --version` reports: also what it was compiled for, which reports of faults should say.
 static LONG: LazyLock<String> = LazyLock::new(|| format!("{}\n{}", *SHORT, env!("EMBATE_TARGET")));
 
 /// The commit; `None`: it was built from sources that don't tell.

@@ -1,6 +1,6 @@
 //! `embate view`: results in the browser, one run or two side by side.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::interrupt::Interrupt;
 use crate::watch::{Page, ShownRun};
 use crate::{Failure, terminal};
@@ -13,7 +13,7 @@ use std::time::Duration;
 /// What is shown and where.
 #[derive(Args)]
 pub(crate) struct Arguments {
-    /// Folder of results; of a run that goes on, too
+    /// Folder of results; of a run that continues, too
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Folder of another run, shown beside it
@@ -31,15 +31,15 @@ pub(crate) fn view(arguments: &Arguments) -> Result<(), Failure> {
     let folders = std::iter::once(&arguments.folder).chain(&arguments.other);
     let runs: Vec<ShownRun> = folders.map(|folder| (folder.clone(), ResultView::open(folder))).collect();
     for (path, run) in &runs {
-        // What is damaged is told by the page; what is none of embate's, at once.
+        // What is damaged is reported by the page; what is none of embate's, at once.
         if let Err(error @ ResultsError::NothingToSee { .. }) = run
             && !path.join("run.json").exists()
         {
-            return Err(Failure::Input(Complaint::new(error.kind(), error)));
+            return Err(Failure::Input(CliError::new(error.kind(), error)));
         }
     }
     let server = arguments.page.show(runs, None)?;
-    terminal::complain("Ctrl-C ends it");
+    terminal::report_error("Ctrl-C ends it");
     wait(&interrupt);
     server.stop();
     Ok(())

@@ -1,7 +1,7 @@
 //! How the page of a run is shown: its address, and who opens it. `view` shows results, `run` and `resume` a
-//! run that goes on.
+//! run that continues.
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::interrupt::Interrupt;
 use crate::messages::NO_PAGE;
 use crate::view::wait;
@@ -23,7 +23,7 @@ pub(crate) struct Page {
     /// Port of the page [default: a free one]
     #[arg(long, value_name = "PORT", default_value_t = 0, hide_default_value = true)]
     port: u16,
-    /// What the address of the page must hold: 16 or more letters and digits [default: one that nobody can
+    /// What the address of the page must hold: 16 or more letters and digits [default: one that no one can
     /// guess]
     #[arg(long, value_name = "TEXT")]
     token: Option<String>,
@@ -39,17 +39,17 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// Starts the server, tells its address and opens it.
+    /// Starts the server, reports its address and opens it.
     pub(crate) fn show(&self, runs: Vec<ShownRun>, live: Option<Arc<Live>>) -> Result<Server, Failure> {
         let address = Address { host: self.listen, port: self.port, token: self.token.clone() };
         let view = self.view.strip_prefix('#').unwrap_or(&self.view);
-        let server = Server::start(runs, live, view, &address).map_err(|error| Failure::Input(Complaint::new(&NO_PAGE, error)))?;
-        terminal::complain(&format!("page: {}", server.url()));
+        let server = Server::start(runs, live, view, &address).map_err(|error| Failure::Input(CliError::new(&NO_PAGE, error)))?;
+        terminal::report_error(&format!("page: {}", server.url()));
         if !self.listen.is_loopback() {
-            terminal::complain("others on the network can open it, too, if they know this address: it is not encrypted");
+            terminal::report_error("others on the network can open it, too, if they know this address: it is not encrypted");
         }
         if !self.no_open && !server.open() {
-            terminal::complain("no browser could be opened: open the address yourself");
+            terminal::report_error("no browser could be opened: open the address yourself");
         }
         Ok(server)
     }
@@ -61,7 +61,7 @@ pub(crate) type ShownRun = (std::path::PathBuf, Result<ResultView, embate_files:
 /// How a run is watched.
 #[derive(Args)]
 pub(crate) struct Watching {
-    /// Show the run in the browser while it goes on, where it can be paused, stopped and kept
+    /// Show the run in the browser while it continues, where it can be paused, stopped and kept
     #[arg(long)]
     pub(crate) watch: bool,
     /// With --watch: the page stays when the run has ended, until Ctrl-C
@@ -79,7 +79,7 @@ pub(crate) struct Watched {
 }
 
 impl Watching {
-    /// Shows a run whose results go to `path`; none if nobody wants to watch.
+    /// Shows a run whose results go to `path`; none if no one wants to watch.
     pub(crate) fn begin(&self, model: &Model, simulation: &Simulation, path: &Path) -> Result<Option<Watched>, Failure> {
         if !self.watch {
             return Ok(None);
@@ -87,7 +87,7 @@ impl Watching {
         let frame = simulation.frame();
         let kinds = frame.fields.iter().map(|field| field.kind).collect();
         let bodies = Arc::new(Bodies::new(simulation.cells(), &frame));
-        // Of a run that goes on; one that can't be read is told of elsewhere.
+        // Of a run that continues; one that can't be read is reported elsewhere.
         let past = History::read(path).ok().flatten().filter(|_| simulation.steps() > 0);
         let live = Live::new(bodies.clone(), simulation.history_columns(), model.is_of_whole_bodies(), (past.as_ref(), simulation.time()));
         let view = ResultView::begun(path, bodies, kinds, Appearance::of(model), frame.nodes());
@@ -96,7 +96,7 @@ impl Watching {
     }
 }
 
-/// How long a page that nobody has opened yet waits at the end of its run: longer than a browser takes to
+/// How long a page that no one has opened yet waits at the end of its run: longer than a browser takes to
 /// start.
 const OPENING: Duration = Duration::from_secs(30);
 
@@ -107,12 +107,12 @@ impl Watched {
             return;
         }
         if !self.live.was_watched() {
-            terminal::complain("the run is over before its page was opened: the page waits for half a minute (Ctrl-C: no longer)");
+            terminal::report_error("the run is over before its page was opened: the page waits for half a minute (Ctrl-C: no longer)");
         }
         self.live.show_last(&simulation.frame(), OPENING, || interrupt.is_pressed());
     }
 
-    /// Tells the viewers how it ended.
+    /// Reports the viewers how it ended.
     pub(crate) fn end(&self, report: &Report) {
         let status = match report.status {
             RunStatus::Done => "done",
@@ -125,10 +125,12 @@ impl Watched {
     /// Ends the page, where it is to stay by Ctrl-C.
     pub(crate) fn close(self, interrupt: &Interrupt) {
         if self.keep && !interrupt.is_pressed() {
-            terminal::complain("the page stays; Ctrl-C ends it");
+            terminal::report_error("the page stays; Ctrl-C ends it");
             wait(interrupt);
         } else if !self.live.was_watched() {
-            terminal::complain("nobody had opened the page when the run ended: `embate view` shows its results, --keep lets the page stay");
+            terminal::report_error(
+                "the page had not been opened when the run ended: `embate view` shows its results, --keep lets the page stay",
+            );
         }
         self.server.stop();
     }

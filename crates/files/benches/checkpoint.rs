@@ -1,7 +1,7 @@
 //! What a checkpoint costs: `cargo bench -p embate-files --bench checkpoint [-- ELEMENTS_ALONG_A_SIDE...]`.
 //!
 //! A spinning block that flows everywhere, so that no number is like another: taking the state, packing and
-//! writing it (synchronised with the disk), and reading it back. Each is told in milliseconds and as the
+//! writing it (synchronised with the disk), and reading it back. Each is reported in milliseconds and as the
 //! number of steps of the same body that take as long; the size as a share of the plain state.
 
 use embate_files::checkpoint::{Checkpoint, generations};

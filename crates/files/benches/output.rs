@@ -1,8 +1,8 @@
 //! What output costs: `cargo bench -p embate-files --bench output [-- ELEMENTS_ALONG_A_SIDE...]`.
 //!
 //! A spinning block that flows: taking a frame of all its fields, packing it with one thread and with two,
-//! and drawing and encoding a frame of its film. Each is told in milliseconds, as the number of steps of the
-//! same body that take as long, and, for two threads, as the ratio to one; all in the same run.
+//! and drawing and encoding a frame of its film. Each is reported in milliseconds, as the number of steps of
+//! the same body that take as long, and, for two threads, as the ratio to one; all in the same run.
 
 use embate_files::picture::{Film, FilmSettings};
 use embate_files::threads::Threads;

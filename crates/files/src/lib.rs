@@ -12,7 +12,7 @@ mod plain;
 pub mod picture;
 pub mod post_mortem;
 pub mod program;
-mod reach;
+mod path_policy;
 pub mod registries;
 pub mod report;
 pub mod results;
@@ -23,4 +23,4 @@ pub mod verification;
 pub mod view;
 pub mod vtu;
 
-pub use reach::Reach;
+pub use path_policy::PathPolicy;

@@ -11,7 +11,7 @@ use std::fmt::Write;
 /// All entries of the solver and of the formats, by code.
 #[must_use]
 pub fn all() -> Vec<&'static Message> {
-    let rooms = [
+    let scratch_pool = [
         model_file::messages::MESSAGES,
         gmsh::messages::MESSAGES,
         stl::messages::MESSAGES,
@@ -21,7 +21,7 @@ pub fn all() -> Vec<&'static Message> {
         sweep::messages::MESSAGES,
         verification::messages::MESSAGES,
     ];
-    let mut all: Vec<&Message> = catalogue::all().into_iter().chain(rooms.iter().copied().flatten().copied()).collect();
+    let mut all: Vec<&Message> = catalogue::all().into_iter().chain(scratch_pool.iter().copied().flatten().copied()).collect();
     all.sort_by_key(|message| message.code);
     all
 }
@@ -67,7 +67,7 @@ pub fn entry(message: &Message) -> String {
         Example::Shell(text) => fenced("For example, in a shell:", "sh", text),
         Example::Words(text) => format!("For example: {text}\n"),
     };
-    format!("**{}.**\n{}\n\n{example}\nWhat to do: {}", upper(message.title), message.cause, message.cure)
+    format!("**{}.**\n{}\n\n{example}\nWhat to do: {}", upper(message.title), message.cause, message.remedy)
 }
 
 fn upper(text: &str) -> String {

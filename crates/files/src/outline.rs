@@ -1,4 +1,4 @@
-//! Obstacles as lines, in space as surfaces: which are closed, on which side they are solid, which have no
+//! Obstacles as lines, in 3D as surfaces: which are closed, on which side they are solid, which have no
 //! end, and the piece of an endless one that a file holds. Outlines come with every [`Frame`]; lines and
 //! surfaces go to the pictures and to `obstacles.pvd`.
 
@@ -88,13 +88,13 @@ pub(crate) struct LineReader {
 }
 
 impl LineReader {
-    /// Lines of a frame of the plane, in model order.
+    /// Lines of a frame in 2D, in model order.
     pub(crate) fn lines(&mut self, frame: &Frame) -> Vec<Line> {
         let far = self.far(frame);
         frame.outlines.iter().map(|outline| line(&outline.points, far)).collect()
     }
 
-    /// Surfaces of a frame of space, in model order.
+    /// Surfaces of a frame in 3D, in model order.
     pub(crate) fn surfaces(&mut self, frame: &Frame) -> Vec<Surface> {
         let far = self.far(frame);
         frame.outlines.iter().map(|outline| Surface::of(outline, far)).collect()
@@ -120,7 +120,7 @@ fn line(points: &[[f64; 3]], far: f64) -> Line {
     Line { points, is_endless: false }
 }
 
-/// The surface of an obstacle of space at one time, the solid behind its facets.
+/// The surface of an obstacle in 3D at one time, the solid behind its facets.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Surface {
     /// m.
@@ -185,7 +185,7 @@ impl Surface {
 }
 
 impl Plane {
-    /// The place in space of two coordinates in the plane.
+    /// The place in 3D of two coordinates in 2D.
     pub(crate) fn place(&self, [a, b]: [f64; 2]) -> [f64; 3] {
         [0, 1, 2].map(|k| self.foot[k] + a * self.along[0][k] + b * self.along[1][k])
     }
@@ -204,7 +204,7 @@ impl Plane {
         [sides[0].map(|v| v - more), sides[1].map(|v| v + more)]
     }
 
-    /// Corners of a rectangle in the plane, outward by the right-hand rule, m.
+    /// Corners of a rectangle in 2D, outward by the right-hand rule, m.
     pub(crate) fn rectangle(&self, [low, high]: Extent) -> [[f64; 3]; 4] {
         [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]].map(|at| self.place(at))
     }
@@ -271,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_of_space_far_larger_than_the_model_has_no_end_and_a_piece_under_it() {
+    fn a_plane_of_3d_far_larger_than_the_model_has_no_end_and_a_piece_under_it() {
         // Slanted: z = x − 1.
         let square = |s: f64| vec![[-s, -s, -s - 1.0], [s, -s, s - 1.0], [s, s, s - 1.0], [-s, s, -s - 1.0]];
         let large = surface(square(50.0), vec![[0, 1, 2, 3]]);

@@ -142,7 +142,7 @@ pub(crate) fn reopen_or_create(path: &Path, options: &mut OpenOptions) -> io::Re
 const TRIES: usize = 8;
 
 /// Makes a new file, which is this process's own as long as it is open. What a program that was killed has
-/// left under its name is removed, but only a plain file that nobody writes to.
+/// left under its name is removed, but only a plain file that no one writes to.
 ///
 /// # Errors
 /// A link or anything else in its place; [`ErrorKind::ResourceBusy`] where another process writes to it; what
@@ -164,7 +164,7 @@ pub(crate) fn create(path: &Path) -> io::Result<File> {
     Err(busy())
 }
 
-/// Removes a plain file that nobody writes to.
+/// Removes a plain file that no one writes to.
 fn remove_leftover(path: &Path) -> io::Result<()> {
     let file = match reopen(path, OpenOptions::new().read(true)) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),

@@ -1,8 +1,8 @@
-//! Which program writes: its version, and the commit that it was built from, where its main function has told
-//! it.
+//! Which program writes: its version, and the commit that it was built from, where its main function has
+//! reported it.
 //!
 //! The version decides what is read (checkpoints, sweeps); the commit is noted for people and compared by
-//! nobody.
+//! no one.
 
 use std::sync::OnceLock;
 
@@ -17,7 +17,7 @@ pub fn built_from(commit: &'static str) {
     let _ = COMMIT.set(commit);
 }
 
-/// The commit, abbreviated, and its day; `None`: nobody knows it.
+/// The commit, abbreviated, and its day; `None`: no one knows it.
 #[must_use]
 pub fn commit() -> Option<&'static str> {
     COMMIT.get().copied()

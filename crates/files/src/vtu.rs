@@ -12,7 +12,7 @@ mod pack;
 pub(crate) mod read;
 
 use crate::outline::Surface;
-use crate::threads::{Rooms, Threads};
+use crate::threads::{ScratchPool, Threads};
 use embate_solver::output::{CellKind, Cells, FieldKind, Frame, Location, Shown};
 use pack::{Array, Column, Data, Packer, Plain, plain, write_in_pieces, zlib_blocks};
 use std::fmt::Write as _;
@@ -57,7 +57,7 @@ pub enum VtuError {
 
 /// Writes the frames of one run.
 pub struct VtuWriter {
-    packers: Rooms<Packer>,
+    packers: ScratchPool<Packer>,
     cell_count: usize,
     node_last: Option<u32>,
     connectivity: Array,
@@ -72,7 +72,7 @@ impl VtuWriter {
     pub fn new(cells: &Cells, threads: &Threads) -> Self {
         let types = cells.kinds.iter().map(|&kind| kind.facts().vtk).collect();
         let parts = cells.parts.iter().flat_map(|&p| p.to_le_bytes()).collect();
-        let packers = Rooms::default();
+        let packers = ScratchPool::default();
         let packed = |attributes, data| zlib_blocks(&[&plain(attributes, data)], &packers, threads).next().expect("an array was put in");
         Self {
             cell_count: cells.len(),
@@ -134,7 +134,7 @@ impl VtuWriter {
     }
 }
 
-/// The positions of all nodes: in the plane with z = 0.
+/// The positions of all nodes: in 2D with z = 0.
 fn points(shown: &dyn Shown) -> Plain<'_> {
     plain(POINTS, Data::Column(Column { shown, field: None, places: shown.nodes(), width: shown.dimension(), written: 3 }))
 }
@@ -145,7 +145,7 @@ pub struct VtuFile<'a> {
     /// Points and cells.
     counts: [usize; 2],
     sections: Vec<(&'static str, Vec<Content<'a>>)>,
-    packers: &'a Rooms<Packer>,
+    packers: &'a ScratchPool<Packer>,
 }
 
 /// An array of a file: packed before, or still to be.
@@ -267,7 +267,7 @@ pub(crate) fn write_obstacles(lines: &[Vec<[f64; 2]>], time: f64, out: &mut (imp
     cells.write(&Frame { time, ..Frame::of(&positions) }, out)
 }
 
-/// Writes a `.vtu` file of the obstacles of a model of space: each facet as a triangle or a quadrilateral,
+/// Writes a `.vtu` file of the obstacles of a model in 3D: each facet as a triangle or a quadrilateral,
 /// with the index of its obstacle as the cell array `obstacle`.
 ///
 /// # Errors
@@ -313,7 +313,7 @@ impl Pieces {
             ("Points", vec![Content::Plain(points(shown))]),
             ("Cells", cells),
         ];
-        let packers = Rooms::default();
+        let packers = ScratchPool::default();
         VtuFile { time: shown.time, counts: [shown.nodes(), count], sections, packers: &packers }.write(&Threads::one(), out)
     }
 }
@@ -442,7 +442,8 @@ mod tests {
         let file = bytes(&cells(), &frame(), &[], 1).unwrap();
         let text = String::from_utf8_lossy(&file);
         assert!(text.contains(
-            "Name=\"stress\" NumberOfComponents=\"4\" ComponentName0=\"xx\" ComponentName1=\"yy\" ComponentName2=\"zz\" ComponentName3=\"xy\""
+            "Name=\"stress\" NumberOfComponents=\"4\" ComponentName0=\"xx\" ComponentName1=\"yy\" \
+                ComponentName2=\"zz\" ComponentName3=\"xy\""
         ));
         assert!(text.contains("Name=\"velocity\" NumberOfComponents=\"3\" ComponentName0=\"x\" ComponentName1=\"y\" ComponentName2=\"z\""));
         assert!(text.contains("Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">1.25e-5<"));
@@ -548,7 +549,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_vectors_and_stresses_of_space_are_written_with_their_names() {
+    fn cells_vectors_and_stresses_of_3d_are_written_with_their_names() {
         let (cells, frame) = solids();
         let file = bytes(&cells, &frame, &[], 1).unwrap();
         let text = String::from_utf8_lossy(&file);
@@ -564,7 +565,7 @@ mod tests {
     }
 
     #[test]
-    fn obstacles_of_space_are_triangles_and_quadrilaterals_with_their_index() {
+    fn obstacles_of_3d_are_triangles_and_quadrilaterals_with_their_index() {
         let square = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 2.0, 1.0], [0.0, 2.0, 1.0]].to_vec();
         let surface = |points: &[[f64; 3]], facets: Vec<[u32; 4]>| Surface { points: points.to_vec(), facets, is_endless: false };
         let surfaces =

@@ -1,7 +1,7 @@
 //! Lists of vectors as kernels read and add to them, and places in them, checked once against their bound so
 //! that gathers and scatters need no check per place.
 //!
-//! Each vector of space lies in a room of four values, so that a register takes it at once; one of the plane
+//! Each vector in 3D lies in a room of four values, so that a register takes it at once; one of the plane
 //! takes two, and with another that belongs to it four.
 
 use crate::{BATCH, Batch};
@@ -59,7 +59,7 @@ impl Indices {
 /// Points with two vectors each, as position and velocity.
 #[derive(Clone, Debug, Default)]
 pub struct Moving<const D: usize> {
-    /// Of the plane both vectors, of space the first.
+    /// Of the plane both vectors, in 3D the first.
     first: Vec<Batch>,
     /// Of space the second vectors.
     second: Vec<Batch>,
@@ -92,7 +92,7 @@ fn room(index: usize, width: usize) -> (usize, usize) {
 impl<const D: usize> Moving<D> {
     /// Makes room for `count` points, which hold anything.
     pub fn resize(&mut self, count: usize) {
-        const { assert!(D == 2 || D == 3, "vectors are of the plane or of space") };
+        const { assert!(D == 2 || D == 3, "vectors are 2D or 3D") };
         let batches = (count * ROOM).div_ceil(BATCH);
         self.first.resize(batches, Batch::default());
         self.second.resize(if D == 2 { 0 } else { batches }, Batch::default());
@@ -140,7 +140,7 @@ impl<const D: usize> Moving<D> {
         out
     }
 
-    /// The first of all values: of the plane those of both vectors, of space those of the first or second
+    /// The first of all values: of the plane those of both vectors, in 3D those of the first or second
     /// ones.
     #[inline(always)]
     #[cfg(target_arch = "x86_64")]
@@ -162,7 +162,7 @@ impl<const D: usize> VectorSums<D> {
 
     /// `count` sums of nothing.
     pub fn clear(&mut self, count: usize) {
-        const { assert!(D == 2 || D == 3, "vectors are of the plane or of space") };
+        const { assert!(D == 2 || D == 3, "vectors are 2D or 3D") };
         self.values.clear();
         self.values.resize((count * Self::WIDTH).div_ceil(BATCH), Batch::default());
         self.count = count;

@@ -64,7 +64,7 @@ unsafe impl<'a, T: Send> Parts for Chunks<'a, T> {
     unsafe fn part(&self, index: usize) -> &'a mut [T] {
         let begin = index * self.size;
         let end = (begin + self.size).min(self.length);
-        // SAFETY: by the contract the chunk lies inside the list that `new` has borrowed for 'a, and nobody
+        // SAFETY: by the contract the chunk lies inside the list that `new` has borrowed for 'a, and no one
         // else has it.
         unsafe { std::slice::from_raw_parts_mut(self.first.add(begin), end - begin) }
     }
@@ -127,7 +127,7 @@ const OPEN: usize = 1 << 15;
 /// How many are inside.
 const INSIDE: usize = OPEN - 1;
 
-// SAFETY: `work` is written by the leader while the gate is closed and nobody is inside, and read by members
+// SAFETY: `work` is written by the leader while the gate is closed and no one is inside, and read by members
 // who are inside.
 unsafe impl Sync for Shared {}
 // SAFETY: the pointer in it is used as `Sync` says.
@@ -164,7 +164,7 @@ impl Shared {
         }
     }
 
-    /// What a member does all its life. A loop that is over before it comes is none of its business: nobody
+    /// What a member does all its life. A loop that is over before it comes is none of its business: no one
     /// waits for a member that is not inside.
     fn serve(&self, member: usize) {
         let mut done = 0;
@@ -209,7 +209,7 @@ pub struct Team {
 struct Share(AtomicUsize);
 
 impl Team {
-    /// Nobody but the leader.
+    /// No one but the leader.
     #[must_use]
     pub const fn alone() -> Self {
         Self { shared: None, members: Vec::new(), shares: Vec::new() }
@@ -283,10 +283,10 @@ impl Team {
 
     /// Opens the gate, works, closes it, and waits for those who are inside.
     fn work_together(shared: &Shared, work: &Work<'_>) {
-        // SAFETY: only the lifetime changes; nobody uses the pointer after this function, which waits for all
+        // SAFETY: only the lifetime changes; no one uses the pointer after this function, which waits for all
         // who are inside.
         let pointer = unsafe { std::mem::transmute::<*const Work<'_>, *const Work<'static>>(std::ptr::from_ref(work)) };
-        // SAFETY: the gate is closed and nobody is inside: the last loop has waited for that.
+        // SAFETY: the gate is closed and no one is inside: the last loop has waited for that.
         unsafe { *shared.work.get() = Some(pointer) };
         let turn = shared.gate.load(Ordering::Relaxed) / TURN + 1;
         shared.gate.store((turn * TURN) | OPEN, Ordering::SeqCst);
@@ -325,7 +325,7 @@ impl Drop for Team {
             shared.ring();
         }
         for member in self.members.drain(..) {
-            // A member that has panicked has told so when it did.
+            // A member that has panicked has reported so when it did.
             let _ = member.join();
         }
     }

@@ -19,7 +19,7 @@ pub struct F64x4(__m256d);
 #[repr(transparent)]
 pub struct F64x8(__m512d);
 
-/// The four values of a place: of the plane both vectors, of space the first or the second vector and one
+/// The four values of a place: of the plane both vectors, in 3D the first or the second vector and one
 /// value more.
 ///
 /// # Safety
@@ -51,7 +51,7 @@ fn vector<L: Copy, const D: usize>(components: [L; 4], from: usize) -> [L; D] {
     out
 }
 
-/// Adds a vector to one of `sums`; of space with a fourth component, which is zero.
+/// Adds a vector to one of `sums`; in 3D with a fourth component, which is zero.
 ///
 /// # Safety
 /// `place` must be that of a sum, times [`ROOM`], `row` must hold 2 or 4 values and be aligned to 16 or 32

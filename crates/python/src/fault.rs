@@ -13,7 +13,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// One fault: code, place, message, cure.
+/// One fault: code, place, message, remedy.
 pub(crate) struct Entry {
     pub(crate) code: String,
     pub(crate) path: String,
@@ -28,9 +28,9 @@ impl Entry {
         Self::of(kind, "", 0, &text.to_string(), "")
     }
 
-    /// Without a help of its own the kind's cure tells what to do.
+    /// Without a help of its own the kind's remedy says what to do.
     fn of(kind: &Message, path: &str, line: usize, message: &str, help: &str) -> Self {
-        let help = if help.is_empty() { kind.cure } else { help };
+        let help = if help.is_empty() { kind.remedy } else { help };
         Self { code: kind.code.into(), path: path.into(), line, message: message.into(), help: help.into() }
     }
 

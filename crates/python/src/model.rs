@@ -1,7 +1,7 @@
 //! Models: read from a file or a text, as a simulation needs them.
 
 use crate::fault::{entries, guarded, of_diagnostics};
-use embate_files::Reach;
+use embate_files::PathPolicy;
 use embate_files::checkpoint::Origin;
 use embate_files::model_file::{GivenMeshes, Loaded, load_text_with_meshes, load_with_places};
 use pyo3::prelude::*;
@@ -17,8 +17,8 @@ pub(crate) struct Model {
     pub(crate) origin: Option<Origin>,
 }
 
-fn reach(is_anywhere: bool) -> Reach {
-    if is_anywhere { Reach::Anywhere } else { Reach::Folder }
+fn reach(is_anywhere: bool) -> PathPolicy {
+    if is_anywhere { PathPolicy::Anywhere } else { PathPolicy::Folder }
 }
 
 #[pymethods]
@@ -62,7 +62,7 @@ impl Model {
         &self.loaded.model.title
     }
 
-    /// 2 in the plane, 3 in space.
+    /// 2 in 2D, 3 in 3D.
     #[getter]
     fn dimension(&self) -> usize {
         self.loaded.model.dimension()
@@ -80,9 +80,9 @@ impl Model {
         self.loaded.model.parts.iter().map(|part| part.name.as_str()).collect()
     }
 
-    /// What the user should know of the model before it runs: code, place, message and cure of each.
+    /// What the user should know of the model before it runs: code, place, message and remedy of each.
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
-        let told = self.loaded.told(&self.loaded.model.warnings());
-        entries(&told).iter().map(|entry| entry.dict(py)).collect()
+        let reported = self.loaded.reported(&self.loaded.model.warnings());
+        entries(&reported).iter().map(|entry| entry.dict(py)).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! Simulations: stepped without the interpreter's lock, asked for arrays between steps.
 //!
-//! Rows of the history are kept as they are told, so a run in pieces has the history of the whole one. What
-//! Python asks for is copied: the solver has its nodes in an order of its own, and goes on writing.
+//! Rows of the history are kept as they are reported, so a run in pieces has the history of the whole one.
+//! What Python asks for is copied: the solver has its nodes in an order of its own, and continues writing.
 
 use crate::fault::{self, Class, Entry, guarded, raise};
 use crate::model::Model;
@@ -45,7 +45,7 @@ struct Inner {
     stretch: u64,
 }
 
-/// Rows as they are told.
+/// Rows as they are reported.
 #[derive(Default)]
 struct History {
     rows: Vec<f64>,
@@ -147,14 +147,16 @@ impl Simulation {
 
     fn lock(&self) -> PyResult<MutexGuard<'_, Option<Inner>>> {
         if std::process::id() != self.process {
-            let text = "this simulation belongs to the process that made it, and this one was forked from it: make the simulation here, or start workers by \"spawn\"";
+            let text = "this simulation belongs to the process that made it, and this one was forked from it: make \
+                the simulation here, or start workers by \"spawn\"";
             return Err(raise(Class::State, text, &[]));
         }
         match self.inner.try_lock() {
             Ok(inner) if inner.is_none() => Err(raise(Class::State, "this simulation is closed", &[])),
             Ok(inner) => Ok(inner),
             Err(TryLockError::WouldBlock) => {
-                let text = "this simulation is at work in another thread, or calls a function that steps it: a simulation does one thing at a time";
+                let text = "this simulation is at work in another thread, or calls a function that steps it: a \
+                    simulation does one thing at a time";
                 Err(raise(Class::State, text, &[]))
             }
             Err(TryLockError::Poisoned(_)) => Err(raise(Class::State, "this simulation was ended by a failure of embate itself", &[])),
@@ -225,7 +227,7 @@ impl Simulation {
     fn advance(&self, py: Python<'_>, until: f64, steps: u64, seconds: f64) -> PyResult<()> {
         self.without_lock(py, |inner| {
             if let Some(failure) = &inner.failure {
-                return Err(raise(Class::State, &format!("the run has failed and can't go on: {failure}"), &[]));
+                return Err(raise(Class::State, &format!("the run has failed and can't continue: {failure}"), &[]));
             }
             inner.advance(until, steps, seconds).map_err(|error| fault::of_error(&error))
         })
@@ -239,10 +241,10 @@ impl Simulation {
             let model = &loaded.model;
             let folder = ResultFolder::create(&folder, force).map_err(|error| fault::of_results(&error))?;
             let shown = (inner.simulation.history_columns(), inner.simulation.cells());
-            // Nobody can resume, or run again, a model that is in memory alone.
+            // No one can resume, or run again, a model that is in memory alone.
             let checkpoints = origin.clone().map(|origin| Checkpoints::of(model, origin));
-            let go_on = Box::new(|_: &Progress<'_>| Control::Continue);
-            let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, go_on);
+            let continue_run = Box::new(|_: &Progress<'_>| Control::Continue);
+            let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, continue_run);
             inner.recorder = Some(recorder.map_err(|error| fault::of_results(&error))?);
             Ok(())
         })

@@ -1,11 +1,11 @@
 //! Cost of contact in a step:
 //! `cargo bench -p embate-solver --bench contact [plane|space] [MOTION…] [ELEMENTS [THREADS]]`; a MOTION is a
-//! part of a name that is told, such as `shifted`.
+//! part of a name that is reported, such as `shifted`.
 //!
 //! A stack of long strips, each so near to the next that every node of their long sides is in reach of the
 //! next strip; all in one contact of bodies with each other and with themselves. At rest nothing presses; in
-//! motion every second strip moves against its neighbours. Told are the shares of the step that contact, its
-//! tracking and the swept check take, and the time of a global search. In space two slabs lie on each other,
+//! motion every second strip moves against its neighbours. Reported are the shares of the step that contact,
+//! its tracking and the swept check take, and the time of a global search. In 3D two slabs lie on each other,
 //! node on node or shifted.
 
 use embate_solver::bench::{shortest, slabs, step_times, strips};

@@ -48,7 +48,7 @@ fn main() {
             }
         }
     }
-    println!("in space, in cache: 1,000 hexahedra, 686 wedges, 750 tetrahedra");
+    println!("in 3D, in cache: 1,000 hexahedra, 686 wedges, 750 tetrahedra");
     for kind in ELEMENTS_OF_SPACE {
         let in_cube = kind.cell.facts().division.len() / kind.nodes();
         let n = (1..).take_while(|n| n * n * n * in_cube <= 1000).last().unwrap_or(1);

@@ -1,7 +1,7 @@
 //! The whole step without contact: `cargo bench -p embate-solver --bench step [-- ELEMENT...]`.
 //!
 //! A square block that flies and stretches, in cache and out of it: million element-steps per second of the
-//! elements alone and of the whole step, whose rest is assembly, nodes and the books.
+//! elements alone and of the whole step, whose rest is assembly, nodes and the ledger.
 
 use embate_solver::bench::{best_rate, spinning_block};
 use embate_solver::simulation::{Options, Simulation};

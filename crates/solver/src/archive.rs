@@ -1,8 +1,8 @@
 //! The state of a run as bytes: one function of each type for both directions, so that writing and reading
 //! cannot diverge.
 //!
-//! Whatever changes while a run goes on and can't be made again of the model, bit for bit, is [`Keep`]: its
-//! one function hands every value to an [`Archive`], which either writes it down or fills it. Values are
+//! Whatever changes while a run continues and can't be made again of the model, bit for bit, is [`Persist`]:
+//! its one function hands every value to an [`Archive`], which either writes it down or fills it. Values are
 //! little-endian; lists have their length before them, and what is read of a length is held against the bytes
 //! that are left before room is made. What is read is checked where it would be used as an index. The state
 //! comes from [`crate::simulation`]; who stores the sections is not known here.
@@ -21,16 +21,16 @@ pub struct Section {
 
 /// Why bytes are not the state of a model.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Misfit(pub(crate) Box<str>);
+pub struct ArchiveError(pub(crate) Box<str>);
 
-impl Misfit {
+impl ArchiveError {
     pub(crate) fn new(what: impl Into<String>) -> Self {
         Self(what.into().into())
     }
 }
 
 /// How keeping ended.
-pub type Kept = Result<(), Misfit>;
+pub type ArchiveResult = Result<(), ArchiveError>;
 
 /// What is written to, or read from.
 pub struct Archive<'a> {
@@ -66,22 +66,22 @@ impl<'a> Archive<'a> {
     ///
     /// # Errors
     /// Another one comes next, or bytes of the last one are left.
-    pub fn section(&mut self, name: &str) -> Kept {
+    pub fn section(&mut self, name: &str) -> ArchiveResult {
         self.end_section()?;
         match &mut self.left {
             None => self.written.push(Section { name: name.into(), bytes: Vec::new() }),
             Some((sections, rest)) => match sections.split_first() {
                 Some((first, others)) if first.name == name => (*sections, *rest) = (others, &first.bytes),
-                Some((first, _)) => return Err(Misfit::new(format!("there is \"{}\" where \"{name}\" should be", first.name))),
-                None => return Err(Misfit::new(format!("\"{name}\" is missing"))),
+                Some((first, _)) => return Err(ArchiveError::new(format!("there is \"{}\" where \"{name}\" should be", first.name))),
+                None => return Err(ArchiveError::new(format!("\"{name}\" is missing"))),
             },
         }
         Ok(())
     }
 
-    fn end_section(&self) -> Kept {
+    fn end_section(&self) -> ArchiveResult {
         match self.left {
-            Some((_, rest)) if !rest.is_empty() => Err(Misfit::new(format!("{} bytes are left over", rest.len()))),
+            Some((_, rest)) if !rest.is_empty() => Err(ArchiveError::new(format!("{} bytes are left over", rest.len()))),
             _ => Ok(()),
         }
     }
@@ -90,10 +90,10 @@ impl<'a> Archive<'a> {
     ///
     /// # Errors
     /// Something is left.
-    pub fn finish(self) -> Result<Vec<Section>, Misfit> {
+    pub fn finish(self) -> Result<Vec<Section>, ArchiveError> {
         self.end_section()?;
         match self.left {
-            Some(([first, ..], _)) => Err(Misfit::new(format!("nothing is known of \"{}\"", first.name))),
+            Some(([first, ..], _)) => Err(ArchiveError::new(format!("nothing is known of \"{}\"", first.name))),
             _ => Ok(self.written),
         }
     }
@@ -105,15 +105,15 @@ impl<'a> Archive<'a> {
 
     /// Writes or fills the bytes of a value.
     #[inline(always)]
-    fn pass<const N: usize>(&mut self, bytes: &mut [u8; N]) -> Kept {
+    fn pass<const N: usize>(&mut self, bytes: &mut [u8; N]) -> ArchiveResult {
         match &mut self.left {
             None => match self.written.last_mut() {
                 Some(section) => section.bytes.extend_from_slice(bytes),
-                None => return Err(Misfit::new("no section has begun")),
+                None => return Err(ArchiveError::new("no section has begun")),
             },
             Some((_, rest)) => match rest.split_first_chunk() {
                 Some((first, others)) => (*bytes, *rest) = (*first, others),
-                None => return Err(Misfit::new("it ends too early")),
+                None => return Err(ArchiveError::new("it ends too early")),
             },
         }
         Ok(())
@@ -130,8 +130,8 @@ impl<'a> Archive<'a> {
     ///
     /// # Errors
     /// What is wrong, where it is not.
-    pub fn check(&self, is_possible: bool, what: &str) -> Kept {
-        if is_possible { Ok(()) } else { Err(Misfit::new(what)) }
+    pub fn check(&self, is_possible: bool, what: &str) -> ArchiveResult {
+        if is_possible { Ok(()) } else { Err(ArchiveError::new(what)) }
     }
 }
 
@@ -142,19 +142,19 @@ impl Default for Archive<'_> {
 }
 
 /// What is part of the state.
-pub trait Keep {
+pub trait Persist {
     /// Writes this to an archive, or fills it from there.
     ///
     /// # Errors
     /// What is read can't be.
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult;
 }
 
 macro_rules! numbers {
     ($($number:ty),*) => {$(
-        impl Keep for $number {
+        impl Persist for $number {
             #[inline(always)]
-            fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+            fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
                 let mut bytes = self.to_le_bytes();
                 archive.pass(&mut bytes)?;
                 *self = Self::from_le_bytes(bytes);
@@ -166,119 +166,119 @@ macro_rules! numbers {
 
 numbers!(u8, u16, u32, u64, i32, f32, f64);
 
-impl Keep for usize {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for usize {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut number = *self as u64;
-        number.keep(archive)?;
-        *self = Self::try_from(number).map_err(|_| Misfit::new(format!("{number} is too large a number")))?;
+        number.persist(archive)?;
+        *self = Self::try_from(number).map_err(|_| ArchiveError::new(format!("{number} is too large a number")))?;
         Ok(())
     }
 }
 
-impl Keep for bool {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for bool {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut byte = u8::from(*self);
-        byte.keep(archive)?;
+        byte.persist(archive)?;
         *self = byte == 1;
-        archive.check(byte < 2, "a yes or no is neither")
+        archive.check(byte < 2, "invalid boolean")
     }
 }
 
-impl<T: Keep, const N: usize> Keep for [T; N] {
+impl<T: Persist, const N: usize> Persist for [T; N] {
     #[inline(always)]
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        self.iter_mut().try_for_each(|item| item.keep(archive))
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        self.iter_mut().try_for_each(|item| item.persist(archive))
     }
 }
 
-impl Keep for Batch {
+impl Persist for Batch {
     #[inline(always)]
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        self.0.keep(archive)
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        self.0.persist(archive)
     }
 }
 
-impl<A: Keep, B: Keep> Keep for (A, B) {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        self.0.keep(archive)?;
-        self.1.keep(archive)
+impl<A: Persist, B: Persist> Persist for (A, B) {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        self.0.persist(archive)?;
+        self.1.persist(archive)
     }
 }
 
-impl<T: Keep + Default> Keep for Option<T> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<T: Persist + Default> Persist for Option<T> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut is_there = self.is_some();
-        is_there.keep(archive)?;
+        is_there.persist(archive)?;
         if !is_there {
             *self = None;
             return Ok(());
         }
-        self.get_or_insert_default().keep(archive)
+        self.get_or_insert_default().persist(archive)
     }
 }
 
 /// A list whose length the model gives.
-impl<T: Keep> Keep for [T] {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<T: Persist> Persist for [T] {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut count = self.len();
-        count.keep(archive)?;
+        count.persist(archive)?;
         if count != self.len() {
-            return Err(Misfit::new(format!("a list has {count} items, the model's {}", self.len())));
+            return Err(ArchiveError::new(format!("a list has {count} items, the model's {}", self.len())));
         }
         archive.expect(size_of_val(self));
-        self.iter_mut().try_for_each(|item| item.keep(archive))
+        self.iter_mut().try_for_each(|item| item.persist(archive))
     }
 }
 
 /// A list of any length.
-impl<T: Keep + Default> Keep for Vec<T> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<T: Persist + Default> Persist for Vec<T> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut count = self.len();
-        count.keep(archive)?;
+        count.persist(archive)?;
         if !archive.reads() {
             archive.expect(size_of_val(&self[..]));
-            return self.iter_mut().try_for_each(|item| item.keep(archive));
+            return self.iter_mut().try_for_each(|item| item.persist(archive));
         }
         // Every item has a byte at least.
         if count > archive.rest() {
-            return Err(Misfit::new(format!("a list of {count} items has {} bytes", archive.rest())));
+            return Err(ArchiveError::new(format!("a list of {count} items has {} bytes", archive.rest())));
         }
         self.clear();
         self.reserve(count.min(archive.rest() / size_of::<T>().max(1) + 1));
         for _ in 0..count {
             let mut item = T::default();
-            item.keep(archive)?;
+            item.persist(archive)?;
             self.push(item);
         }
         Ok(())
     }
 }
 
-impl Keep for String {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for String {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut bytes = std::mem::take(self).into_bytes();
-        bytes.keep(archive)?;
-        *self = Self::from_utf8(bytes).map_err(|_| Misfit::new("a text is no text"))?;
+        bytes.persist(archive)?;
+        *self = Self::from_utf8(bytes).map_err(|_| ArchiveError::new("a text is no text"))?;
         Ok(())
     }
 }
 
-impl<K: Keep + Default + Ord + Clone, V: Keep + Default> Keep for BTreeMap<K, V> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<K: Persist + Default + Ord + Clone, V: Persist + Default> Persist for BTreeMap<K, V> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut items: Vec<(K, V)> = std::mem::take(self).into_iter().collect();
-        items.keep(archive)?;
+        items.persist(archive)?;
         *self = items.into_iter().collect();
         Ok(())
     }
 }
 
-/// Makes a structure [`Keep`] all of its fields: each is named, so that none can be forgotten.
-macro_rules! keep_all {
+/// Makes a structure [`Persist`] all of its fields: each is named, so that none can be forgotten.
+macro_rules! persist_all {
     ($name:ty { $($field:ident),* $(,)? }) => {
-        impl $crate::archive::Keep for $name {
-            fn keep(&mut self, archive: &mut $crate::archive::Archive<'_>) -> $crate::archive::Kept {
+        impl $crate::archive::Persist for $name {
+            fn persist(&mut self, archive: &mut $crate::archive::Archive<'_>) -> $crate::archive::ArchiveResult {
                 let Self { $($field),* } = self;
-                $($crate::archive::Keep::keep($field, archive)?;)*
+                $($crate::archive::Persist::persist($field, archive)?;)*
                 Ok(())
             }
         }
@@ -286,17 +286,17 @@ macro_rules! keep_all {
 }
 
 /// Keeps several values in this order.
-macro_rules! keep_each {
+macro_rules! persist_each {
     ($archive:expr; $($value:expr),* $(,)?) => {{
-        $($crate::archive::Keep::keep($value, $archive)?;)*
+        $($crate::archive::Persist::persist($value, $archive)?;)*
     }};
 }
 
-pub(crate) use {keep_all, keep_each};
+pub(crate) use {persist_all, persist_each};
 
 /// A plain value: copied, compared and kept.
-pub trait Plain: Copy + std::fmt::Debug + Default + PartialEq + Keep + Send + Sync + 'static {}
-impl<T: Copy + std::fmt::Debug + Default + PartialEq + Keep + Send + Sync + 'static> Plain for T {}
+pub trait Plain: Copy + std::fmt::Debug + Default + PartialEq + Persist + Send + Sync + 'static {}
+impl<T: Copy + std::fmt::Debug + Default + PartialEq + Persist + Send + Sync + 'static> Plain for T {}
 
 #[cfg(test)]
 mod tests {
@@ -312,15 +312,15 @@ mod tests {
     fn written() -> Vec<Section> {
         let mut archive = Archive::new();
         archive.section("all").unwrap();
-        some().keep(&mut archive).unwrap();
+        some().persist(&mut archive).unwrap();
         archive.finish().unwrap()
     }
 
-    fn read(sections: &[Section]) -> Result<All, Misfit> {
+    fn read(sections: &[Section]) -> Result<All, ArchiveError> {
         let mut archive = Archive::of(sections);
         let mut all = All::default();
         archive.section("all")?;
-        all.keep(&mut archive)?;
+        all.persist(&mut archive)?;
         archive.finish()?;
         Ok(all)
     }

@@ -33,7 +33,7 @@ impl Assembly {
         Self { rows, slots, count: blocks.iter().map(|block| block.len()).sum() }
     }
 
-    /// Forces at the eight nodes of a group, N/m in the plane.
+    /// Forces at the eight nodes of a group, N/m in 2D.
     #[inline(always)]
     #[must_use]
     pub fn forces<const D: usize>(&self, group: usize, forces: &[[f64; D]]) -> [[f64; D]; BATCH] {
@@ -48,7 +48,7 @@ impl Assembly {
         sums
     }
 
-    /// Sum of the forces at `node`, N/m in the plane.
+    /// Sum of the forces at `node`, N/m in 2D.
     #[inline]
     #[must_use]
     pub fn force<const D: usize>(&self, node: usize, forces: &[[f64; D]]) -> [f64; D] {

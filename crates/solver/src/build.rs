@@ -1,12 +1,12 @@
 //! The builder: from a model to a [`System`] with mesh, blocks, masses, contacts, obstacles, rigid bodies and
 //! conditions. All faults are collected before anything runs.
 
-mod again;
+mod rebuild;
 mod bodies;
 mod dimension;
 mod discrete;
 mod failure;
-mod fans;
+mod node_elements;
 mod idle;
 mod limits;
 mod mass;
@@ -43,7 +43,7 @@ use crate::tensor::Dim;
 use crate::vector;
 pub use dimension::Builds;
 use embate_lanes::Level;
-use fans::Fans;
+use node_elements::NodeElements;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
@@ -104,7 +104,7 @@ where
     /// Their masses, kg/m; 1 where an obstacle has a node.
     mass: Vec<f64>,
     /// Which elements are at which nodes; found when the first edge asks.
-    fans: OnceCell<Fans>,
+    node_elements: OnceCell<NodeElements>,
     /// Wave modulus and bulk modulus of each group of elements, Pa.
     moduli: Vec<[f64; 2]>,
     /// First time step, s; only where a contact asks for it.
@@ -118,7 +118,7 @@ where
     /// Rigid bodies of the obstacles by name, where they are there already.
     made: BTreeMap<String, usize>,
     /// Whether contacts are made again, of changed surfaces.
-    again: bool,
+    rebuild: bool,
 }
 
 impl<'a, const D: usize> Builder<'a, D>
@@ -149,7 +149,7 @@ where
             faults: Vec::new(),
             positions: Vec::new(),
             mass: Vec::new(),
-            fans: OnceCell::new(),
+            node_elements: OnceCell::new(),
             moduli: Vec::new(),
             time_step: 0.0,
             bodies: Bodies::default(),
@@ -157,7 +157,7 @@ where
             terms: Vec::new(),
             outlines: Vec::new(),
             made: BTreeMap::new(),
-            again: false,
+            rebuild: false,
         }
     }
 }
@@ -172,7 +172,7 @@ where
         if self.time_step > 0.0 { law::penalty::of_time_step(self.mass[node as usize], self.time_step, area) } else { 0.0 }
     }
 
-    /// Tells if nodes are bound already (`tied`: which contact binds a node): two ties would hold against
+    /// Reports if nodes are bound already (`tied`: which contact binds a node): two ties would hold against
     /// each other.
     fn tied_once<'m>(&mut self, path: &str, contact: &'m str, nodes: &[u32], tied: &mut BTreeMap<u32, &'m str>) {
         let twice = nodes.iter().find_map(|&node| Some((node, *tied.get(&node)?)));

@@ -1,7 +1,7 @@
 //! All messages of the solver, from the lists of the modules that raise them.
 
 use crate::message::Message;
-use crate::{contact, error, load, material, mesh, model, watch};
+use crate::{contact, error, load, material, mesh, model, monitor};
 
 /// All entries of the solver.
 #[must_use]
@@ -13,7 +13,7 @@ pub fn all() -> Vec<&'static Message> {
         contact::messages::MESSAGES,
         load::messages::MESSAGES,
         error::MESSAGES,
-        watch::MESSAGES,
+        monitor::MESSAGES,
     ];
     rooms.iter().copied().flatten().copied().chain(material::messages()).collect()
 }

@@ -3,7 +3,7 @@
 //! Solved springs add to them ([`crate::contact::Contact::collect`]); the velocity update, rigid bodies and
 //! records read them. A step costs as much as there are nodes in contact.
 
-use crate::archive::{Archive, Keep, Kept};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use embate_lanes::BATCH;
 
 /// Forces of contacts and obstacles on nodes, N/m. Of a model without contacts there are none, not even of
@@ -20,19 +20,19 @@ pub struct ContactForces<const D: usize = 2> {
     marked: Vec<u32>,
 }
 
-impl<const D: usize> Keep for ContactForces<D> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<const D: usize> Persist for ContactForces<D> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         if archive.reads() {
             self.clear();
         }
         let Self { values, nodes, marks, marked } = self;
-        marked.keep(archive)?;
+        marked.persist(archive)?;
         for &mut group in marked {
             let group = group as usize;
             archive.check(group < marks.len(), "a contact force is nowhere")?;
             marks[group] = true;
             let end = grown(values, *nodes, group);
-            values[group * BATCH..end].iter_mut().try_for_each(|force| force.keep(archive))?;
+            values[group * BATCH..end].iter_mut().try_for_each(|force| force.persist(archive))?;
         }
         Ok(())
     }

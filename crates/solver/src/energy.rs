@@ -10,13 +10,13 @@
 //! multipliers take is their work with its sign turned, by the same rule: the drift can't judge it, its sign
 //! can.
 
-use crate::archive::keep_all;
+use crate::archive::persist_all;
 use crate::reductions;
 
-keep_all!(Works { internal, contact, gravity, load, damping, constraint, drive });
-keep_all!(Lost { friction, damping, old, freed, let_go });
-keep_all!(Stores { kinetic, elastic, plastic, hourglass, bulk_viscosity, contact, friction, contact_damping, damping, eroded });
-keep_all!(Ledger { kinetic_start, total_start, works, external, halves, stores, largest, residual, drift });
+persist_all!(Works { internal, contact, gravity, load, damping, constraint, drive });
+persist_all!(Lost { friction, damping, old, freed, lost_contact_energy });
+persist_all!(Stores { kinetic, elastic, plastic, hourglass, bulk_viscosity, contact, friction, contact_damping, damping, eroded });
+persist_all!(Ledger { kinetic_start, total_start, works, external, halves, stores, largest, residual, drift });
 
 /// Works of one step by kind of force, J/m; each is force times mean velocity times ½(dt + dt_old).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -72,7 +72,7 @@ pub struct Lost {
     pub freed: f64,
     /// Energy at n − ½ of springs that were closed and are no more at n: their node or segment has left the
     /// surface.
-    pub let_go: f64,
+    pub lost_contact_energy: f64,
 }
 
 impl Lost {
@@ -84,7 +84,7 @@ impl Lost {
             damping: of(|lost| lost.damping),
             old: [of(|lost| lost.old[0]), of(|lost| lost.old[1])],
             freed: of(|lost| lost.freed),
-            let_go: of(|lost| lost.let_go),
+            lost_contact_energy: of(|lost| lost.lost_contact_energy),
         }
     }
 }
@@ -96,7 +96,7 @@ impl std::ops::AddAssign for Lost {
         self.old[0] += other.old[0];
         self.old[1] += other.old[1];
         self.freed += other.freed;
-        self.let_go += other.let_go;
+        self.lost_contact_energy += other.lost_contact_energy;
     }
 }
 
@@ -231,7 +231,7 @@ pub struct Ledger {
     drift: f64,
 }
 
-/// What the momentum update of one step tells the ledger.
+/// What the momentum update of one step reports the ledger.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Entry {
     /// ½ Σ m|v^{n+1/2}|², J/m.
@@ -270,8 +270,8 @@ impl Ledger {
         let lost = &entry.lost;
         let works = [entry.works.external(), lost.friction, lost.damping, -entry.works.damping];
         let olds = [entry.external_old, lost.old[0], lost.old[1], -entry.damping_old];
-        // What let go on the way here is gone at n.
-        self.halves[2] += lost.let_go;
+        // What was released on the way here is gone at n.
+        self.halves[2] += lost.lost_contact_energy;
         let mut wholes = [0.0; 4];
         for (k, whole) in wholes.iter_mut().enumerate() {
             *whole = self.halves[k] + entry.before * olds[k];
@@ -333,16 +333,16 @@ mod tests {
 
     #[test]
     fn what_springs_let_go_is_gone_in_the_step_that_misses_it() {
-        let entry = |contact: f64, let_go: f64| Entry {
+        let entry = |contact: f64, lost_contact_energy: f64| Entry {
             kinetic_half: 3.0,
             before: 0.5,
             stores: Stores { kinetic: 3.0, contact, ..Stores::default() },
-            lost: Lost { let_go, ..Lost::default() },
+            lost: Lost { lost_contact_energy, ..Lost::default() },
             ..Entry::default()
         };
         let mut ledger = Ledger::new(3.0, 0.0);
-        for (contact, let_go) in [(2.0, 0.0), (2.0, 0.0), (0.5, 1.5), (0.5, 0.0)] {
-            ledger.enter(&entry(contact, let_go));
+        for (contact, lost_contact_energy) in [(2.0, 0.0), (2.0, 0.0), (0.5, 1.5), (0.5, 0.0)] {
+            ledger.enter(&entry(contact, lost_contact_energy));
             assert_eq!(ledger.stores.contact + ledger.stores.contact_damping, 2.0);
         }
         assert_eq!(ledger.drift(), 0.0);

@@ -2,7 +2,7 @@
 //! model with warnings is accepted; the first error ends a run; a notice is for the user of a run that
 //! continues. Each is of a kind that is in the catalogue of messages (`message.rs`); those of runs are here.
 
-use crate::archive::Misfit;
+use crate::archive::ArchiveError;
 use crate::message::{Example, Message};
 use std::fmt;
 use thiserror::Error;
@@ -31,8 +31,10 @@ static INVERTED: Message = Message {
     example: Example::Model(
         "[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"-3 km/s\" }\n\n[[constraint]]\non = \"wall.left\"\nfixed = \"x\"\n",
     ),
-    cause: "The element was squeezed or sheared until its volume was gone at some point: a load or velocity that the material can't bear, wrong units, or hourglass motion.",
-    cure: "Refine the mesh at the place that the message names, lower the load or velocity, check the units of the material, or let elements fail before (`failure`).",
+    cause: "The element was squeezed or sheared until its volume was gone at some point: a load or velocity that the \
+        material can't bear, wrong units, or hourglass motion.",
+    remedy: "Refine the mesh at the place that the message names, lower the load or velocity, check the units of the \
+        material, or let elements fail before (`failure`).",
 };
 
 static COLLAPSED: Message = Message {
@@ -40,7 +42,7 @@ static COLLAPSED: Message = Message {
     title: "the stable time step collapsed",
     example: Example::Model("[run]\nstep_limit = \"5 us\"\n"),
     cause: "The step goes with the smallest element over the speed of sound in it: an element was squeezed flat, or grew very stiff.",
-    cure: "Look at the element that the message names in the last written state; or lower `run.step_limit`.",
+    remedy: "Look at the element that the message names in the last written state; or lower `run.step_limit`.",
 };
 
 static ENERGY_DRIFT: Message = Message {
@@ -50,17 +52,19 @@ static ENERGY_DRIFT: Message = Message {
         "Contact penalties far stiffer than the bodies, or a step that is not stable (`safety` near 1 with strong contact).",
     ),
     cause: "The sum of all energies is not the sum of all works: the run is not a solution of its equations.",
-    cure: "Lower `run.safety`, check contact penalties and initial penetrations; raise `run.energy_limit` only if the loss is understood.",
+    remedy: "Lower `run.safety`, check contact penalties and initial penetrations; raise `run.energy_limit` only if \
+        the loss is understood.",
 };
 
 static NOT_FINITE: Message = Message {
     code: "E0604",
     title: "a number is no longer finite",
     example: Example::Model(
-        "[curve.push]\ntime = [0, \"1 us\"]\nvalue = [0, \"1e300 m/s\"]\n\n[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"push\" }\n",
+        "[curve.push]\ntime = [0, \"1 us\"]\nvalue = [0, \"1e300 m/s\"]\n\n[[constraint]]\non = \"wall.right\"\nvelocity \
+            = { x = \"push\" }\n",
     ),
     cause: "Parameters, loads or units are wrong by powers of ten, so that a value overflowed or zero was divided by zero.",
-    cure: "Check material parameters, loads and units of what the message names.",
+    remedy: "Check material parameters, loads and units of what the message names.",
 };
 
 static TOO_DEEP: Message = Message {
@@ -69,16 +73,21 @@ static TOO_DEEP: Message = Message {
     example: Example::Model(
         "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\npenalty_scale = 1e-9\n\n[run]\nend = \"2 ms\"\n",
     ),
-    cause: "A surface is deeper inside another than the longest segment, or than the thinner body there is thick (or than `run.penetration_limit`): the contact is far too soft for what presses on it, or began to act when the bodies were already inside each other.",
-    cure: "Raise `penalty_scale` or `penalty` of the contact, or take the law `multiplier`; raise `run.penetration_limit` where so much depth is meant.",
+    cause: "A surface is deeper inside another than the longest segment, or than the thinner body there is thick (or \
+        than `run.penetration_limit`): the contact is far too soft for what presses on it, or began to act when the \
+        bodies were already inside each other.",
+    remedy: "Raise `penalty_scale` or `penalty` of the contact, or take the law `multiplier`; raise \
+        `run.penetration_limit` where so much depth is meant.",
 };
 
 static RUNAWAY: Message = Message {
     code: "E0607",
     title: "a node runs away",
     example: Example::Model("[[load]]\ngravity = [\"9.81e13 m/s^2\", 0]\n"),
-    cause: "No body moves many times as fast as its waves, unless it was thrown so: a load, a velocity or a unit is wrong by powers of ten, a spring or a contact shot a node away, or a light node has nothing that holds it.",
-    cure: "Look at the node that the message names, and at the units of loads on its part; raise `run.velocity_limit` where such speeds are meant.",
+    cause: "No body moves many times as fast as its waves, unless it was thrown so: a load, a velocity or a unit is \
+        wrong by powers of ten, a spring or a contact shot a node away, or a light node has nothing that holds it.",
+    remedy: "Look at the node that the message names, and at the units of loads on its part; raise \
+        `run.velocity_limit` where such speeds are meant.",
 };
 
 /// A model needs more memory than there may be.
@@ -86,16 +95,18 @@ pub static MEMORY: Message = Message {
     code: "E0608",
     title: "more memory than there may be",
     example: Example::Model("[run]\nmemory_limit = \"1 kB\"\n"),
-    cause: "The model has so many elements that they would not fit into the memory that `run.memory_limit` allows, or that the machine has to spare.",
-    cure: "Take larger elements, and fine ones only where something happens (`grading`), or a machine with more memory; raise `run.memory_limit`.",
+    cause: "The model has so many elements that they would not fit into the memory that `run.memory_limit` allows, \
+        or that the machine has to spare.",
+    remedy: "Take larger elements, and fine ones only where something happens (`grading`), or a machine with more \
+        memory; raise `run.memory_limit`.",
 };
 
 static STATE: Message = Message {
     code: "E0710",
     title: "a kept state that does not fit its model",
     example: Example::Words("A checkpoint that another version of embate wrote, with check sums that are right."),
-    cause: "The state of a run has other parts than the model that goes on with it.",
-    cure: "Go on with the version that began the run, or begin it anew with `embate run --force`.",
+    cause: "The state of a run has other parts than the model that continues it.",
+    remedy: "Continue with the version that began the run, or start it again with `embate run --force`.",
 };
 
 static OUTPUT: Message = Message {
@@ -103,7 +114,7 @@ static OUTPUT: Message = Message {
     title: "results can't be written",
     example: Example::Words("The disk becomes full while a run writes its fields."),
     cause: "The system refused to write; its own words are in the message.",
-    cure: "Free some space, or write to another disk with --out.",
+    remedy: "Free some space, or write to another disk with --out.",
 };
 
 /// Mass scaling would add more than its limit.
@@ -112,7 +123,7 @@ pub static MASS_SCALING: Message = Message {
     title: "mass scaling would add more than its limit",
     example: Example::Model("[run]\nmass_scaling = { time_step = \"10 us\", limit = 0.01 }\n"),
     cause: "The step that is asked for needs more mass than `limit` allows: inertia would be wrong.",
-    cure: "Take a smaller step, mend the smallest elements, or raise `limit` where inertia does not matter.",
+    remedy: "Take a smaller step, fix the smallest elements, or raise `limit` where inertia does not matter.",
 };
 
 pub(crate) static INSTRUCTIONS: Message = Message {
@@ -120,15 +131,16 @@ pub(crate) static INSTRUCTIONS: Message = Message {
     title: "an instruction set that this machine does not have",
     example: Example::Command("run model.toml --simd sse9"),
     cause: "The processor, or the program as it was built for it, does not know the set.",
-    cure: "Take one of those that the message lists, or leave --simd out; results do not depend on it.",
+    remedy: "Take one of those that the message lists, or leave --simd out; results do not depend on it.",
 };
 
 pub(crate) static STEERING: Message = Message {
     code: "E0609",
     title: "a change of a running simulation that can't be made",
     example: Example::Words("Python gives a velocity to a node of a rigid part, or a force that is not a number."),
-    cause: "Between two steps nodes may be given other velocities and forces: finite numbers, a vector for each node; velocities only where nothing else leads the node.",
-    cure: "Look at the numbers and nodes that the message names; a rigid part is moved by forces, joined nodes by forces too.",
+    cause: "Between two steps nodes may be given other velocities and forces: finite numbers, a vector for each \
+        node; velocities only where nothing else leads the node.",
+    remedy: "Look at the numbers and nodes that the message names; a rigid part is moved by forces, joined nodes by forces too.",
 };
 
 pub(crate) static MASS_ADDED: Message = Message {
@@ -136,17 +148,21 @@ pub(crate) static MASS_ADDED: Message = Message {
     title: "mass scaling added mass",
     example: Example::Model("[run]\nmass_scaling = { time_step = \"600 ns\", limit = 2 }\n"),
     cause: "`mass_scaling` makes the smallest elements heavier, so that a longer step is stable.",
-    cure: "Nothing, where the mass is small and inertia does not matter; else a smaller `time_step`.",
+    remedy: "Nothing, where the mass is small and inertia does not matter; else a smaller `time_step`.",
 };
 
 pub(crate) static ERODED: Message = Message {
     code: "W0602",
     title: "elements were eroded",
     example: Example::Model(
-        "[run]\nend = \"20 us\"\n\n[material.steel]\nlaw = \"j2\"\nyield = \"100 MPa\"\nhardening = \"1 GPa\"\nfailure = { plastic_strain = 0.01 }\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [\"200 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n",
+        "[run]\nend = \"20 us\"\n\n[material.steel]\nlaw = \"j2\"\nyield = \"100 MPa\"\nhardening = \"1 \
+            GPa\"\nfailure = { plastic_strain = 0.01 }\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity \
+            = [\"200 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] \
+            }\n\n[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], \
+            size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n",
     ),
     cause: "Elements reached the limit of a criterion and were taken out; the message names the first.",
-    cure: "Nothing, where that is what is computed; else look at the place and time of the first.",
+    remedy: "Nothing, where that is what is computed; else look at the place and time of the first.",
 };
 
 pub(crate) static RELAXED: Message = Message {
@@ -154,7 +170,7 @@ pub(crate) static RELAXED: Message = Message {
     title: "how a relaxation ended",
     example: Example::Model("[run]\nrelaxation = {}\n"),
     cause: "A run with `relaxation` ends at rest, or at its end time without having come to rest.",
-    cure: "Give a later `end`, or a larger `tolerance`, where it is not at rest.",
+    remedy: "Give a later `end`, or a larger `tolerance`, where it is not at rest.",
 };
 
 /// One fault of a model: where in the input, what is wrong, and what to do.
@@ -214,7 +230,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// Something of a run that goes on, or has ended, that the user should know.
+/// Something of a run that continues, or has ended, that the user should know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
     /// Its kind.
@@ -386,8 +402,8 @@ impl Error {
     }
 }
 
-impl From<Misfit> for Error {
-    fn from(Misfit(what): Misfit) -> Self {
+impl From<ArchiveError> for Error {
+    fn from(ArchiveError(what): ArchiveError) -> Self {
         Self::State(what.into())
     }
 }

@@ -1,15 +1,15 @@
 //! Hashes of the state of each part, of the contacts and of the rigid bodies, for the log by which two runs
 //! are compared later.
 //!
-//! [`crate::simulation`] takes them every `output.hash_steps` steps and tells its observer. They are made of
-//! the values that [`crate::parting`] compares one by one: positions and velocities of the nodes, energies of
-//! the elements, sums of the contacts, motion of the bodies. What is a sum over nodes or names depends on no
-//! order of storage.
+//! [`crate::simulation`] takes them every `output.hash_steps` steps and reports its observer. They are made
+//! of the values that [`crate::divergence`] compares one by one: positions and velocities of the nodes,
+//! energies of the elements, sums of the contacts, motion of the bodies. What is a sum over nodes or names
+//! depends on no order of storage.
 
 use crate::contact::{Contact, ContactKind};
 use crate::dimension::Dimension;
 use crate::hash::{Fnv, mixed};
-use crate::model::in_space;
+use crate::model::in_3d;
 use crate::rigid::RigidMotion;
 use crate::step::System;
 use crate::tensor::Dim;
@@ -49,7 +49,7 @@ where
     Dim<D>: Dimension<D>,
 {
     let totals = &contact.totals;
-    let [x, y, z] = in_space(totals.resultant);
+    let [x, y, z] = in_3d(totals.resultant);
     [x, y, totals.pressing, totals.energy, totals.slip_energy, contact.friction_work, contact.penetration, z]
 }
 
@@ -99,14 +99,14 @@ fn named(name: &str, numbers: &[f64]) -> u64 {
     numbers.iter().fold(hash.value(), |hash, number| mixed(hash, number.to_bits()))
 }
 
-/// Takes hashes while a run goes on.
+/// Takes hashes while a run continues.
 #[derive(Default)]
 pub(crate) struct Hashing {
     /// Steps between two.
     every: Option<u64>,
     /// Of each part: its nodes.
     nodes: Vec<Vec<[u32; 2]>>,
-    /// What was taken and not told yet.
+    /// What was taken and not reported yet.
     pub(crate) taken: Vec<Hashes>,
     last: Option<u64>,
 }
@@ -130,7 +130,7 @@ impl Hashing {
         }
     }
 
-    /// Those of a state that a run goes on from were taken by the run that left it, if they were due.
+    /// Those of a state that a run continues from were taken by the run that left it, if they were due.
     pub(crate) fn pass(&mut self, step: u64) {
         self.last = self.every.filter(|&every| step.is_multiple_of(every)).map(|_| step);
     }

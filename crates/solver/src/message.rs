@@ -21,7 +21,7 @@ pub struct Message {
     /// How it comes about.
     pub cause: &'static str,
     /// What to do.
-    pub cure: &'static str,
+    pub remedy: &'static str,
 }
 
 /// What provokes a message; tests do so with all but words.

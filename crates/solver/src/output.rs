@@ -59,7 +59,7 @@ pub struct Frame {
     pub time: f64,
     /// Step number.
     pub step: u64,
-    /// Components of a position: 2 in the plane, 3 in space.
+    /// Components of a position: 2 in 2D, 3 in 3D.
     pub dimension: usize,
     /// Current node positions, m, one after the other: see [`Frame::positions`].
     pub coordinates: Vec<f64>,
@@ -88,7 +88,7 @@ impl Frame {
         self.coordinates.len() / self.dimension.max(1)
     }
 
-    /// Current position of a node in space, m; in the plane z is zero.
+    /// Current position of a node in 3D, m; in the plane z is zero.
     #[must_use]
     pub fn place(&self, node: usize) -> [f64; 3] {
         let own = &self.coordinates[node * self.dimension..][..self.dimension];
@@ -104,7 +104,7 @@ pub trait Shown: Sync {
     fn time(&self) -> f64;
     /// Step number.
     fn step(&self) -> u64;
-    /// Components of a position: 2 in the plane, 3 in space.
+    /// Components of a position: 2 in 2D, 3 in 3D.
     fn dimension(&self) -> usize;
     /// How many nodes there are.
     fn nodes(&self) -> usize;
@@ -185,7 +185,7 @@ pub struct Erosion {
 /// each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// Components of a position: 2 in the plane, 3 in space.
+    /// Components of a position: 2 in 2D, 3 in 3D.
     pub dimension: usize,
     /// Number of elements.
     pub elements: usize,

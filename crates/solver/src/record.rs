@@ -1,7 +1,7 @@
 //! The data that are recorded of a system: which fields (`field` has their values), history rows, momentum,
 //! the state hash. Values only; formats are elsewhere.
 
-use crate::archive::{Archive, Keep, Kept};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::body_columns::BodyColumns;
 use crate::contact::ContactKind;
 use crate::contact::springs::Tangential;
@@ -49,7 +49,7 @@ struct Probe {
     name: String,
     /// Nodes and their weights, which sum to one.
     nodes: Vec<(u32, f64)>,
-    /// What `embate check` tells of it.
+    /// What `embate check` reports of it.
     line: String,
 }
 
@@ -287,17 +287,17 @@ pub(crate) struct Momentum<const D: usize> {
 #[derive(Clone, Copy)]
 struct Moments<const D: usize> {
     linear: [f64; D],
-    /// In the plane about z alone.
+    /// In 2D about z alone.
     angular: [f64; 3],
     /// Σ m|v| and Σ m|x − c||v|: what the drifts are measured against.
     scale: [f64; 2],
 }
 
-impl<const D: usize> Keep for Momentum<D> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<const D: usize> Persist for Momentum<D> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         // The start is that of the model.
         let Self { start: _, centre: _, drift, of_revolution: _ } = self;
-        drift.keep(archive)
+        drift.persist(archive)
     }
 }
 
@@ -346,7 +346,7 @@ where
         self.drift[0]
     }
 
-    /// `None` of bodies of revolution: there is none.
+    /// `None` of axisymmetric bodies: there is none.
     pub(crate) fn angular(&self) -> Option<f64> {
         (!self.of_revolution).then_some(self.drift[1])
     }

@@ -7,12 +7,12 @@
 //! V^{n+½} = V^{n−½} + ½ (dt^{n−1} + dt^n) F / M, ω^{n+½} = ω^{n−½} + ½ (dt^{n−1} + dt^n) T / I,
 //! X^{n+1} = X^n + dt^n V^{n+½}, θ^{n+1} = θ^n + dt^n ω^{n+½}
 //!
-//! and a node is at x = X + R(θ) r. In space a rotation takes the place of the angle and the angular momentum
+//! and a node is at x = X + R(θ) r. In 3D a rotation takes the place of the angle and the angular momentum
 //! that of the spin ([`space`]). Where a degree of freedom is driven its velocity is prescribed, it has no
-//! mass in the books, and what drives it does the work that the forces do not.
+//! mass in the ledger, and what drives it does the work that the forces do not.
 
 use crate::angle::cos_sin;
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::contact_forces::ContactForces;
 use crate::energy::Sums;
 use crate::load::body_force::BodyForces;
@@ -48,7 +48,7 @@ pub struct Body<const D: usize = 2>
 where
     Dim<D>: RigidMotion<D>,
 {
-    /// Angle since the start, rad; in space a rotation.
+    /// Angle since the start, rad; in 3D a rotation.
     pub angle: Angle<D>,
     /// Reference point X^n: the centre of mass where it is free to move and to turn, m.
     pub centre: [f64; D],
@@ -60,11 +60,11 @@ where
     pub velocity_free: Row<D>,
     /// v^{n+½}.
     pub velocity: Row<D>,
-    /// Mass, mass (kg/m) and inertia (kg m); zero where it is driven. In space the mass (kg) three times;
+    /// Mass, mass (kg/m) and inertia (kg m); zero where it is driven. In 3D the mass (kg) three times;
     /// inertia is in `turning`.
     pub mass: Row<D>,
     /// Change of velocity per impulse: 1/mass, 1/mass and 1/inertia, less with damping; zero where it is
-    /// driven. In space that of spins is in `turning`.
+    /// driven. In 3D that of spins is in `turning`.
     pub inverse_mass: Row<D>,
     /// Contact forces (N/m) and their moment about the reference point (N).
     pub force: Row<D>,
@@ -86,7 +86,7 @@ where
     pub internal: Row<D>,
     /// a = ½ rate · ½ (dt^{n−1} + dt^n) of the damping.
     pub slowing: Row<D>,
-    /// What it knows of its rotation in space.
+    /// What it knows of its rotation in 3D.
     pub turning: <Dim<D> as RigidMotion<D>>::Turning,
 }
 
@@ -113,7 +113,7 @@ where
     /// Force, N/m.
     pub force: [f64; D],
     /// Σ r × f and Σ r · f of what is not uniform, N: the moment at angle θ is cos θ times the first less sin
-    /// θ times the second. In space Σ r fᵀ.
+    /// θ times the second. In 3D Σ r fᵀ.
     pub moments: <Dim<D> as RigidMotion<D>>::Moments,
 }
 
@@ -151,29 +151,29 @@ where
     }
 }
 
-impl<const D: usize> Keep for Body<D>
+impl<const D: usize> Persist for Body<D>
 where
     Dim<D>: RigidMotion<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         // Weight and damping follow from loads and time, in the step.
         #[rustfmt::skip]
         let Self {
             mass: _, drives: _, weight: _, damping: _, of_elements: _, members: _, shared: _,
             angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing, turning,
         } = self;
-        keep_each!(archive; angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing, turning);
+        persist_each!(archive; angle, centre, old, velocity_old, velocity_free, velocity, inverse_mass, force, load, internal, slowing, turning);
         Ok(())
     }
 }
 
-impl<const D: usize> Keep for Bodies<D>
+impl<const D: usize> Persist for Bodies<D>
 where
     Dim<D>: RigidMotion<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { of_node: _, list } = self;
-        list[..].keep(archive)
+        list[..].persist(archive)
     }
 }
 
@@ -234,7 +234,7 @@ where
         Dim::<D>::velocity_at(velocity, self.arm(x))
     }
 
-    /// The part of a velocity that has mass in the books: that which is not driven.
+    /// The part of a velocity that has mass in the ledger: that which is not driven.
     #[must_use]
     pub fn free_part(&self, velocity: &Row<D>) -> Row<D> {
         Dim::<D>::generalized(|k| if self.drives()[k].is_none() { velocity[k] } else { 0.0 })
@@ -301,7 +301,7 @@ where
         }
     }
 
-    /// v^{n+½} with the contact forces, and its part in the books.
+    /// v^{n+½} with the contact forces, and its part in the ledger.
     fn accelerate(&mut self, mean_step: f64, contact_forces: &ContactForces<D>, positions: &[[f64; D]], sums: &mut Sums) {
         let mut pushed = self.force;
         for member in &self.members {
@@ -320,7 +320,7 @@ where
         Dim::<D>::accelerate_spins(self, &weight, mean_step, sums);
     }
 
-    /// The part of one velocity in the books; `momenta`: before and after.
+    /// The part of one velocity in the ledger; `momenta`: before and after.
     pub(crate) fn book(&self, k: usize, momenta: [f64; 2], weight: &Row<D>, mean_step: f64, sums: &mut Sums) {
         let (old, new) = (self.velocity_old[k], self.velocity[k]);
         let mean = 0.5 * (old + new);
@@ -341,7 +341,7 @@ where
         sums.damping_old += impulse * old;
     }
 
-    /// ½ m v² of one velocity with a mass of its own in the books.
+    /// ½ m v² of one velocity with a mass of its own in the ledger.
     pub(crate) fn book_straight(&self, k: usize, sums: &mut Sums) {
         let (m, old, new) = (self.mass[k], self.velocity_old[k], self.velocity[k]);
         sums.kinetic_half += 0.5 * m * new * new;
@@ -531,7 +531,7 @@ where
     }
 
     /// v^{n+½} with the contact forces, those on their nodes included. The velocities of the nodes over the
-    /// coming step (s) follow, and the books get the bodies' part.
+    /// coming step (s) follow, and the ledger get the bodies' part.
     pub fn accelerate(
         &mut self,
         [mean_step, time_step]: [f64; 2],

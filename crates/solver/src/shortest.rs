@@ -1,6 +1,6 @@
 //! The shortest time step of a run, for the summary; it is updated after every step.
 
-use crate::archive::keep_all;
+use crate::archive::persist_all;
 use crate::dimension::Dimension;
 use crate::step::{Governor, System};
 use crate::tensor::Dim;
@@ -11,7 +11,7 @@ pub(crate) struct Shortest {
     pub(crate) governor: String,
 }
 
-keep_all!(Shortest { time_step, governor });
+persist_all!(Shortest { time_step, governor });
 
 impl Default for Shortest {
     fn default() -> Self {

@@ -2,7 +2,7 @@
 //! loop is in `simulation/run.rs`, written once for both dimensions.
 
 mod clock;
-mod course;
+mod output_cursor;
 mod memory;
 pub(crate) mod run;
 mod state;
@@ -74,12 +74,12 @@ pub struct Progress<'a> {
     pub notices: &'a [Notice],
 }
 
-/// Whether a run goes on.
+/// Whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
-    /// Go on.
+    /// Continue.
     Continue,
-    /// Go on, with the state handed out.
+    /// Continue, with the state handed out.
     Keep,
     /// Stop here, cleanly, with the state handed out.
     KeepAndStop,
@@ -121,7 +121,7 @@ pub trait Observer {
         false
     }
     /// The state of the run: asked for by [`Control::Keep`], or due by `run.checkpoint_steps`. Rows and
-    /// frames of the steps until then have been told, and no others.
+    /// frames of the steps until then have been reported, and no others.
     ///
     /// # Errors
     /// As [`Observer::frame`].
@@ -132,8 +132,8 @@ pub trait Observer {
     fn keeps_hashes(&self) -> bool {
         false
     }
-    /// Hashes of the first state, of those that are due, and of the one at the end; told before anything else
-    /// of a later step.
+    /// Hashes of the first state, of those that are due, and of the one at the end; reported before anything
+    /// else of a later step.
     ///
     /// # Errors
     /// As [`Observer::frame`].
@@ -158,7 +158,7 @@ pub trait Observer {
     fn progress(&mut self, progress: &Progress<'_>) -> Control;
 }
 
-/// What `embate check` tells of a part.
+/// What `embate check` reports of a part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartOverview {
     /// Name.
@@ -173,7 +173,7 @@ pub struct PartOverview {
     pub stable_time_step: f64,
 }
 
-/// What `embate check` tells of a model.
+/// What `embate check` reports of a model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overview {
     /// Parts in model order.
@@ -205,7 +205,7 @@ pub struct ContactSearch {
     pub pairs_swept: u64,
 }
 
-/// A simulation: a model of the plane or of space, made ready to step.
+/// A simulation: a model in 2D or 3D, made ready to step.
 pub struct Simulation(pub(crate) Either);
 
 /// The dimension of a simulation.
@@ -246,7 +246,7 @@ impl Simulation {
 
     /// A simulation of a model that stands where another one of the same model stood: what it does from there
     /// on is the same to the last bit, whatever the options of both. The model may differ in when it ends, in
-    /// its limits, and in what it tells.
+    /// its limits, and in what it reports.
     ///
     /// # Errors
     /// Those of [`Simulation::new`]; [`Error::State`] where the state is of another model.
@@ -256,7 +256,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// Components of a position: 2 in the plane, 3 in space.
+    /// Components of a position: 2 in 2D, 3 in 3D.
     #[must_use]
     pub fn dimension(&self) -> usize {
         match &self.0 {
@@ -337,7 +337,7 @@ impl Simulation {
     }
 
     /// Runs to the end, telling `observer` of rows, frames and progress. A simulation of a kept state
-    /// ([`Simulation::resumed`]) goes on as if it had never been stopped.
+    /// ([`Simulation::resumed`]) continues as if it had never been stopped.
     ///
     /// # Errors
     /// Any [`Error`]; the last state has been given to the observer before.
@@ -346,7 +346,8 @@ impl Simulation {
     }
 
     /// The same until `time` is reached (s), and at most `steps` steps. A run in pieces, with whatever was
-    /// asked in between, tells `observer` the same as one that was never stopped, and its bits are the same.
+    /// asked in between, reports `observer` the same as one that was never stopped, and its bits are the
+    /// same.
     ///
     /// # Errors
     /// As [`Simulation::run`].
@@ -362,7 +363,7 @@ impl Simulation {
     }
 
     /// Gives nodes, by their numbers in frames, other velocities at the present time, m/s, one node after the
-    /// other: what is held goes on as prescribed. The change is booked as work from outside.
+    /// other: what is held continues as prescribed. The change is entered as work from outside.
     ///
     /// # Errors
     /// Nodes that are not there, of rigid parts or joined to others, and numbers that are not finite or too
@@ -371,9 +372,9 @@ impl Simulation {
         either!(mut self, run => run.set_velocities(nodes, velocities))
     }
 
-    /// Lets forces (in the plane N per metre of depth, in space and of bodies of revolution N), one node
+    /// Lets forces (in 2D N per metre of depth, in 3D and of axisymmetric bodies N), one node
     /// after the other, act on nodes besides the loads of the model, from the next velocity update on until
-    /// others are given; zero ends them. Their work is booked as that of loads.
+    /// others are given; zero ends them. Their work is entered as that of loads.
     ///
     /// # Errors
     /// Nodes that are not there, and numbers that are not finite or too few; then nothing has changed.
@@ -387,7 +388,7 @@ impl Simulation {
         either!(self, run => run.hashes())
     }
 
-    /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there
+    /// Runs on, and reports `observer` of a row and a frame at the first step at or after `from`, from there
     /// every `every`, and at the first step at or after `to`, all in s. The steps are those of any run of the
     /// model.
     ///

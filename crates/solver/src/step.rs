@@ -6,7 +6,7 @@
 
 pub(crate) mod erosion;
 pub(crate) mod free;
-mod keep;
+mod persist;
 mod nodes;
 pub(crate) mod relaxation;
 pub(crate) mod rotations;
@@ -234,25 +234,25 @@ where
     /// runs away, a contact that is too deep.
     pub fn step(&mut self) -> Result<(), Error> {
         self.move_nodes();
-        self.respond()?;
-        self.see_limits()
+        self.evaluate_forces()?;
+        self.check_limits()
     }
 
     /// Everything that follows from the positions x^n.
-    fn respond(&mut self) -> Result<(), Error> {
-        let mut elements = self.strain_elements();
+    fn evaluate_forces(&mut self) -> Result<(), Error> {
+        let mut elements = self.internal_forces();
         if self.erosion.is_some() {
             elements = self.erode(elements);
         }
         let time_step = self.stable_step(&elements)?;
         self.relax();
-        self.find_springs();
-        let time_step = self.approaching(time_step);
+        self.detect_contacts();
+        let time_step = self.limit_approach(time_step);
         self.load(time_step);
-        self.push_apart(time_step);
+        self.solve_contact_forces(time_step);
         self.accelerate(time_step);
-        self.close_books(&elements)?;
-        self.see_rest();
+        self.close_energy_balance(&elements)?;
+        self.check_equilibrium();
         Ok(())
     }
 
@@ -280,10 +280,10 @@ where
         self.ledger = Ledger::new(nodes + self.bodies.kinetic() + rotations, self.energy_of_round_off());
         let nodes = self.velocities.iter().map(|&v| dot(v, v)).fold(0.0, f64::max);
         self.positions_old.clone_from(&self.positions);
-        self.see_rigid_parts();
+        self.evaluate_rigid_parts();
         let fastest = self.bodies.iter().map(|body| body.speed_squared()).fold(nodes, f64::max);
         self.speed = fastest.sqrt();
-        self.respond()?;
+        self.evaluate_forces()?;
         if self.limits.step <= 0.0 {
             self.limits.step = 1e-3 * self.time_step;
         }
@@ -310,7 +310,7 @@ where
     }
 
     /// Internal forces, energies and steps of the elements at x^n.
-    fn strain_elements(&mut self) -> Report {
+    fn internal_forces(&mut self) -> Report {
         let NodalRotations { now: rotations, slots: moments, .. } = &mut self.rotations;
         let motion = Motion { rotations, ..Motion::new(&self.positions, &self.velocities, self.time_step_old) };
         let (mut rest, mut rest_of_moments) = (&mut self.slots[..], &mut moments[..]);
@@ -327,7 +327,7 @@ where
         self.joined_reports()
     }
 
-    /// What all blocks told, with the step that is stable for elements and springs together.
+    /// What all blocks reported, with the step that is stable for elements and springs together.
     pub(crate) fn joined_reports(&self) -> Report {
         let all = Report::joined(self.reports.iter().copied());
         match self.reports.split_last() {
@@ -395,7 +395,7 @@ where
     }
 
     /// Springs of contacts and obstacles at x^n.
-    fn find_springs(&mut self) {
+    fn detect_contacts(&mut self) {
         self.springs.clear();
         let sweep = Sweep { old: &self.positions_old, new: &self.positions, travel: self.travel };
         let scene = Scene { sweep, bodies: &self.bodies, time: self.time };
@@ -405,9 +405,9 @@ where
     }
 
     /// The step in which nothing goes farther into another body than [`APPROACH`] allows; a fraction of
-    /// `time_step` at least. In the plane who goes through a body in a step is known to have, and comes back:
+    /// `time_step` at least. In 2D who goes through a body in a step is known to have, and comes back:
     /// there the step is as it is.
-    fn approaching(&mut self, time_step: f64) -> f64 {
+    fn limit_approach(&mut self, time_step: f64) -> f64 {
         if D == 2 {
             return time_step;
         }
@@ -427,7 +427,7 @@ where
     }
 
     /// Contact and obstacle forces at x^n for the coming update.
-    fn push_apart(&mut self, time_step: f64) {
+    fn solve_contact_forces(&mut self, time_step: f64) {
         if self.contacts.is_empty() {
             return;
         }
@@ -462,8 +462,8 @@ where
         self.speed = self.largest_speed();
     }
 
-    /// Enters the step in the ledger and checks that the run is still worth going on.
-    fn close_books(&mut self, elements: &Report) -> Result<(), Error> {
+    /// Enters the step in the ledger and checks that the run is still worth continuing.
+    fn close_energy_balance(&mut self, elements: &Report) -> Result<(), Error> {
         let sum = Sums::total(self.sums.iter().chain([&self.of_bodies]));
         let totals = || self.contacts.iter().map(|contact| contact.totals);
         let works = Works {
@@ -516,7 +516,7 @@ where
     Dim<D>: Dimension<D>,
 {
     /// Whether nodes are as fast, and contacts as deep, as is sound.
-    fn see_limits(&self) -> Result<(), Error> {
+    fn check_limits(&self) -> Result<(), Error> {
         if self.speed > self.limits.velocity {
             return Err(self.runaway());
         }
@@ -568,7 +568,7 @@ where
 
     /// Gives rigid parts their first and last look: they never pull. Only where nothing else does, nor the
     /// model, they set the step: that which their elements would need.
-    fn see_rigid_parts(&mut self) {
+    fn evaluate_rigid_parts(&mut self) {
         let NodalRotations { now: rotations, slots: moments, .. } = &mut self.rotations;
         let motion = Motion { rotations, ..Motion::new(&self.positions, &self.velocities, 0.0) };
         let alone = self.rigid.iter().all(|&rigid| rigid) && self.limits.largest == f64::INFINITY;

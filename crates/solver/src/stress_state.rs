@@ -65,7 +65,7 @@ pub const STRESS_STATES: &[StressStateKind] = &[
     PLANE_STRESS,
     StressStateKind {
         name: "axisymmetric",
-        doc: "bodies of revolution about the y axis, x is the radius; volume-weighted",
+        doc: "axisymmetric bodies about the y axis, x is the radius; volume-weighted",
         source: "Hughes, The Finite Element Method (1987), 2.12 and 4.5.2",
         state: StressState { is_axisymmetric: true, is_plane_stress: false },
     },

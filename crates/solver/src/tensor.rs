@@ -39,7 +39,7 @@ pub trait SymmetricTensor<L: Lane>: Copy {
     fn trace(self) -> L;
     /// Double contraction A:B = Σ_ij A_ij B_ij.
     fn contract(self, other: Self) -> L;
-    /// Component zz: out of the plane, or along the third axis of space.
+    /// Component zz: out of the plane, or along the third axis in 3D.
     fn zz(self) -> L;
     /// The same tensor with `value` added to component zz.
     #[must_use]
@@ -76,7 +76,7 @@ pub trait Turn<L: Lane>: Copy {
     fn none() -> Self;
     /// About the third axis, from cos θ and sin θ.
     fn about_z(cos: L, sin: L) -> Self;
-    /// This rotation, then the `next`; mended so that it stays one over any number of steps.
+    /// This rotation, then the `next`; fixed so that it stays one over any number of steps.
     #[must_use]
     fn then(&self, next: &Self) -> Self;
     /// The way back.
@@ -88,11 +88,11 @@ pub trait Turn<L: Lane>: Copy {
     fn store(self, to: &mut [Batch], at: usize);
 }
 
-/// Symmetric tensor of the plane, with what is normal to it: xx yy zz xy.
+/// Symmetric tensor in 2D, with what is normal to it: xx yy zz xy.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane<L>(pub [L; 4]);
 
-/// Symmetric tensor in space: xx yy zz xy yz zx.
+/// Symmetric tensor in 3D: xx yy zz xy yz zx.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid<L>(pub [L; 6]);
 
@@ -154,7 +154,7 @@ macro_rules! componentwise {
             self.0[2] += value;
             self
         }
-        // In the plane the loop over the remaining shear components is empty.
+        // In 2D the loop over the remaining shear components is empty.
         #[allow(clippy::reversed_empty_ranges)]
         #[inline(always)]
         fn contract(self, other: Self) -> L {
@@ -168,7 +168,7 @@ macro_rules! componentwise {
     };
 }
 
-/// Rotation in the plane by an angle θ, as a symmetric tensor feels it: [cos 2θ, sin 2θ].
+/// Rotation in 2D by an angle θ, as a symmetric tensor feels it: [cos 2θ, sin 2θ].
 #[derive(Clone, Copy, Debug)]
 pub struct PlaneRotation<L>(pub [L; 2]);
 
@@ -406,7 +406,7 @@ pub trait Space<const D: usize> {
     fn increment<L: Lane>(gradient: &Matrix<L, D>, determinant: L) -> (Matrix<L, D>, Turns<Self::Tensor<L>, L>);
     /// A vector that goes with the rotation of [`Space::displaced`].
     fn turned<L: Lane>(vector: [L; D], turns: &Turns<Self::Tensor<L>, L>) -> [L; D];
-    /// `scale` F Fᵀ, out-of-plane component `scale` in the plane.
+    /// `scale` F Fᵀ, out-of-plane component `scale` in 2D.
     fn left_cauchy_green<L: Lane>(f: &Matrix<L, D>, scale: L) -> Self::Tensor<L>;
     /// T Aᵀ with the in-space part of T: `flux[i][k] = Σ_j T_ij A_kj`.
     fn flux<L: Lane>(t: &Self::Tensor<L>, a: &Matrix<L, D>) -> Matrix<L, D>;

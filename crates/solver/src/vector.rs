@@ -4,8 +4,8 @@
 
 use embate_lanes::Lane;
 
-/// The first components of a vector of the model, which has three: all of them in space, x and y in the
-/// plane.
+/// The first components of a vector of the model, which has three: all of them in 3D, x and y in
+/// 2D.
 #[must_use]
 pub(crate) fn first<const D: usize>(of: [f64; 3]) -> [f64; D] {
     std::array::from_fn(|d| of[d])

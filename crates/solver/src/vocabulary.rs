@@ -106,7 +106,7 @@ pub enum Kind {
     Points(usize),
     /// A list of such lists.
     Outlines(usize),
-    /// A list of at least so many points of space (z is zero where it is left out).
+    /// A list of at least so many points in 3D (z is zero where it is left out).
     SpatialPoints(usize),
     /// A list of such lists.
     SpatialOutlines(usize),

@@ -14,7 +14,7 @@ const BYTES: usize = 16;
 /// A token that the user chooses has at least so many characters.
 pub(crate) const LEAST: usize = 16;
 
-/// A token that nobody can guess.
+/// A token that no one can guess.
 pub(crate) fn token() -> Result<String, getrandom::Error> {
     let mut bytes = [0; BYTES];
     getrandom::fill(&mut bytes)?;
@@ -32,7 +32,7 @@ pub(crate) fn is_same(one: &str, other: &str) -> bool {
 }
 
 /// Why a request is refused; none: it is not. A request that changes something must say where it comes from.
-pub(crate) fn refusal(headers: &HeaderMap, port: u16, must_tell_origin: bool) -> Option<&'static str> {
+pub(crate) fn refusal(headers: &HeaderMap, port: u16, must_report_origin: bool) -> Option<&'static str> {
     let text = |name| headers.get(name).map(|value| value.to_str().unwrap_or_default());
     let Some(host) = text(HOST).filter(|host| is_own(host, port)) else {
         return Some("the host of the address is not this machine: open the address that the program has printed");
@@ -40,7 +40,7 @@ pub(crate) fn refusal(headers: &HeaderMap, port: u16, must_tell_origin: bool) ->
     match text(ORIGIN) {
         Some(origin) if origin == format!("http://{host}") => None,
         Some(_) => Some("the request comes from a page of another site"),
-        None if must_tell_origin => Some("the request does not say from which page it comes"),
+        None if must_report_origin => Some("the request does not say from which page it comes"),
         None => None,
     }
 }

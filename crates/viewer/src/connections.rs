@@ -70,7 +70,7 @@ pub(crate) async fn serve(listener: TcpListener, router: Router, patience: Patie
             TokioIo::new(Patient { stream, stall: patience.stall, end: Box::pin(sleep(patience.stall)), is_stalled: false, _place: place });
         let connection = http.serve_connection(stream, TowerToHyperService::new(router.clone())).with_upgrades();
         tokio::spawn(async move {
-            // Why it ended is of interest to nobody: the other side knows, or has gone.
+            // Why it ended is of interest to no one: the other side knows, or has gone.
             let _ = connection.await;
         });
     }

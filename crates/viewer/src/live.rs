@@ -1,13 +1,13 @@
-//! What is told of a run while it goes on, and what its viewers want of it: the state that the run and the
-//! sockets share.
+//! What is reported about a run while it continues, and what its viewers want of it: the state that the run
+//! and the sockets share.
 //!
 //! The run's side ([`crate::tap`]) leaves progress, rows and the newest frame here and never waits for a
-//! viewer; each socket takes what is new when it is ready. Frames that nobody has taken are replaced, so a
+//! viewer; each socket takes what is new when it is ready. Frames that no one has taken are replaced, so a
 //! slow viewer costs the run nothing.
 
 use axum::body::Bytes;
 use embate_files::results::{History, ThinnedRows};
-use embate_files::view::{Bodies, Series, Wish};
+use embate_files::view::{Bodies, FrameRequest, Series};
 use embate_solver::output::Shown;
 use embate_solver::simulation::Progress;
 use serde::Serialize;
@@ -20,7 +20,7 @@ use tokio::sync::watch;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Order {
-    /// To go on.
+    /// To continue.
     #[default]
     Running,
     /// To wait.
@@ -54,7 +54,7 @@ pub struct Ended {
     pub status: String,
     /// The message of a failed run.
     pub error: Option<String>,
-    /// Whether the server goes on.
+    /// Whether the server continues.
     pub stays: bool,
 }
 
@@ -67,7 +67,7 @@ pub(crate) struct Shared {
     pub(crate) order: Order,
     /// Whether the state is to be kept.
     pub(crate) keep: bool,
-    pub(crate) told: Told,
+    pub(crate) reported: Told,
     pub(crate) notices: Vec<Notice>,
     /// What became of commands.
     pub(crate) kept: Vec<String>,
@@ -76,19 +76,19 @@ pub(crate) struct Shared {
     pub(crate) published: u64,
     /// Whether any viewer has seen one.
     pub(crate) is_seen: bool,
-    pub(crate) frames: BTreeMap<Wish, Newest>,
+    pub(crate) frames: BTreeMap<FrameRequest, Newest>,
     /// What each viewer wants.
-    viewers: BTreeMap<u64, Wish>,
+    viewers: BTreeMap<u64, FrameRequest>,
     next_viewer: u64,
     rows: ThinnedRows,
     /// Wall time of the run so far does not count what it waited for viewers.
     paused: Duration,
     paused_since: Option<Instant>,
-    /// Time of the run when it began: more than zero where it goes on from a state.
+    /// Time of the run when it began: more than zero where it continues from a state.
     time_begin: Option<f64>,
 }
 
-/// A run that is watched while it goes on.
+/// A run that is watched while it continues.
 #[derive(Debug)]
 pub struct Live {
     bodies: Arc<Bodies>,
@@ -106,7 +106,7 @@ pub struct Live {
 pub(crate) const PAUSE: Duration = Duration::from_millis(60);
 
 impl Live {
-    /// A run with these bodies and columns of its history; `past`: the history of a run that goes on from a
+    /// A run with these bodies and columns of its history; `past`: the history of a run that continues from a
     /// state, and the time (s) of that.
     #[must_use]
     pub fn new(bodies: Arc<Bodies>, columns: Vec<String>, of_whole_bodies: bool, past: (Option<&History>, f64)) -> Arc<Self> {
@@ -138,7 +138,7 @@ impl Live {
         &self.bodies
     }
 
-    /// Changes what is shared, and tells the sockets and the run.
+    /// Changes what is shared, and reports the sockets and the run.
     pub(crate) fn change<T>(&self, change: impl FnOnce(&mut Shared) -> T) -> T {
         let result = change(&mut self.shared());
         self.changes.send_modify(|count| *count += 1);
@@ -146,7 +146,7 @@ impl Live {
         result
     }
 
-    /// What tells of changes.
+    /// What reports of changes.
     pub(crate) fn changes(&self) -> watch::Receiver<u64> {
         self.changes.subscribe()
     }
@@ -161,20 +161,20 @@ impl Live {
     pub(crate) fn welcome(&self) -> u64 {
         self.change(|shared| {
             shared.next_viewer += 1;
-            shared.viewers.insert(shared.next_viewer, Wish::default());
+            shared.viewers.insert(shared.next_viewer, FrameRequest::default());
             shared.next_viewer
         })
     }
 
     /// What a viewer wants to see; none: it has gone.
-    pub(crate) fn wish(&self, viewer: u64, wish: Option<Wish>) {
+    pub(crate) fn frame_request(&self, viewer: u64, frame_request: Option<FrameRequest>) {
         self.change(|shared| {
-            match wish {
-                Some(wish) => shared.viewers.insert(viewer, wish),
+            match frame_request {
+                Some(frame_request) => shared.viewers.insert(viewer, frame_request),
                 None => shared.viewers.remove(&viewer),
             };
             let Shared { viewers, frames, .. } = shared;
-            frames.retain(|wish, _| viewers.values().any(|own| own == wish));
+            frames.retain(|frame_request, _| viewers.values().any(|own| own == frame_request));
         });
     }
 
@@ -216,7 +216,7 @@ impl Live {
 
     /// How far the run is.
     pub fn progress(&self, progress: &Progress<'_>) {
-        let told = Told {
+        let reported = Told {
             step: progress.step,
             time: progress.time,
             end: progress.end,
@@ -226,8 +226,8 @@ impl Live {
         };
         let notices = progress.notices.iter().map(|notice| Notice { code: notice.kind.code, text: notice.text.clone() });
         self.change(|shared| {
-            shared.time_begin.get_or_insert(told.time);
-            shared.told = told;
+            shared.time_begin.get_or_insert(reported.time);
+            shared.reported = reported;
             shared.notices.extend(notices);
         });
     }
@@ -239,7 +239,7 @@ impl Live {
 
     /// A row of the history.
     pub(crate) fn row(&self, row: &[f64]) {
-        // Asked for every two seconds: nobody needs to be told.
+        // Asked for every two seconds: no one needs to be reported.
         self.shared().rows.add(row);
     }
 
@@ -256,7 +256,7 @@ impl Live {
         let shared = self.shared();
         let paused = shared.paused + shared.paused_since.map_or(Duration::ZERO, |since| since.elapsed());
         let seconds = self.begin.elapsed().saturating_sub(paused).as_secs_f64();
-        let Told { time, end, .. } = shared.told;
+        let Told { time, end, .. } = shared.reported;
         let done = time - shared.time_begin.unwrap_or(0.0);
         (seconds, (done > 0.0 && end > time).then(|| seconds * (end - time) / done))
     }
@@ -265,7 +265,7 @@ impl Live {
     /// else.
     pub(crate) fn lacks(&self) -> bool {
         let shared = self.shared();
-        shared.viewers.values().any(|wish| !shared.frames.contains_key(wish))
+        shared.viewers.values().any(|frame_request| !shared.frames.contains_key(frame_request))
     }
 
     /// Whether anybody has looked at all.
@@ -299,7 +299,7 @@ impl Live {
 
     /// Leaves a frame of what is shown for every wish.
     pub(crate) fn publish(&self, shown: &dyn Shown) {
-        let mut wishes: Vec<Wish> = self.shared().viewers.values().cloned().collect();
+        let mut wishes: Vec<FrameRequest> = self.shared().viewers.values().cloned().collect();
         wishes.sort_unstable();
         wishes.dedup();
         if wishes.is_empty() {
@@ -307,18 +307,18 @@ impl Live {
         }
         let topology = self.bodies.without(&embate_files::view::gone(shown));
         let outlines = embate_files::view::outlines(shown);
-        let made: Vec<(Wish, Bytes)> = wishes
+        let made: Vec<(FrameRequest, Bytes)> = wishes
             .into_iter()
-            .map(|wish| {
-                let container = embate_files::view::frame(&self.bodies, &topology, shown, &outlines, &wish);
+            .map(|frame_request| {
+                let container = embate_files::view::frame(&self.bodies, &topology, shown, &outlines, &frame_request);
                 let bytes = container.with("frame", -1).with("step", shown.step()).bytes();
-                (wish, Bytes::from(bytes))
+                (frame_request, Bytes::from(bytes))
             })
             .collect();
         self.change(|shared| {
             shared.published += 1;
             let number = shared.published;
-            shared.frames.extend(made.into_iter().map(|(wish, bytes)| (wish, (number, bytes))));
+            shared.frames.extend(made.into_iter().map(|(frame_request, bytes)| (frame_request, (number, bytes))));
         });
     }
 }

@@ -14,7 +14,7 @@ use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
 use axum::routing::get;
 use embate_files::results::ResultsError;
-use embate_files::view::{ResultView, Wish};
+use embate_files::view::{FrameRequest, ResultView};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -170,7 +170,7 @@ pub(crate) fn router(shown: Arc<Shown>) -> Router {
     Router::new()
         .route("/{token}/", get(|| async { bundle::file("").ok_or(Refusal::nothing("there is no page")) }))
         .nest("/{token}", own)
-        .fallback(|| async { Refusal::nothing("there is nothing at this address; `api/runs` tells what is shown") })
+        .fallback(|| async { Refusal::nothing("there is nothing at this address; `api/runs` lists what is shown") })
         .layer(middleware::from_fn_with_state(shown.clone(), admit))
         .with_state(shown)
 }
@@ -201,8 +201,8 @@ async fn admit(State(shown): State<Arc<Shown>>, request: Request, next: Next) ->
 /// Bytes of a reason that a library gives.
 const REASON: usize = 4096;
 
-/// An error that a library has told in its own way, told as all others are: a number that is none, another
-/// method, a socket that is asked for without its headers.
+/// An error that a library has reported in its own way, reported as all others are: a number that is none,
+/// another method, a socket that is asked for without its headers.
 async fn as_json(response: Response<Body>) -> Response<Body> {
     let (status, kind) = (response.status(), response.headers().get(CONTENT_TYPE));
     if !(status.is_client_error() || status.is_server_error()) || kind.is_some_and(|kind| kind == "application/json") {
@@ -215,9 +215,9 @@ async fn as_json(response: Response<Body>) -> Response<Body> {
         (_, "") => status.canonical_reason().unwrap_or("the request can't be answered").to_lowercase(),
         (_, reason) => reason.to_string(),
     };
-    let mut told = Refusal { status, code: "", text }.into_response();
-    told.headers_mut().extend(allow.map(|allow| (ALLOW, allow)));
-    told
+    let mut reported = Refusal { status, code: "", text }.into_response();
+    reported.headers_mut().extend(allow.map(|allow| (ALLOW, allow)));
+    reported
 }
 
 async fn runs(State(shown): State<Arc<Shown>>) -> Answer {
@@ -284,8 +284,8 @@ async fn frame(
     Query(wanted): Query<Wanted>,
 ) -> Answer {
     beside(move || {
-        let wish = Wish { scalar: wanted.scalar, arrows: wanted.arrows == Some(1) };
-        let frame = shown.run(run)?.frame(number, &wish)?;
+        let frame_request = FrameRequest { scalar: wanted.scalar, arrows: wanted.arrows == Some(1) };
+        let frame = shown.run(run)?.frame(number, &frame_request)?;
         bytes(frame.ok_or(Refusal::nothing("there is no frame of this number"))?.bytes())
     })
     .await

@@ -23,7 +23,7 @@ pub struct Address {
     pub host: IpAddr,
     /// Port; 0: a free one.
     pub port: u16,
-    /// What must stand in the address; none: one is made that nobody can guess.
+    /// What must stand in the address; none: one is made that no one can guess.
     pub token: Option<String>,
 }
 
@@ -45,7 +45,7 @@ pub enum ViewerError {
         source: std::io::Error,
     },
     /// The token is too short, or can't stand in an address.
-    #[error("the token must have 16 to 128 letters, digits, '-' or '_'; leave --token out for one that nobody can guess")]
+    #[error("the token must have 16 to 128 letters, digits, '-' or '_'; leave --token out for one that cannot be guessed")]
     Token,
     /// The system has no thread or no random numbers.
     #[error("can't start the server: {what}")]
@@ -110,7 +110,7 @@ impl Server {
             let mut stopped = stopped;
             let farewell = async {
                 over(&mut stopped).await;
-                // Sockets are tasks of their own, which nobody waits for otherwise.
+                // Sockets are tasks of their own, which no one waits for otherwise.
                 let last = tokio::time::Instant::now() + GOODBYE;
                 while watched.as_ref().is_some_and(|live| live.is_watched()) && tokio::time::Instant::now() < last {
                     tokio::time::sleep(Duration::from_millis(10)).await;
@@ -128,7 +128,7 @@ impl Server {
         };
         let work = move || {
             runtime.block_on(serve);
-            // A large file that is read just now keeps nobody waiting.
+            // A large file that is read just now keeps no one waiting.
             runtime.shutdown_background();
         };
         let thread = std::thread::Builder::new().name("viewer".into()).spawn(work).map_err(system("no thread"))?;
@@ -162,7 +162,7 @@ impl Server {
 
 /// Until the server is to end.
 pub(crate) async fn over(stopped: &mut watch::Receiver<bool>) {
-    // Who can't be told any more is over, too.
+    // Who can't be reported any more is over, too.
     let _ = stopped.wait_for(|stop| *stop).await.is_ok();
 }
 

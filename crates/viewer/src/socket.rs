@@ -1,7 +1,7 @@
-//! The socket of one viewer of a running simulation: tells what is new, newest first, and takes orders.
+//! The socket of one viewer of a running simulation: says what is new, newest first, and takes orders.
 //!
 //! A page that says nothing, not even that it is still there, is not waited for. A frame is sent when the
-//! page has seen the one before; what came in between is dropped and counted. Whoever is slow makes nobody
+//! page has seen the one before; what came in between is dropped and counted. Whoever is slow makes no one
 //! wait.
 
 use crate::connections::Patience;
@@ -9,7 +9,7 @@ use crate::live::{Live, Order, PAUSE};
 use crate::server;
 use axum::body::Bytes;
 use axum::extract::ws::{Message, WebSocket};
-use embate_files::view::Wish;
+use embate_files::view::FrameRequest;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -26,14 +26,14 @@ const PROGRESS: Duration = Duration::from_millis(150);
 enum Said {
     Seen { seen: bool },
     Command { command: String },
-    Wish { scalar: Option<String>, arrows: bool },
+    FrameRequest { scalar: Option<String>, arrows: bool },
 }
 
-/// What a viewer has been told.
+/// What a viewer has been reported.
 struct Viewer {
     live: Arc<Live>,
     number: u64,
-    wish: Wish,
+    frame_request: FrameRequest,
     /// Number of the last frame, and whether the page has seen it.
     frame: u64,
     is_ready: bool,
@@ -50,7 +50,7 @@ struct Viewer {
 
 impl Drop for Viewer {
     fn drop(&mut self) {
-        self.live.wish(self.number, None);
+        self.live.frame_request(self.number, None);
     }
 }
 
@@ -62,7 +62,7 @@ pub(crate) async fn serve(mut socket: WebSocket, live: Arc<Live>, patience: Pati
     let mut viewer = Viewer {
         live,
         number,
-        wish: Wish::default(),
+        frame_request: FrameRequest::default(),
         frame: 0,
         is_ready: true,
         dropped: 0,
@@ -132,7 +132,8 @@ pub(crate) async fn serve(mut socket: WebSocket, live: Arc<Live>, patience: Pati
 }
 
 /// What can be said.
-const KNOWN: &str = "this can't be understood: there are {\"seen\": true}, {\"scalar\": KEY or null, \"arrows\": true or false} and {\"command\": \"pause\"} (resume, stop, checkpoint)";
+const KNOWN: &str = "this can't be understood: there are {\"seen\": true}, {\"scalar\": KEY or null, \"arrows\": \
+    true or false} and {\"command\": \"pause\"} (resume, stop, checkpoint)";
 
 /// That something can't be done.
 fn refused(text: &str) -> Value {
@@ -152,9 +153,9 @@ impl Viewer {
                 self.is_ready |= seen;
                 self.live.change(|shared| shared.is_seen |= seen);
             }
-            Ok(Said::Wish { scalar, arrows }) => {
-                self.wish = Wish { scalar, arrows };
-                self.live.wish(self.number, Some(self.wish.clone()));
+            Ok(Said::FrameRequest { scalar, arrows }) => {
+                self.frame_request = FrameRequest { scalar, arrows };
+                self.live.frame_request(self.number, Some(self.frame_request.clone()));
                 // What is on its way is of the wish before.
                 self.frame = 0;
             }
@@ -195,7 +196,7 @@ impl Viewer {
         }
         self.kept = shared.kept.len();
         let ended = shared.ended.clone();
-        if let Some((number, bytes)) = shared.frames.get(&self.wish)
+        if let Some((number, bytes)) = shared.frames.get(&self.frame_request)
             && *number > self.frame
             && (self.is_ready && self.next_frame <= now || ended.is_some())
         {
@@ -209,12 +210,12 @@ impl Viewer {
         }
         if self.next_progress <= now || ended.is_some() {
             self.next_progress = now + PROGRESS;
-            let mut told = json!(shared.told);
+            let mut reported = json!(shared.reported);
             let more = json!({ "kind": "progress", "state": shared.order, "seconds": seconds, "left": left, "dropped": self.dropped });
-            if let (Value::Object(told), Value::Object(more)) = (&mut told, more) {
-                told.extend(more);
+            if let (Value::Object(reported), Value::Object(more)) = (&mut reported, more) {
+                reported.extend(more);
             }
-            news.push(text(told));
+            news.push(text(reported));
         }
         if let Some(ended) = ended {
             let mut value = json!(ended);
@@ -250,7 +251,7 @@ part = [{ name = "block", material = "steel", rectangle = { corner = [0, 0], siz
     };
     const LONG: Duration = Duration::from_secs(20);
 
-    /// A server of a run that does not go on, and an open socket of it.
+    /// A server of a run that does not continue, and an open socket of it.
     fn watched() -> (Server, Arc<Live>, TcpStream) {
         let model = model_file::load_text("flight", MODEL, ".".as_ref(), &[]).unwrap();
         let simulation = Simulation::new(&model, &Options::default()).unwrap();
@@ -320,7 +321,7 @@ part = [{ name = "block", material = "steel", rectangle = { corner = [0, 0], siz
     }
 
     #[test]
-    fn a_page_that_only_answers_pings_stays_and_what_it_says_wrong_is_told_as_json() {
+    fn a_page_that_only_answers_pings_stays_and_what_it_says_wrong_is_reported_as_json() {
         let (_server, _live, mut stream) = watched();
         let (begin, mut refused) = (std::time::Instant::now(), Vec::new());
         for (code, text) in [(1, "{"), (1, "{\"smell\": 1}"), (1, "{\"command\": \"jump\"}"), (2, "x")] {
@@ -331,13 +332,16 @@ part = [{ name = "block", material = "steel", rectangle = { corner = [0, 0], siz
             match code {
                 9 => assert!(say(&mut stream, 10, &text)),
                 1 => {
-                    let told: Value = serde_json::from_slice(&text).unwrap();
-                    refused.extend(told["text"].as_str().filter(|_| told["kind"] == "refused").map(ToString::to_string));
+                    let reported: Value = serde_json::from_slice(&text).unwrap();
+                    refused.extend(reported["text"].as_str().filter(|_| reported["kind"] == "refused").map(ToString::to_string));
                 }
                 _ => {}
             }
         }
         let starts = ["this is no JSON: ", "this can't be understood: ", "there is no such command", "orders are texts"];
-        assert!(refused.len() == starts.len() && refused.iter().zip(starts).all(|(told, start)| told.starts_with(start)), "{refused:?}");
+        assert!(
+            refused.len() == starts.len() && refused.iter().zip(starts).all(|(reported, start)| reported.starts_with(start)),
+            "{refused:?}"
+        );
     }
 }

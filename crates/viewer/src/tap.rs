@@ -1,7 +1,7 @@
 //! Between a simulation and its recorder: takes rows and, now and then, a frame for the viewers, and lets
 //! them pause the run.
 //!
-//! Everything goes on to the recorder unchanged. A frame is taken only while somebody looks, at most every
+//! Everything continues to the recorder unchanged. A frame is taken only while somebody looks, at most every
 //! [`LEAST`], and so seldom that taking frames takes no more than a small part of the time.
 
 use crate::live::{Live, Order};
@@ -59,7 +59,7 @@ impl<'a> Tap<'a> {
     fn pass(&mut self, shown: &dyn Shown) {
         let is_last = || {
             let shared = self.live.shared();
-            shared.order == Order::Stopping || shown.time() >= shared.told.end * (1.0 - 1e-9)
+            shared.order == Order::Stopping || shown.time() >= shared.reported.end * (1.0 - 1e-9)
         };
         if self.live.is_watched() && (self.is_failing || self.next <= Instant::now() || is_last()) {
             self.publish(shown);
@@ -95,7 +95,7 @@ impl Observer for Tap<'_> {
         let step = state.step;
         self.recorder.state(state)?;
         if std::mem::take(&mut self.is_kept) {
-            self.live.kept(format!("the state of step {step} is kept: `embate resume` goes on from it"));
+            self.live.kept(format!("the state of step {step} is kept: `embate resume` continues from it"));
         }
         Ok(())
     }
@@ -125,7 +125,7 @@ impl Observer for Tap<'_> {
                 self.publish(shown);
             }
             if self.live.shared().keep {
-                // The run goes on to keep its state, and comes back.
+                // The run continues to keep its state, and comes back.
                 break;
             }
             self.live.wait();

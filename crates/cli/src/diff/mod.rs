@@ -6,7 +6,7 @@
 
 mod words;
 
-use crate::complaint::Complaint;
+use crate::cli_error::CliError;
 use crate::input::Leave;
 use crate::messages::{NO_RESULTS, NOT_AGAIN, NOTHING_IN_COMMON};
 use crate::progress::Display;
@@ -15,9 +15,9 @@ use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::checkpoint::Identity;
 use embate_files::comparison::{Again, RunLeft, Window, in_step};
+use embate_solver::divergence::Pairing;
 use embate_solver::error::Error;
 use embate_solver::model::Model;
-use embate_solver::parting::Pairing;
 use embate_solver::simulation::Options;
 use std::path::{Path, PathBuf};
 use words::NAMES;
@@ -77,7 +77,7 @@ pub(crate) fn diff(arguments: &Arguments) -> Result<(), Failure> {
     };
     if !arguments.logs {
         match again(arguments, &runs, [from, to]) {
-            Err(Unable::Told(reason)) => terminal::complain(&reason.to_string()),
+            Err(Unable::Told(reason)) => terminal::report_error(&reason.to_string()),
             Err(Unable::Failure(failure)) => return Err(failure),
             Ok(()) => {}
         }
@@ -88,14 +88,14 @@ pub(crate) fn diff(arguments: &Arguments) -> Result<(), Failure> {
 /// Why runs can't be gone over once more.
 enum Unable {
     /// What the logs tell is all that is known.
-    Told(Complaint),
+    Told(CliError),
     /// Nothing can be compared, or nothing can be said.
     Failure(Failure),
 }
 
-impl From<Complaint> for Unable {
-    fn from(complaint: Complaint) -> Self {
-        Self::Told(complaint)
+impl From<CliError> for Unable {
+    fn from(cli_error: CliError) -> Self {
+        Self::Told(cli_error)
     }
 }
 
@@ -107,37 +107,37 @@ impl From<Failure> for Unable {
 
 /// What a run left.
 fn left(folder: &Path) -> Result<RunLeft, Failure> {
-    let read = RunLeft::read(folder).map_err(|error| Failure::Input(Complaint::new(error.kind(), error)))?;
+    let read = RunLeft::read(folder).map_err(|error| Failure::Input(CliError::new(error.kind(), error)))?;
     read.ok_or_else(|| {
-        let complaint = Complaint::new(&NO_RESULTS, format!("{} holds neither summary.json nor hashes.csv", folder.display()));
-        Failure::Input(complaint.help("give the folders that `embate run` wrote"))
+        let cli_error = CliError::new(&NO_RESULTS, format!("{} holds neither summary.json nor hashes.csv", folder.display()));
+        Failure::Input(cli_error.help("give the folders that `embate run` wrote"))
     })
 }
 
 /// That neither logs nor ends can be compared.
 fn unknown(a: &Path, b: &Path) -> Failure {
-    let complaint = Complaint::new(
+    let cli_error = CliError::new(
         &NO_RESULTS,
         format!("{} and {} have no step of which both kept the hashes, and not both have ended", a.display(), b.display()),
     );
-    Failure::Input(complaint.help("end them with `embate resume`, or run the models again with the same `output.hash_steps`"))
+    Failure::Input(cli_error.help("end them with `embate resume`, or run the models again with the same `output.hash_steps`"))
 }
 
-/// Goes over a stretch of both once more, and tells where they part in it.
+/// Goes over a stretch of both once more, and says where they part in it.
 fn again(arguments: &Arguments, runs: &[RunLeft; 2], [from, to]: [u64; 2]) -> Result<(), Unable> {
     let places = [&arguments.model_a, &arguments.model_b].map(|model| Place::at(model.clone(), arguments.leave));
     let mut sides = Vec::new();
     for k in 0..2 {
         let model = model(&runs[k], &places[k], k)?;
-        let (options, told) = options(&runs[k]);
-        told.into_iter().try_for_each(|line| terminal::print(&format!("{}: {line}\n", NAMES[k])))?;
-        sides.push(Again::new(&model, &options, &runs[k].folder, from).map_err(|error| Complaint::from(&error))?);
+        let (options, reported) = options(&runs[k]);
+        reported.into_iter().try_for_each(|line| terminal::print(&format!("{}: {line}\n", NAMES[k])))?;
+        sides.push(Again::new(&model, &options, &runs[k].folder, from).map_err(|error| CliError::from(&error))?);
     }
     let Ok(mut sides) = <[Again; 2]>::try_from(sides) else { return Ok(()) };
     let pairing = Pairing::new(&sides[0].simulation, &sides[1].simulation);
     if pairing.is_empty() {
-        let complaint = Complaint::new(&NOTHING_IN_COMMON, "no part has the same mesh in both runs, so no node has a counterpart");
-        return Err(Failure::Input(pairing.left_out.iter().fold(complaint, |text, line| text.and(format!("  {line}")))).into());
+        let cli_error = CliError::new(&NOTHING_IN_COMMON, "no part has the same mesh in both runs, so no node has a counterpart");
+        return Err(Failure::Input(pairing.left_out.iter().fold(cli_error, |text, line| text.and(format!("  {line}")))).into());
     }
     terminal::print(&words::again(&sides, [from, to], &pairing.left_out))?;
     let mut display = Display::on_terminal(arguments.quiet);
@@ -169,39 +169,39 @@ fn again(arguments: &Arguments, runs: &[RunLeft; 2], [from, to]: [u64; 2]) -> Re
 }
 
 /// The model of a run, if it is the one that ran.
-fn model(run: &RunLeft, place: &Place, k: usize) -> Result<Model, Complaint> {
-    let not_again = |text: String| Complaint::new(&NOT_AGAIN, format!("{text}; what is told above is known from the logs"));
-    let cure = format!("name the one that ran with --model-{} PATH", NAMES[k].to_lowercase());
+fn model(run: &RunLeft, place: &Place, k: usize) -> Result<Model, CliError> {
+    let not_again = |text: String| CliError::new(&NOT_AGAIN, format!("{text}; what is reported above is known from the logs"));
+    let remedy = format!("name the one that ran with --model-{} PATH", NAMES[k].to_lowercase());
     let Some((origin, identity)) = &run.model else {
-        return Err(not_again(format!("run {} does not tell its model", NAMES[k])).help("run it again: it leaves run.json, which does"));
+        return Err(not_again(format!("run {} does not name its model", NAMES[k])).help("run it again: it leaves run.json, which does"));
     };
     let loaded = place.load(origin, &[]);
     let (loaded, _) = loaded.map_err(|failure| {
-        let complaint = not_again(format!("the model of run {} can't be read", NAMES[k])).help(&cure);
+        let cli_error = not_again(format!("the model of run {} can't be read", NAMES[k])).help(&remedy);
         match failure {
-            Failure::Input(reason) => complaint.and(reason),
-            _ => complaint,
+            Failure::Input(reason) => cli_error.and(reason),
+            _ => cli_error,
         }
     })?;
     let changes = Identity::of(&loaded.model).differences_in_steps(identity);
     if changes.is_empty() {
         return Ok(loaded.model);
     }
-    let complaint = not_again(format!("the model of run {} is no longer the one that ran", NAMES[k]));
-    let complaint = changes.iter().fold(complaint, |text, change| text.and(format!("  {change}")));
-    Err(complaint.help(format!("put it back as it was, or {cure}")))
+    let cli_error = not_again(format!("the model of run {} is no longer the one that ran", NAMES[k]));
+    let cli_error = changes.iter().fold(cli_error, |text, change| text.and(format!("  {change}")));
+    Err(cli_error.help(format!("put it back as it was, or {remedy}")))
 }
 
-/// How a run was run, as far as this machine can; what it can't is told.
+/// How a run was run, as far as this machine can; what it can't is reported.
 fn options(run: &RunLeft) -> (Options, Vec<String>) {
     let Some(end) = &run.end else { return (Options::default(), vec!["it has not ended, so its threads are not known".into()]) };
-    let (mut told, most) = (Vec::new(), Options::default().thread_count());
+    let (mut reported, most) = (Vec::new(), Options::default().thread_count());
     if end.threads > most {
-        told.push(format!("this machine has {most} of its {} threads", end.threads));
+        reported.push(format!("this machine has {most} of its {} threads", end.threads));
     }
     let simd = Some(end.simd.clone()).filter(|simd| Options::has(simd));
     if simd.is_none() {
-        told.push(format!("this machine has no {}", end.simd));
+        reported.push(format!("this machine has no {}", end.simd));
     }
-    (Options { threads: end.threads.min(most), simd }, told)
+    (Options { threads: end.threads.min(most), simd }, reported)
 }

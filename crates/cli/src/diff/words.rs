@@ -2,8 +2,8 @@
 
 use crate::numbers::{grouped, table, with_unit};
 use embate_files::comparison::{Again, Found, RunLeft, Window};
+use embate_solver::divergence::{Divergence, NodeDivergence, PartDivergence, Value};
 use embate_solver::error::Error;
-use embate_solver::parting::{NodeParting, PartParting, Parting, Value};
 use std::fmt::Write as _;
 
 /// What the two runs are called.
@@ -17,22 +17,22 @@ const OTHERS: usize = 10;
 pub(super) fn runs(runs: &[RunLeft; 2]) -> String {
     let mut text = String::new();
     for (run, name) in runs.iter().zip(NAMES) {
-        let mut told = Vec::new();
+        let mut reported = Vec::new();
         match &run.end {
             Some(end) => {
                 let threads = if end.threads == 1 { "1 thread".to_string() } else { format!("{} threads", end.threads) };
-                told.push(format!("{}, {} steps to {}", end.status, grouped(end.steps), with_unit(end.time_end, "s")));
-                told.push(format!("{threads}, {}", end.simd));
+                reported.push(format!("{}, {} steps to {}", end.status, grouped(end.steps), with_unit(end.time_end, "s")));
+                reported.push(format!("{threads}, {}", end.simd));
             }
-            None => told.push(format!("not ended, {} steps at least", grouped(run.last_step()))),
+            None => reported.push(format!("not ended, {} steps at least", grouped(run.last_step()))),
         }
-        told.extend(run.version.iter().map(|version| format!("embate {version}")));
+        reported.extend(run.version.iter().map(|version| format!("embate {version}")));
         if let Some((origin, _)) = &run.model {
             let set: String = origin.set.iter().map(|key| format!(" --set {key}")).collect();
-            told.push(format!("{}{set}", origin.path.display()));
+            reported.push(format!("{}{set}", origin.path.display()));
         }
         // Writing to a string can't fail.
-        let _ = writeln!(text, "{name}  {}: {}", run.folder.display(), told.join("; "));
+        let _ = writeln!(text, "{name}  {}: {}", run.folder.display(), reported.join("; "));
     }
     match [&runs[0].model, &runs[1].model] {
         [Some((_, a)), Some((_, b))] => {
@@ -127,15 +127,15 @@ pub(super) fn not_repeated(k: usize, step: u64, failed: Option<String>) -> Strin
 /// What came of it.
 pub(super) fn found(found: &Found, sides: &[Again; 2]) -> String {
     match found {
-        Found::Parting(found) => parting(found),
+        Found::Divergence(found) => divergence(found),
         Found::Nothing(step) => format!("gone over here, both are the same until step {}\n", grouped(*step)),
         Found::Failure { step, errors } => {
-            let told = |error: &Option<Error>| error.as_ref().map(Error::with_code);
+            let reported = |error: &Option<Error>| error.as_ref().map(Error::with_code);
             let mut text = format!("until step {} both are the same\n", grouped(step - 1));
-            match [told(&errors[0]), told(&errors[1])] {
+            match [reported(&errors[0]), reported(&errors[1])] {
                 [Some(a), Some(b)] if a == b => push_plain(&mut text, &format!("in step {} both fail: {a}", grouped(*step))),
-                told => told.into_iter().zip(NAMES).for_each(|(error, name)| {
-                    let what = error.map_or("goes on".to_string(), |error| format!("fails: {error}"));
+                reported => reported.into_iter().zip(NAMES).for_each(|(error, name)| {
+                    let what = error.map_or("continues".to_string(), |error| format!("fails: {error}"));
                     push_plain(&mut text, &format!("in step {} run {name} {what}", grouped(*step)));
                 }),
             }
@@ -146,11 +146,11 @@ pub(super) fn found(found: &Found, sides: &[Again; 2]) -> String {
     }
 }
 
-fn parting(found: &Parting) -> String {
-    let Parting { step, time, time_step, governors, parts, others } = found;
+fn divergence(found: &Divergence) -> String {
+    let Divergence { step, time, time_step, governors, parts, others } = found;
     let mut text = String::new();
     let when = if time.differs() { format!("{:e} s in A, {:e} s in B", time.0, time.1) } else { format!("{:e} s", time.0) };
-    let _ = writeln!(text, "\nthe runs part at step {}, t = {when}", grouped(*step));
+    let _ = writeln!(text, "\nthe runs diverge at step {}, t = {when}", grouped(*step));
     if time_step.differs() {
         let _ = writeln!(
             text,
@@ -171,7 +171,7 @@ fn parting(found: &Parting) -> String {
             let _ = writeln!(text, "parts that differ as well: {}", names.join(", "));
             break;
         }
-        tell_part(&mut text, part);
+        report_part(&mut text, part);
     }
     let rows: Vec<Vec<String>> = others.iter().take(OTHERS).map(|(name, value)| row(name, *value)).collect();
     if !rows.is_empty() {
@@ -183,8 +183,8 @@ fn parting(found: &Parting) -> String {
     text
 }
 
-fn tell_part(text: &mut String, part: &PartParting) {
-    let PartParting { name, nodes, differing, first, farthest, energies } = part;
+fn report_part(text: &mut String, part: &PartDivergence) {
+    let PartDivergence { name, nodes, differing, first, farthest, energies } = part;
     let count = match differing {
         0 => format!("of {} nodes none differs yet, but the energy of the elements does", grouped(*nodes as u64)),
         1 => format!("1 of {} nodes differs", grouped(*nodes as u64)),
@@ -192,18 +192,18 @@ fn tell_part(text: &mut String, part: &PartParting) {
     };
     let _ = writeln!(text, "\npart \"{name}\": {count}");
     if let Some(first) = first {
-        tell_node(text, "the first", first);
+        report_node(text, "the first", first);
     }
     if let Some(farthest) = farthest.as_ref().filter(|farthest| first.as_ref().is_none_or(|first| first.number != farthest.number)) {
-        tell_node(text, "the one whose velocities are farthest apart", farthest);
+        report_node(text, "the one whose velocities are farthest apart", farthest);
     }
     if first.is_none() {
         text.push_str(&table(&headed("", energies.iter().map(|(name, value)| row(name, *value)).collect()), "  "));
     }
 }
 
-fn tell_node(text: &mut String, which: &str, node: &NodeParting) {
-    let NodeParting { number, user, values } = node;
+fn report_node(text: &mut String, which: &str, node: &NodeDivergence) {
+    let NodeDivergence { number, user, values } = node;
     let place = |k: usize| values.get(k).map_or(f64::NAN, |(_, value)| value.0);
     let _ = writeln!(text, "{which} is node {number} of the part (node {user} of the fields) at ({:.6e}, {:.6e}) m", place(0), place(1));
     text.push_str(&table(&headed("", values.iter().map(|(name, value)| row(name, *value)).collect()), "  "));
@@ -237,12 +237,12 @@ mod tests {
 
     #[test]
     fn distances_are_counted_in_numbers_between() {
-        let told = |a: f64, b: f64| apart(Value(a, b));
-        assert_eq!(told(1.0, 1.0), "same");
-        assert_eq!(told(1.0, 1.0 + 3.0 * f64::EPSILON), "3 ulp");
-        assert_eq!(told(0.0, -0.0), "sign of zero");
-        assert_eq!(told(1.0, 2.0), "4.5e15 ulp");
-        assert_eq!(told(f64::NAN, 2.0), "not a number");
-        assert_eq!([told(0.0, 1e-300), told(1e-3, -1e-3)], ["from zero", "other sign"]);
+        let reported = |a: f64, b: f64| apart(Value(a, b));
+        assert_eq!(reported(1.0, 1.0), "same");
+        assert_eq!(reported(1.0, 1.0 + 3.0 * f64::EPSILON), "3 ulp");
+        assert_eq!(reported(0.0, -0.0), "sign of zero");
+        assert_eq!(reported(1.0, 2.0), "4.5e15 ulp");
+        assert_eq!(reported(f64::NAN, 2.0), "not a number");
+        assert_eq!([reported(0.0, 1e-300), reported(1e-3, -1e-3)], ["from zero", "other sign"]);
     }
 }

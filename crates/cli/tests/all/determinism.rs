@@ -36,7 +36,7 @@ fn every_example_has_the_same_bits_on_1_2_3_and_7_threads_and_each_instruction_s
     let models = examples();
     assert!(models.len() >= 17 && levels.contains(&"scalar".to_string()));
     for folder in models {
-        let model = embate_files::model_file::load(&folder, &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+        let model = embate_files::model_file::load(&folder, &[]).unwrap_or_else(|reported| panic!("{}", reported.rendered));
         let steps = steps_of(&model);
         let hash = |threads: usize, simd: &str| {
             let mut simulation = Simulation::new(&model, &Options { threads, simd: Some(simd.into()) }).unwrap();

@@ -85,7 +85,7 @@ fn a_load_that_begins_later_parts_the_runs_where_and_when_it_begins() {
     for text in [
         "load[0].force[0]: A has 1000.0, B has 2000.0",
         "the same at step 100 (1.000000e-5 s), not at step 150",
-        "the runs part at step 123, t = 1.2",
+        "the runs diverge at step 123, t = 1.2",
         "part \"pulled\": 3 of 15 nodes differ",
         "the first is node 4 of the part (node 19 of the fields) at (1.400000e-1, 0.000000e0) m",
         "farthest apart is node 9 of the part",
@@ -109,7 +109,7 @@ fn a_velocity_that_is_another_by_one_ulp_parts_the_runs_at_the_start() {
     let answer = diff(&folder, 1, []);
     for text in [
         "logs: not the same from step 0 (0.000000e0 s) on: part \"still\"",
-        "the runs part at step 0, t = 0e0 s",
+        "the runs diverge at step 0, t = 0e0 s",
         "part \"still\": 15 of 15 nodes differ",
         "the first is node 0 of the part",
     ] {
@@ -149,7 +149,7 @@ fn the_answer_is_that_of_logs_of_every_step() {
                 }
             }
             let answer = diff(&folder, 1, []);
-            assert_eq!(between(&answer.out, "the runs part at step ", ","), brute, "{name}: {}", answer.out);
+            assert_eq!(between(&answer.out, "the runs diverge at step ", ","), brute, "{name}: {}", answer.out);
             for part in ["thrown", "hit"] {
                 assert_eq!(answer.out.contains(&format!("\npart \"{part}\": ")), parts.contains(&part), "{name}: {}", answer.out);
             }
@@ -162,7 +162,7 @@ fn the_answer_is_that_of_logs_of_every_step() {
 }
 
 #[test]
-fn a_run_that_went_on_is_the_same_and_a_shorter_one_is_told() {
+fn a_run_that_went_on_is_the_same_and_a_shorter_one_is_reported() {
     let folder = fresh("diff-resumed");
     write(&folder, "model.toml", THROWN);
     run(&folder, "model.toml", "a", []);
@@ -177,7 +177,7 @@ fn a_run_that_went_on_is_the_same_and_a_shorter_one_is_told() {
 }
 
 #[test]
-fn damaged_and_missing_logs_are_told_with_what_to_do() {
+fn damaged_and_missing_logs_are_reported_with_what_to_do() {
     let folder = fresh("diff-damaged");
     write(&folder, "model.toml", PULLED);
     run(&folder, "model.toml", "a", []);
@@ -189,7 +189,7 @@ fn damaged_and_missing_logs_are_told_with_what_to_do() {
     let answer = diff(&folder, 1, []);
     assert!(answer.out.contains("the last states differ") && answer.out.contains("--whole"), "{}", answer.out);
     let answer = diff(&folder, 1, ["--whole"]);
-    assert!(answer.out.contains("the runs part at step 123,"), "{}", answer.out);
+    assert!(answer.out.contains("the runs diverge at step 123,"), "{}", answer.out);
 
     let log = folder.join("a/hashes.csv");
     let text = fs::read_to_string(&log).unwrap();
@@ -209,7 +209,7 @@ fn damaged_and_missing_logs_are_told_with_what_to_do() {
 }
 
 #[test]
-fn a_model_that_has_changed_since_is_told_and_another_place_helps() {
+fn a_model_that_has_changed_since_is_reported_and_another_place_helps() {
     let folder = fresh("diff-changed");
     write(&folder, "model.toml", PULLED);
     write(&folder, "as-it-was.toml", PULLED);
@@ -222,7 +222,7 @@ fn a_model_that_has_changed_since_is_told_and_another_place_helps() {
         assert!(answer.err.contains(text), "{}", answer.err);
     }
     let answer = diff(&folder, 1, ["--model-a", "as-it-was.toml"]);
-    assert!(answer.out.contains("the runs part at step 123,") && answer.err.is_empty(), "{}{}", answer.out, answer.err);
+    assert!(answer.out.contains("the runs diverge at step 123,") && answer.err.is_empty(), "{}{}", answer.out, answer.err);
 }
 
 /// CRC32 of the lines of `hashes.csv`, bit by bit.
@@ -232,7 +232,7 @@ fn crc(text: &str) -> u32 {
 }
 
 #[test]
-fn a_log_that_can_t_be_repeated_is_told_with_its_run() {
+fn a_log_that_can_t_be_repeated_is_reported_with_its_run() {
     let folder = fresh("diff-unlike");
     write(&folder, "model.toml", PULLED);
     run(&folder, "model.toml", "a", []);

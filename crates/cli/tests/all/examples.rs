@@ -39,15 +39,15 @@ impl Results {
         self.rows_where(name, |value| value != 0.0).first().map_or(f64::INFINITY, |row| row.0)
     }
 
-    /// Nothing was missed, and the books close.
+    /// Nothing was missed, and the ledger close.
     fn is_sound(&self, drift: f64) {
         self.is_sound_but(0, drift);
     }
 
     /// The same with at most so many steps in which something is deep against its thickness.
-    fn is_sound_but(&self, told: u64, drift: f64) {
+    fn is_sound_but(&self, reported: u64, drift: f64) {
         assert_eq!(self.summary["status"], "done");
-        assert!(self.summary["contact"]["unverified"].as_u64().unwrap() <= told, "{}", self.summary);
+        assert!(self.summary["contact"]["unverified"].as_u64().unwrap() <= reported, "{}", self.summary);
         assert!(self.figure("ledger_residual") < 1e-10 && self.figure("energy_drift") < drift, "{}", self.summary);
     }
 
@@ -341,7 +341,7 @@ fn a_copper_rod_is_a_third_shorter_after_its_impact() {
 }
 
 #[test]
-fn a_quarter_of_the_copper_rod_in_space_ends_as_the_axisymmetric_one() {
+fn a_quarter_of_the_copper_rod_in_3d_ends_as_the_axisymmetric_one() {
     let results = run("taylor-bar-3d", "example-taylor-bar-3d");
     results.is_sound(1e-3);
     is_near(*results.column("tail.z").last().unwrap(), 21.42e-3, 0.25e-3);
@@ -508,7 +508,7 @@ fn a_bullet_tears_a_plate_and_flies_on_behind_a_cap() {
     let eroded = results.summary["erosion"]["elements"]["plate"].as_u64().unwrap();
     assert!((50..300).contains(&eroded), "{}", results.summary);
 
-    // Recht and Ipson with the limit that the README tells: what the cap takes, and the work at the limit.
+    // Recht and Ipson with the limit that the README reports: what the cap takes, and the work at the limit.
     let (velocity, limit, mass, cap) = (450.0_f64, 381.0_f64, 0.1090, 0.0020);
     let expected = mass / (mass + cap) * (velocity * velocity - limit * limit).sqrt();
     let residual = -*results.column("bullet.vy").last().unwrap();

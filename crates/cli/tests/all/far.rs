@@ -5,8 +5,8 @@
 //! more, independently of the others: after n steps they are off by about √n u. Strains, and with them forces
 //! and energies, come from the way v dt that bodies of the speed v go in a step, and what contact presses
 //! from the depth δ of its springs. So energies may be off by the fraction √n u / (v dt) and what contact
-//! tells by √n u / δ besides, times a factor of four for what rounds in the sums of an element. An area from
-//! products of coordinates would be off by u S / h², a million times u / h.
+//! reports by √n u / δ besides, times a factor of four for what rounds in the sums of an element. An area
+//! from products of coordinates would be off by u S / h², a million times u / h.
 
 use embate_files::model_file;
 use embate_solver::model::{Load, Model, ObstacleShape, ProbeAt};
@@ -106,14 +106,14 @@ fn size(positions: &[f64], dimension: usize) -> f64 {
     (0..dimension).map(extent).fold(0.0, f64::max)
 }
 
-/// Whether a column of the history tells of contact.
+/// Whether a column of the history reports of contact.
 fn is_of_contact(column: &str) -> bool {
     let names = ["force_", "energy[", "penetration[", "friction_work["];
     let of = |kind: &str| column.strip_prefix(kind).is_some_and(|rest| names.iter().any(|name| rest.starts_with(name)));
     of("contact.") || of("obstacle.") || column == "energy.contact" || column == "energy.friction"
 }
 
-/// Runs some steps of an example with bodies of a speed (m/s) at home and far away, and tells what is off by
+/// Runs some steps of an example with bodies of a speed (m/s) at home and far away, and says what is off by
 /// more than may be.
 fn compare(name: &str, speed: f64, steps: u64) -> Vec<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name).join("model.toml");

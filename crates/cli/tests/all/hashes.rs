@@ -2,7 +2,7 @@
 //! every case of verification.
 //!
 //! A change of the code that should change no result leaves the table as it is. One that changes results
-//! makes it anew with `EMBATE_BLESS=1`, and its lines tell which models those are. The runs are those of
+//! makes it again with `EMBATE_BLESS=1`, and its lines say which models those are. The runs are those of
 //! other tests.
 
 use crate::root;

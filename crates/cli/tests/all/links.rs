@@ -1,5 +1,5 @@
 //! Every file that the program writes, with a symbolic link in its way: what the link leads to stays as it
-//! was. And folders of results with pipes in place of files: nobody waits for them.
+//! was. And folders of results with pipes in place of files: no one waits for them.
 
 use crate::{FLIGHT, embate, fresh};
 use std::collections::BTreeMap;
@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 enum Comes {
     /// The program refuses, with E0707.
     Refused,
-    /// It tells of what it could not write, and of the link, and goes on.
+    /// It reports of what it could not write, and of the link, and continues.
     Told,
     /// It does its work, and this is no link any more.
     Replaced(&'static str),
@@ -80,7 +80,7 @@ const CASES: &[(&str, &str, &str, Comes)] = &[
     ("out/fields/frame-00001.vtu", "secret", FORCE, Replaced("out/fields/frame-00001.vtu")),
     ("out/checkpoint/000000000184.embate.part", "secret", FORCE, Replaced("out/checkpoint/000000000184.embate")),
     ("out/checkpoint/000000000184.embate", "secret", FORCE, Replaced("out/checkpoint/000000000184.embate")),
-    // One that goes on.
+    // One that continues.
     ("out/fields", "elsewhere", RESUME, Refused),
     ("out/post-mortem", "elsewhere", RESUME, Refused),
     ("out/pictures.part", "elsewhere", RESUME, Refused),

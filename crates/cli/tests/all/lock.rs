@@ -36,7 +36,7 @@ fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     all
 }
 
-/// So many at once; each has it to the end, or is told why not.
+/// So many at once; each has it to the end, or is reported why not.
 fn at_once(folder: &Path, commands: &[&str], reasons: &[&str], rounds: usize) {
     for round in 0..rounds {
         let answers = ended(commands.iter().map(|command| spawn(folder, command)).collect());
@@ -61,7 +61,7 @@ fn of_four_runs_at_once_each_has_the_folder_to_its_end_or_not_at_all() {
     let [alone, out] = ["alone", "out"].map(|name| files(&folder.join(name)));
     assert_eq!(alone.keys().collect::<Vec<_>>(), out.keys().collect::<Vec<_>>());
     assert!(alone.len() > 100 && alone == out, "what is there is of one run");
-    // Those that go on, beside one that begins anew.
+    // Those that continue, beside one that begins again.
     let resume = "resume out --quiet --threads 1";
     // The checkpoint may go while it is looked for.
     at_once(&folder, &[&command, resume, &command, resume], &["error[E0714]", "error[E0716]", "error[E0704]"], 3);
@@ -92,9 +92,9 @@ fn a_run_keeps_others_out_until_it_is_killed() {
     }
     // Who only looks is let in.
     let report = embate(&folder, ["report", "out"]);
-    let goes_on = child.0.try_wait().unwrap().is_none();
+    let continues = child.0.try_wait().unwrap().is_none();
     drop(child);
-    assert!(began && goes_on, "the run goes on");
+    assert!(began && continues, "the run continues");
     assert_eq!(report.code, Some(0), "{}", report.err);
     let answer = embate(&folder, ["resume", "out", "--quiet", "--set", "run.max_steps=1"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);

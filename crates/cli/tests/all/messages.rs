@@ -76,7 +76,7 @@ fn codes_have_an_area_and_entries_have_texts() {
         let (letter, digits) = message.code.split_at(1);
         assert!(matches!(letter, "E" | "W") && digits.len() == 4 && digits.bytes().all(|digit| digit.is_ascii_digit()), "{}", message.code);
         assert!(AREAS.iter().any(|(area, _)| digits.starts_with(area)), "{} belongs to no area", message.code);
-        for text in [message.cause, message.cure] {
+        for text in [message.cause, message.remedy] {
             assert!(text.starts_with(|first: char| !first.is_lowercase()) && text.len() > 10, "{}: {text}", message.code);
         }
         assert!(!message.title.ends_with('.') && message.title.len() < 100, "{}: {}", message.code, message.title);
@@ -135,7 +135,7 @@ fn provoked(message: &Message) -> Option<String> {
         Example::Words(_) => return None,
     }
     fs::write(folder.join("model.toml"), model).unwrap();
-    Some(told(&embate(&folder, arguments.split_whitespace()).err))
+    Some(reported(&embate(&folder, arguments.split_whitespace()).err))
 }
 
 /// What lines of a shell print on standard error; only the last may fail.
@@ -143,15 +143,15 @@ fn script(folder: &Path, lines: &str) -> Option<String> {
     let program = Path::new(env!("CARGO_BIN_EXE_embate")).parent().unwrap();
     let path = std::env::join_paths([program.to_path_buf()].into_iter().chain(std::env::split_paths(&std::env::var_os("PATH")?))).unwrap();
     let output = Command::new("sh").args(["-e", "-c", lines]).env("PATH", path).current_dir(folder).output().unwrap();
-    Some(told(&String::from_utf8(output.stderr).unwrap()))
+    Some(reported(&String::from_utf8(output.stderr).unwrap()))
 }
 
 /// The messages of a run: without its progress, and without what the machine has.
-fn told(err: &str) -> String {
+fn reported(err: &str) -> String {
     let progress = |line: &&str| line.trim_start().split_once(" %  ").is_some_and(|(share, _)| share.parse::<u32>().is_ok());
     // What the machine has is no part of the message.
-    let told = |line: &str| line.split("this machine has").next().map_or(String::new(), |start| format!("{}\n", start.trim_end()));
-    err.lines().filter(|line| !progress(line)).map(told).collect()
+    let reported = |line: &str| line.split("this machine has").next().map_or(String::new(), |start| format!("{}\n", start.trim_end()));
+    err.lines().filter(|line| !progress(line)).map(reported).collect()
 }
 
 /// The sections of a text, each with its header; what stands above all has an empty one.
@@ -207,7 +207,7 @@ fn of_each_code_twenty_messages_are_shown_and_the_rest_is_counted() {
 }
 
 #[test]
-fn what_is_seen_on_the_way_is_told_once_and_counted_in_the_summary() {
+fn what_is_seen_on_the_way_is_reported_once_and_counted_in_the_summary() {
     let folder = fresh("seen-on-the-way");
     let springs = catalogue().into_iter().find(|message| message.code == "W0612").unwrap();
     let Example::Model(lines) = springs.example else { panic!("its example is a model") };
@@ -225,7 +225,7 @@ fn what_is_seen_on_the_way_is_told_once_and_counted_in_the_summary() {
 }
 
 #[test]
-fn of_a_run_in_which_all_is_well_nothing_is_told() {
+fn of_a_run_in_which_all_is_well_nothing_is_reported() {
     let folder = fresh("all-is-well");
     fs::write(folder.join("model.toml"), BASE).unwrap();
     let answer = embate(&folder, ["run", "model.toml", "--out", "out"]);

@@ -92,7 +92,7 @@ fn completions_know_all_commands() {
     assert_eq!(embate(&folder, ["completions", "tcsh"]).code, Some(2));
 }
 
-/// Lets bash read a script without running it; where there is no bash, nobody completes with it.
+/// Lets bash read a script without running it; where there is no bash, no one completes with it.
 fn parses_in_bash(script: &str) {
     let Ok(mut bash) = Command::new("bash").args(["-n", "-"]).stdin(Stdio::piped()).spawn() else { return };
     bash.stdin.take().unwrap().write_all(script.as_bytes()).unwrap();

@@ -1,85 +1,85 @@
-//! Post-mortems: each failure of `failures/` names its culprit, with pictures that are whole and keys that
-//! can be found.
+//! Post-mortems: each failure of `failures/` names its failure location, with pictures that are whole and
+//! keys that can be found.
 
 use crate::{Answer, embate, fresh};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A failure: its folder, its code, its culprit, and two of the keys to change with the lines on which they
-/// stand.
+/// A failure: its folder, its code, its failure location, and two of the keys to change with the lines on
+/// which they stand.
 struct Failure {
     name: &'static str,
     code: &'static str,
-    culprit: &'static str,
+    failure_location: &'static str,
     keys: [(&'static str, &'static str); 2],
     /// Pictures that must be there.
     pictures: &'static [&'static str],
 }
 
 /// Pictures of a run that failed after some steps.
-const ALL: &[&str] = &["place.svg", "neighbourhood.svg", "culprit.svg", "energies.svg"];
+const ALL: &[&str] = &["place.svg", "neighbourhood.svg", "failure-location.svg", "energies.svg"];
 
 const FAILURES: &[Failure] = &[
     Failure {
         name: "inverted-element",
         code: "E0601",
-        culprit: "element 178 of part \"pad\"",
+        failure_location: "element 178 of part \"pad\"",
         keys: [("part[0].rectangle.elements", "[24, 8]"), ("obstacle[0].motion", "\"-150 m/s\"")],
         pictures: ALL,
     },
     Failure {
         name: "inverted-solid",
         code: "E0601",
-        culprit: "element 1433 of part \"pad\"",
+        failure_location: "element 1433 of part \"pad\"",
         keys: [("part[0].box.elements", "[16, 16, 6]"), ("obstacle[0].motion", "\"-150 m/s\"")],
         pictures: ALL,
     },
     Failure {
         name: "collapsed-step",
         code: "E0602",
-        culprit: "element 0 of part \"bar\"",
+        failure_location: "element 0 of part \"bar\"",
         keys: [("part[0].velocity", "[0, \"-550 m/s\"]"), ("run.step_limit", "\"8 ns\"")],
         pictures: ALL,
     },
     Failure {
         name: "energy-drift",
         code: "E0603",
-        culprit: "contact \"hit\" at node 76 of part \"ball\"",
+        failure_location: "contact \"hit\" at node 76 of part \"ball\"",
         keys: [("contact[0].penalty_scale", "1e6"), ("contact[0].formulation", "\"segment\"")],
         pictures: ALL,
     },
     Failure {
         name: "not-finite",
         code: "E0604",
-        culprit: "node 20 of part \"strip\"",
+        failure_location: "node 20 of part \"strip\"",
         keys: [("constraint[1].velocity", "\"measured\""), ("curve.measured.value", "1.797693e308 m/s")],
         pictures: ALL,
     },
     Failure {
         name: "mass-scaling",
         code: "E0605",
-        culprit: "of part \"skin\"",
+        failure_location: "of part \"skin\"",
         keys: [("run.mass_scaling.time_step", "\"100 ns\""), ("part[1].rectangle.elements", "[80, 4]")],
         pictures: &["place.svg", "neighbourhood.svg", "mass.svg"],
     },
     Failure {
         name: "deep-contact",
         code: "E0606",
-        culprit: "contact \"landing\" at node ",
+        failure_location: "contact \"landing\" at node ",
         keys: [("contact[0].penalty_scale", "1e-6"), ("part[0].velocity", "[0, \"-20 m/s\"]")],
         pictures: ALL,
     },
     Failure {
         name: "runaway",
         code: "E0607",
-        culprit: "of part \"weight\"",
+        failure_location: "of part \"weight\"",
         keys: [("load[0].gravity", "[0, \"-9.81 Gm/s^2\"]"), ("material.lead", "[material.lead]")],
         pictures: ALL,
     },
     Failure {
         name: "memory",
         code: "E0608",
-        culprit: "**part \"plate\"** with 4000000 of 4000100 elements",
+        failure_location: "**part \"plate\"** with 4000000 of 4000100 elements",
         keys: [("part[0].rectangle.elements", "[4000, 1000]"), ("run.memory_limit", "\"1 GB\"")],
         pictures: &[],
     },
@@ -133,7 +133,7 @@ fn row<'a>(page: &'a str, key: &str) -> Option<&'a str> {
 }
 
 #[test]
-fn each_failure_has_an_example_whose_page_names_the_culprit_and_the_keys_to_change() {
+fn each_failure_has_an_example_whose_page_names_the_failure_location_and_the_keys_to_change() {
     let mut names: Vec<String> = fs::read_dir(failures())
         .unwrap()
         .map(|entry| entry.unwrap())
@@ -145,7 +145,7 @@ fn each_failure_has_an_example_whose_page_names_the_culprit_and_the_keys_to_chan
     listed.sort_unstable();
     assert_eq!(names, listed);
     let read_me = fs::read_to_string(failures().join("README.md")).unwrap();
-    for Failure { name, code, culprit, keys, pictures } in FAILURES {
+    for Failure { name, code, failure_location, keys, pictures } in FAILURES {
         let folder = fresh(&format!("post-mortem-{name}"));
         let answer = run(&folder, name, &[]);
         assert!(answer.code.is_some_and(|code| code != 0) && answer.err.contains(&format!("error[{code}]")), "{name}: {}", answer.err);
@@ -153,8 +153,8 @@ fn each_failure_has_an_example_whose_page_names_the_culprit_and_the_keys_to_chan
         assert!(read_me.contains(&format!("`{name}`")) && read_me.contains(code), "{name} is not in failures/README.md");
         let results = folder.join("out");
         let page = fs::read_to_string(results.join("post-mortem/README.md")).unwrap();
-        let named = page.lines().find(|line| line.contains("**culprit**")).unwrap_or_default();
-        assert!(named.contains(culprit) && page.contains(&format!("({code})")), "{name}: {named}");
+        let named = page.lines().find(|line| line.contains("**failure location**")).unwrap_or_default();
+        assert!(named.contains(failure_location) && page.contains(&format!("({code})")), "{name}: {named}");
         let model = fs::read_to_string(failures().join(name).join("model.toml")).unwrap();
         for (key, value) in keys {
             let row = row(&page, key).unwrap_or_else(|| panic!("{name}: no {key} in\n{page}"));
@@ -187,13 +187,13 @@ fn each_failure_has_an_example_whose_page_names_the_culprit_and_the_keys_to_chan
 }
 
 #[test]
-fn pictures_of_solids_are_cut_open_to_the_culprit_and_number_it() {
+fn pictures_of_solids_are_cut_open_to_the_failure_location_and_number_it() {
     let folder = fresh("post-mortem-solids");
     let answer = run(&folder, "inverted-solid", &["--quiet", "--set", "output.pictures=false"]);
     assert_eq!(answer.code, Some(1), "{}", answer.err);
     let picture = |name: &str| fs::read_to_string(folder.join("out/post-mortem").join(name)).unwrap();
     let near = picture("neighbourhood.svg");
-    // Four panels, each with its image and with the culprit's number on one of its sides.
+    // Four panels, each with its image and with the failure location's number on one of its sides.
     assert_eq!((near.matches("<image ").count(), near.matches("data:image/png;base64,iVBORw0KGgo").count()), (4, 4));
     assert_eq!(near.matches("font-weight=\"bold\">1433</text>").count(), 4);
     assert!(near.contains("cut open: ") && near.contains("contact force, up to "));

@@ -1,5 +1,5 @@
-//! Runs that are stopped, killed, or run out of room, and go on: what they leave is what one that was never
-//! stopped leaves, byte by byte.
+//! Runs that are stopped, killed, or run out of room, and continue: what they leave is what one that was
+//! never stopped leaves, byte by byte.
 //!
 //! The long form of the test that kills: `cargo test -p embate --test all -- --ignored two_hundred`.
 
@@ -103,13 +103,13 @@ fn resume(folder: &Path, out: &str) -> Answer {
 }
 
 #[test]
-fn a_run_that_goes_on_leaves_the_files_of_one_that_was_never_stopped() {
+fn a_run_that_continues_leaves_the_files_of_one_that_was_never_stopped() {
     let folder = fresh("resume");
     let whole = whole(&folder);
     let out = stopped(&folder, "out");
     let answer = resume(&folder, "out");
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    assert!(answer.err.contains("going on from step 600"), "{}", answer.err);
+    assert!(answer.err.contains("continuing from step 600"), "{}", answer.err);
     is_the_same(&whole, &out);
     // From the end as well, to another end: the same as a run with that end from the start, as the steps
     // before it had not begun to land.
@@ -154,7 +154,7 @@ fn checkpoints_that_a_run_replaces_while_they_are_looked_for_are_looked_for_agai
 }
 
 #[test]
-fn a_damaged_checkpoint_is_told_and_the_one_before_it_is_used() {
+fn a_damaged_checkpoint_is_reported_and_the_one_before_it_is_used() {
     let folder = fresh("damaged");
     let whole = whole(&folder);
     let out = stopped(&folder, "out");
@@ -237,7 +237,7 @@ fn a_stretch_is_shown_again_with_the_same_bits() {
 }
 
 #[test]
-fn a_run_that_fails_keeps_its_last_good_state_and_may_go_on_with_another_limit() {
+fn a_run_that_fails_keeps_its_last_good_state_and_may_continue_run_with_another_limit() {
     let folder = fresh("last-good");
     model(&folder);
     let crush = [
@@ -267,11 +267,11 @@ fn a_run_that_fails_keeps_its_last_good_state_and_may_go_on_with_another_limit()
 }
 
 #[test]
-fn every_example_goes_on_from_its_state() {
+fn every_example_continues_from_its_state() {
     // `tests/all/restart.rs` of the solver has contacts of all kinds in action.
     let levels = instruction_sets();
     for (number, folder) in examples().into_iter().enumerate() {
-        let model = embate_files::model_file::load(&folder, &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+        let model = embate_files::model_file::load(&folder, &[]).unwrap_or_else(|reported| panic!("{}", reported.rendered));
         let steps = steps_of(&model);
         let options = |number: usize| Options { threads: 1 + number % 3, simd: Some(levels[number % levels.len()].clone()) };
         let mut whole = Simulation::new(&model, &options(number)).unwrap();
@@ -302,7 +302,7 @@ impl Running {
     }
 
     #[cfg(unix)]
-    fn tell(&self, signal: &str) {
+    fn report(&self, signal: &str) {
         assert!(Command::new("kill").args([signal, &self.0.id().to_string()]).status().unwrap().success());
     }
 }
@@ -329,7 +329,7 @@ fn a_signal_stops_a_run_with_its_state_kept() {
     for signal in ["-TERM", "-INT"] {
         let mut running = Running::start(&folder, &["run", "model.toml", "--out", "out", "--force", "--threads", "2"]);
         has_begun(&folder.join("out"));
-        running.tell(signal);
+        running.report(signal);
         let code = running.0.wait().unwrap().code();
         // It may have been done already on a slow day.
         if code == Some(130) {
@@ -351,7 +351,7 @@ fn a_hangup_stops_a_run_unless_it_was_started_to_live_through_it() {
         let _ = fs::remove_dir_all(folder.join("out"));
         let mut running = Running(Command::new("sh").args(["-c", &script]).current_dir(&folder).spawn().unwrap());
         has_begun(&folder.join("out"));
-        running.tell("-HUP");
+        running.report("-HUP");
         let code = running.0.wait().unwrap().code().unwrap();
         assert!(codes.contains(&code), "{trap}: {code}");
     }
@@ -431,7 +431,7 @@ fn killed(name: &str, times: usize, longest: u64) {
 }
 
 #[test]
-fn whoever_is_killed_at_any_moment_goes_on_and_nothing_is_torn() {
+fn whoever_is_killed_at_any_moment_continues_and_nothing_is_torn() {
     killed("killed", 10, 250);
 }
 
@@ -443,7 +443,7 @@ fn two_hundred_kills_change_no_byte() {
 
 #[cfg(unix)]
 #[test]
-fn a_full_disk_is_told_the_state_is_kept_and_with_room_the_run_goes_on() {
+fn a_full_disk_is_reported_the_state_is_kept_and_with_room_the_run_continues() {
     let folder = fresh("full");
     let whole = whole(&folder);
     // No file may grow beyond so many blocks of 512 or 1024 bytes; the system refuses the write as on a full
@@ -454,18 +454,18 @@ fn a_full_disk_is_told_the_state_is_kept_and_with_room_the_run_goes_on() {
         let output = Command::new("sh").args(["-c", &script]).current_dir(&folder).output().unwrap();
         (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
     };
-    let (code, told) = [200, 100]
+    let (code, reported) = [200, 100]
         .into_iter()
         .map(|blocks| limited(blocks, "run model.toml --out out --force --quiet --set run.checkpoint_steps=25"))
         .find(|(code, _)| *code != Some(0))
         .unwrap();
-    assert_eq!(code, Some(1), "{told}");
-    assert!(told.contains("can't write") && told.contains("out/"), "{told}");
+    assert_eq!(code, Some(1), "{reported}");
+    assert!(reported.contains("can't write") && reported.contains("out/"), "{reported}");
     assert!(!checkpoints(&folder.join("out")).is_empty());
     nothing_is_torn(&folder.join("out"), &whole);
     // Still none.
-    let (code, told) = limited(60, "resume out --quiet");
-    assert!(code != Some(0) && told.contains("can't write"), "{told}");
+    let (code, reported) = limited(60, "resume out --quiet");
+    assert!(code != Some(0) && reported.contains("can't write"), "{reported}");
     let answer = embate(&folder, ["resume", "out", "--quiet"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     is_the_same(&whole, &folder.join("out"));
@@ -477,7 +477,7 @@ fn a_small_disk_that_is_full_says_so_where_the_system_lets_one_be_made() {
     let folder = fresh("tmpfs");
     let whole = whole(&folder);
     let program = env!("CARGO_BIN_EXE_embate");
-    // A disk of its own that nobody else sees; results are copied out of it before it is gone.
+    // A disk of its own that no one else sees; results are copied out of it before it is gone.
     let script = format!(
         "mkdir disk && mount -t tmpfs -o size=700k none disk || exit 77
          {program} run model.toml --out disk/out --quiet --set run.checkpoint_steps=25; code=$?
@@ -485,13 +485,13 @@ fn a_small_disk_that_is_full_says_so_where_the_system_lets_one_be_made() {
     );
     let output = Command::new("unshare").args(["--user", "--map-root-user", "--mount", "sh", "-c", &script]).current_dir(&folder).output();
     let Ok(output) = output else { return };
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
     if output.status.code() != Some(1) {
         assert!(output.status.code() != Some(0), "700 kB were enough");
-        println!("no disk of its own here: {told}");
+        println!("no disk of its own here: {reported}");
         return;
     }
-    assert!(told.contains("No space left on device") && told.contains("free some space"), "{told}");
+    assert!(reported.contains("No space left on device") && reported.contains("free some space"), "{reported}");
     nothing_is_torn(&folder.join("out"), &whole);
     let answer = embate(&folder, ["resume", "out", "--quiet"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);

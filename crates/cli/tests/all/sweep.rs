@@ -1,4 +1,4 @@
-//! `embate sweep`: which runs it makes, what its table says, and that it goes on where it was.
+//! `embate sweep`: which runs it makes, what its table says, and that it continues where it was.
 
 use crate::{Answer, FLIGHT, embate, fresh};
 use std::fs;
@@ -110,7 +110,7 @@ fn a_table_of_runs_has_its_units_in_the_header() {
 }
 
 #[test]
-fn all_faults_are_told_at_once_with_their_runs_and_nothing_is_run() {
+fn all_faults_are_reported_at_once_with_their_runs_and_nothing_is_run() {
     let arguments = [
         "--vary",
         "material.stel.density=1:2:3",
@@ -153,7 +153,7 @@ fn all_faults_are_told_at_once_with_their_runs_and_nothing_is_run() {
 }
 
 #[test]
-fn a_missing_output_is_told_with_what_it_may_have_meant() {
+fn a_missing_output_is_reported_with_what_it_may_have_meant() {
     let (answer, _) = sweep(
         "sweep-output",
         &["--vary", "run.safety=0.5,0.6", "--output", "last(P.z)", "--output", "energy_drft", "--output", "at=1s(P.x)"],
@@ -178,7 +178,7 @@ fn the_table_is_the_same_for_any_number_of_jobs() {
 }
 
 #[test]
-fn a_run_that_fails_is_a_row_and_the_others_go_on() {
+fn a_run_that_fails_is_a_row_and_the_others_continue_run() {
     // The second limit is longer than the first stable step.
     let (answer, folder) = sweep("sweep-failed", &["--vary", "run.step_limit=1e-12,9.9e-5,1e-11", "--output", "P.x"]);
     assert_eq!(answer.code, Some(1), "{}", answer.err);
@@ -229,7 +229,7 @@ fn the_same_command_runs_nothing_twice_and_another_one_is_refused() {
 }
 
 #[test]
-fn a_sweep_that_was_killed_goes_on_where_it_was() {
+fn a_sweep_that_was_killed_continues_where_it_was() {
     let vary = ["--vary", "part.block.velocity[0]=1:300:300", "--set", "run.end=1 ms"];
     let (whole, folder) = sweep("sweep-whole", &[&vary[..], &["--summary-only"]].concat());
     assert_eq!(whole.code, Some(0), "{}", whole.err);

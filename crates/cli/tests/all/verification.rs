@@ -1,4 +1,4 @@
-//! `embate verify`: the cases of `verification/` hold, and the command itself tells what is wrong.
+//! `embate verify`: the cases of `verification/` hold, and the command itself says what is wrong.
 
 use crate::{Answer, FLIGHT, embate, fresh};
 use std::fs;
@@ -128,7 +128,7 @@ fn every_source_gives_its_number() {
 }
 
 #[test]
-fn values_of_solids_are_chosen_by_places_in_space() {
+fn values_of_solids_are_chosen_by_places_in_3d() {
     let part = |name: &str, z: f64, speed: f64| {
         format!(
             "[[part]]\nname = \"{name}\"\nmaterial = \"steel\"\nbox = {{ corner = [0, 0, {z}], size = [1, 1, 1], elements = [2, 2, 2] }}\nvelocity = [0, 0, {speed}]\n"
@@ -150,7 +150,7 @@ fn values_of_solids_are_chosen_by_places_in_space() {
 }
 
 #[test]
-fn what_is_not_there_is_told_with_its_place() {
+fn what_is_not_there_is_reported_with_its_place() {
     let expect = "expect = 1\ntolerance = 1";
     for (quantity, says) in [
         ("history = \"P.vz\", at = 0", "no column `P.vz`"),

@@ -31,7 +31,7 @@ impl Page {
         let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
         let line = lines.find_map(|line| line.unwrap().strip_prefix("page: http://127.0.0.1:").map(ToString::to_string)).unwrap();
         let (port, token) = line.split_once('/').unwrap();
-        // What is told later has somewhere to go.
+        // What is reported later has somewhere to go.
         std::thread::spawn(move || lines.for_each(drop));
         Self { child, port: port.parse().unwrap(), token: token.trim_end_matches('/').into() }
     }
@@ -87,7 +87,7 @@ fn who_knows_the_token_is_let_in_and_nobody_else() {
 }
 
 #[test]
-fn what_is_not_there_is_told_so() {
+fn what_is_not_there_is_reported_so() {
     let folder = results("view-missing");
     let page = Page::open(&folder, &["view", "out"]);
     for (path, status) in [
@@ -105,10 +105,10 @@ fn what_is_not_there_is_told_so() {
         assert_eq!(page.own(path).0, status, "{path}");
     }
     fs::write(folder.join("out/fields/frame-00002.vtu"), "rubbish").unwrap();
-    let (status, told) = page.own("api/runs/0/frames/2");
-    let told: serde_json::Value = serde_json::from_slice(&told).unwrap();
-    assert_eq!((status, &told["code"]), (422, &"E0731".into()));
-    assert!(told["error"].as_str().unwrap().contains("frame-00002.vtu"));
+    let (status, reported) = page.own("api/runs/0/frames/2");
+    let reported: serde_json::Value = serde_json::from_slice(&reported).unwrap();
+    assert_eq!((status, &reported["code"]), (422, &"E0731".into()));
+    assert!(reported["error"].as_str().unwrap().contains("frame-00002.vtu"));
 }
 
 /// The answer to any request.
@@ -151,10 +151,10 @@ fn every_error_is_json_and_says_what_is_wrong() {
     ] {
         let host = format!("127.0.0.1:{}", page.port);
         let more = more.replace("Origin: ", &format!("Origin: http://{host}\r\n"));
-        let (found, head, told) =
+        let (found, head, reported) =
             asked(&page, &format!("{method} {own}{path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{more}\r\n{{"));
-        let text = told["error"].as_str().unwrap_or_default().to_lowercase();
-        assert!(found == status && told["code"] == "" && text.contains(what), "{method} {path}: {found} {told}");
+        let text = reported["error"].as_str().unwrap_or_default().to_lowercase();
+        assert!(found == status && reported["code"] == "" && text.contains(what), "{method} {path}: {found} {reported}");
         assert!(head.contains("content-type: application/json") && head.contains("nosniff"), "{head}");
         assert!(status != 405 || head.contains("allow: get"), "{head}");
     }
@@ -162,7 +162,7 @@ fn every_error_is_json_and_says_what_is_wrong() {
 
 #[test]
 #[cfg(unix)]
-fn pipes_and_links_to_devices_in_shown_folders_are_told_of_and_keep_nobody_waiting() {
+fn pipes_and_links_to_devices_in_shown_folders_are_reported_of_and_keep_nobody_waiting() {
     let folder = results("view-pipes");
     let page = Page::open(&folder, &["view", "out"]);
     for (name, asked, wanted) in [
@@ -183,9 +183,9 @@ fn pipes_and_links_to_devices_in_shown_folders_are_told_of_and_keep_nobody_waiti
             } else {
                 assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
             }
-            let (status, told) = page.own(format!("api/runs/0/{asked}").trim_end_matches('/'));
-            let told: serde_json::Value = serde_json::from_slice(&told).unwrap();
-            assert!(status == wanted && (status != 422 || told["code"] == "E0708"), "{name}: {status} {told}");
+            let (status, reported) = page.own(format!("api/runs/0/{asked}").trim_end_matches('/'));
+            let reported: serde_json::Value = serde_json::from_slice(&reported).unwrap();
+            assert!(status == wanted && (status != 422 || reported["code"] == "E0708"), "{name}: {status} {reported}");
         }
         fs::remove_file(&path).unwrap();
         fs::write(&path, bytes).unwrap();
@@ -205,16 +205,16 @@ fn two_runs_are_shown_beside_each_other_and_one_that_can_not_be_read_says_why() 
 #[test]
 fn a_folder_without_results_and_a_short_token_are_refused() {
     let folder = results("view-refused");
-    let told = |arguments: &[&str]| {
+    let reported = |arguments: &[&str]| {
         let answer = embate(&folder, arguments.iter().chain(&["--no-open"]));
         assert_eq!(answer.code, Some(2));
         answer.err
     };
-    assert!(told(&["view", "."]).contains("E0732"));
-    assert!(told(&["view", "nowhere"]).contains("there is no such folder"));
-    assert!(told(&["view", "out", "--token", "short"]).contains("E0821"));
+    assert!(reported(&["view", "."]).contains("E0732"));
+    assert!(reported(&["view", "nowhere"]).contains("there is no such folder"));
+    assert!(reported(&["view", "out", "--token", "short"]).contains("E0821"));
     let page = Page::open(&folder, &["view", "out"]);
-    assert!(told(&["view", "out", "--port", &page.port.to_string()]).contains("choose another port"));
+    assert!(reported(&["view", "out", "--port", &page.port.to_string()]).contains("choose another port"));
 }
 
 #[test]

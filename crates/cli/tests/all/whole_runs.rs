@@ -64,7 +64,7 @@ fn a_run_leaves_its_results_and_says_where() {
 }
 
 #[test]
-fn a_run_tells_of_the_search_when_asked() {
+fn a_run_reports_of_the_search_when_asked() {
     let folder = fresh("search");
     let model = format!("{MODEL}\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n");
     fs::write(folder.join("model.toml"), model).unwrap();
@@ -111,7 +111,7 @@ fn a_fault_in_the_model_ends_with_code_two_and_leaves_nothing() {
 }
 
 #[test]
-fn a_check_tells_parts_and_steps() {
+fn a_check_reports_parts_and_steps() {
     let folder = fresh("checked");
     fs::write(folder.join("model.toml"), MODEL).unwrap();
     let answer = embate(&folder, ["check", "model.toml", "--out", "out"]);

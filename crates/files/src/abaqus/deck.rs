@@ -172,7 +172,7 @@ impl Deck {
         let dimension = self.dimension();
         if let Some(flat) = self.elements.iter().find(|element| element.kind.dimension() != dimension) {
             let message = format!("element {} is a {}, beside solids", flat.tag, flat.kind.name);
-            let help = "bodies are all plane or all solid; shells and membranes in space are not computed";
+            let help = "bodies are all 2D or all solid; shells and membranes in 3D are not computed";
             return Err(text.fault(&DECK_MESH, flat.line, message, help));
         }
         for instance in &self.instances {
@@ -372,7 +372,7 @@ impl Deck {
         while let Some(&line) = lines.next() {
             let mut fields = text.fields(line);
             let mut last = line;
-            while fields.len() <= kind.nodes() && text.goes_on(last) {
+            while fields.len() <= kind.nodes() && text.continues(last) {
                 let Some(&next) = lines.next() else { break };
                 fields.extend(text.fields(next));
                 last = next;

@@ -48,7 +48,7 @@ impl ElementKind {
         self.cell.nodes()
     }
 
-    /// How many sides it has: edges in the plane, in space faces.
+    /// How many sides it has: edges in 2D, in 3D faces.
     pub(super) fn sides(&self) -> usize {
         if self.dimension() == 3 { self.cell.facts().faces.len() } else { self.cell.facts().edges.len() }
     }
@@ -115,7 +115,7 @@ pub(super) fn named(name: &str) -> Found {
     ]) {
         Found::Refused("is of second order: its lumped masses and its contact are not sound in an explicit computation", FIRST)
     } else if starts(&["SC6", "SC8", "CSS", "R3D"]) {
-        Found::Refused("is a shell or a surface in space, which embate does not compute", "take solids, such as C3D8R")
+        Found::Refused("is a shell or a surface in 3D, which embate does not compute", "take solids, such as C3D8R")
     } else if starts(&["C3D5"]) {
         Found::Refused("is a pyramid, for which there is no element", "mesh with hexahedra, wedges or tetrahedra")
     } else if starts(&["C3D", "CPE", "CPS", "CAX", "CPEG", "CGAX", "S3", "S4", "STRI", "M3D", "AC", "DC", "CIN"]) {
@@ -134,11 +134,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn elements_of_second_order_and_shells_of_space_are_refused_with_the_reason() {
+    fn elements_of_second_order_and_shells_of_3d_are_refused_with_the_reason() {
         assert!(matches!(named("CPE8R"), Found::Refused(why, _) if why.contains("second order")));
         assert!(matches!(named("C3D10M"), Found::Refused(why, _) if why.contains("second order")));
         assert!(matches!(named("C3D5"), Found::Refused(why, _) if why.contains("pyramid")));
-        assert!(matches!(named("R3D4"), Found::Refused(why, _) if why.contains("surface in space")));
+        assert!(matches!(named("R3D4"), Found::Refused(why, _) if why.contains("surface in 3D")));
         assert!(matches!(named("C3D8H"), Found::Refused(why, _) if why.contains("hybrid")));
         assert!(matches!(named("CPE4RH"), Found::Refused(why, _) if why.contains("hybrid")));
         assert!(matches!(named("QQ"), Found::Refused(why, _) if why.contains("not known")));

@@ -1,4 +1,4 @@
-//! From the geometry of a deck to a mesh of the plane or of space: names of groups, dense node numbers, the
+//! From the geometry of a deck to a mesh in 2D or 3D: names of groups, dense node numbers, the
 //! checks of positions.
 //!
 //! [`super::parse`] calls [`mesh`]; the import asks [`names`] how sets are called in the mesh.

@@ -9,7 +9,7 @@ pub(super) static DECK: Message = Message {
     title: "a deck that can't be read",
     example: Example::Deck("*INCLUDE, INPUT=nowhere.inp\n"),
     cause: "There is no such file, it is no text, or files include each other in a circle.",
-    cure: "Check the paths of the deck and of its *INCLUDE lines.",
+    remedy: "Check the paths of the deck and of its *INCLUDE lines.",
 };
 
 pub(super) static SYNTAX: Message = Message {
@@ -17,7 +17,7 @@ pub(super) static SYNTAX: Message = Message {
     title: "a line of a deck that can't be understood",
     example: Example::Deck("*NODE\n1, 0, zero\n"),
     cause: "A number, name or parameter is missing or is something else.",
-    cure: "Mend the line that the message names.",
+    remedy: "Fix the line that the message names.",
 };
 
 pub(super) static UNKNOWN: Message = Message {
@@ -25,15 +25,16 @@ pub(super) static UNKNOWN: Message = Message {
     title: "a name or number of a deck that nothing has, or two things have",
     example: Example::Deck("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=CPE3\n1, 1, 2, 4\n"),
     cause: "A line refers to a node, element, set, part or material that is not there, or one is defined a second time.",
-    cure: "Look for the name above the line; parts have their own numbers.",
+    remedy: "Look for the name above the line; parts have their own numbers.",
 };
 
 pub(super) static DECK_MESH: Message = Message {
     code: "E0233",
     title: "a mesh of a deck that can't be computed",
     example: Example::Deck("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 1, 1\n*ELEMENT, TYPE=R3D4\n1, 1, 2, 4, 3\n"),
-    cause: "Elements are not of first order, or shells in space; plane elements and solids are in one deck; nodes lie off the plane, or instances are turned out of it.",
-    cure: "Write a plane mesh of elements such as CPE4R, CPE3, CPS4R or CAX4R, or solids such as C3D8R, C3D6 or C3D4.",
+    cause: "Elements are not of first order, or shells in 3D; 2D elements and solids are in one deck; nodes lie off \
+        the plane, or instances are turned out of it.",
+    remedy: "Write a plane mesh of elements such as CPE4R, CPE3, CPS4R or CAX4R, or solids such as C3D8R, C3D6 or C3D4.",
 };
 
 pub(super) static UNITS: Message = Message {
@@ -41,7 +42,7 @@ pub(super) static UNITS: Message = Message {
     title: "units that a deck can't be in",
     example: Example::Command("import deck.inp --out imported --units mm,kg"),
     cause: "Decks carry no units, so --units names those of length, mass and time.",
-    cure: "Name all three, such as --units mm,t,s.",
+    remedy: "Name all three, such as --units mm,t,s.",
 };
 
 pub(super) static NO_COUNTERPART: Message = Message {
@@ -52,7 +53,7 @@ pub(super) static NO_COUNTERPART: Message = Message {
          *MATERIAL, NAME=M\n*DENSITY\n7.8e-9\n*ELASTIC, TYPE=LAMINA\n2e5, 1e5, 0.3, 5e4, 5e4, 5e4\n*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n*END STEP\n",
     ),
     cause: "The model would be another one without it: an anisotropic material, a strain energy that is not there.",
-    cure: "Change it in the deck, or write the model file by hand.",
+    remedy: "Change it in the deck, or write the model file by hand.",
 };
 
 pub(super) static INCOMPLETE: Message = Message {
@@ -60,5 +61,5 @@ pub(super) static INCOMPLETE: Message = Message {
     title: "a deck that is no whole model",
     example: Example::Deck("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n*ELEMENT, TYPE=CPE3, ELSET=B\n1, 1, 2, 3\n"),
     cause: "A section, a density, a dynamic step or an end time is missing.",
-    cure: "Add what the message names, or use the deck as a mesh file of a model (`mesh = { file = \"deck.inp\" }`).",
+    remedy: "Add what the message names, or use the deck as a mesh file of a model (`mesh = { file = \"deck.inp\" }`).",
 };

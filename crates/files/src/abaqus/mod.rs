@@ -14,7 +14,7 @@ mod sets;
 mod text;
 
 use crate::gmsh::messages::MESH_FILE;
-use crate::reach::{Bounds, Reach};
+use crate::path_policy::{Bounds, PathPolicy};
 use deck::Deck;
 use embate_solver::error::Fault;
 use embate_solver::model::ImportedMesh;
@@ -26,7 +26,7 @@ use text::Text;
 /// # Errors
 /// The file can't be read, or what [`parse`] finds.
 pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
-    read_within(path, scale, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", Reach::Folder))
+    read_within(path, scale, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", PathPolicy::Folder))
 }
 
 /// [`read`] with the folder that included files must lie in.
@@ -35,7 +35,7 @@ pub(crate) fn read_within(path: &Path, scale: f64, bounds: &Bounds) -> Result<Im
     mesh(&text, scale)
 }
 
-/// Makes a mesh from the bytes of a deck (.inp), of space if it has solids, else of the plane; what it
+/// Makes a mesh from the bytes of a deck (.inp), in 3D if it has solids, else of the plane; what it
 /// includes is looked for in `folder` and nowhere else.
 ///
 /// - Positions are those of the file times `scale` (m per unit of the file), with instances in place; in the
@@ -54,10 +54,10 @@ pub(crate) fn read_within(path: &Path, scale: f64, bounds: &Bounds) -> Result<Im
 ///
 /// # Errors
 /// The first fault of the text with its line: what is no keyword, number or name, a missing node, a number
-/// twice, elements of second order, shells in space or elements of unknown type, keywords that generate nodes
+/// twice, elements of second order, shells in 3D or elements of unknown type, keywords that generate nodes
 /// or elements; or all nodes that are off the plane, or all solids without volume.
 pub fn parse(bytes: &[u8], source: &str, folder: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
-    let text = Text::parse(bytes, source, folder, &Bounds::of(folder, "deck's", Reach::Folder)).map_err(|fault| vec![fault])?;
+    let text = Text::parse(bytes, source, folder, &Bounds::of(folder, "deck's", PathPolicy::Folder)).map_err(|fault| vec![fault])?;
     mesh(&text, scale)
 }
 

@@ -6,7 +6,7 @@
 //! as written.
 
 use crate::abaqus::messages::{DECK, SYNTAX};
-use crate::reach::Bounds;
+use crate::path_policy::Bounds;
 use embate_solver::error::Fault;
 use embate_solver::message::Message;
 use std::path::{Path, PathBuf};
@@ -198,8 +198,8 @@ impl Text {
         fields
     }
 
-    /// Whether a data line goes on in the next one.
-    pub(super) fn goes_on(&self, line: Line) -> bool {
+    /// Whether a data line continues in the next one.
+    pub(super) fn continues(&self, line: Line) -> bool {
         self.line(line).trim_end().ends_with(',')
     }
 

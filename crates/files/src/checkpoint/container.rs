@@ -135,5 +135,5 @@ pub(super) fn blocks(bytes: &[u8], count: usize, threads: &Threads) -> Result<Ve
         let bytes = pack::unpack(stored, plain, threads).ok_or_else(|| format!("the block \"{name}\" can't be unpacked"))?;
         sections.push(Section { name, bytes });
     }
-    if rest.0.is_empty() { Ok(sections) } else { Err("it goes on after its end".into()) }
+    if rest.0.is_empty() { Ok(sections) } else { Err("there are bytes after its end".into()) }
 }

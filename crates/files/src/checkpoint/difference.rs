@@ -1,7 +1,7 @@
-//! What a model is, line by line: to tell whether it is still the one that ran, and what has changed.
+//! What a model is, line by line: to say whether it is still the one that ran, and what has changed.
 //!
 //! Lines come from the model's own structure (`parts[0].velocity[1] = 3.0`), so a new key is seen without
-//! anything being told here. Meshes count by their size and a check sum. A run that goes on may end at
+//! anything being reported here. Meshes count by their size and a check sum. A run that continues may end at
 //! another time, have other limits, checkpoints and output; all else must be the same, else its bits would
 //! mean nothing.
 
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// What may differ between a run and one that goes on with it.
+/// What may differ between a run and one that continues with it.
 const FREE: &[&str] = &[
     "name",
     "title",
@@ -43,8 +43,8 @@ const NAMES: &[(&str, &str)] = &[
     ("point_masses[", "point_mass["),
     ("probes[", "probe["),
 ];
-/// At most so many differences are told one by one.
-const TOLD: usize = 20;
+/// At most so many differences are reported one by one.
+const REPORTED_MAX: usize = 20;
 
 /// What a model is, key by key.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -93,8 +93,8 @@ impl Identity {
         hash.to_string()
     }
 
-    /// What of `self` is not as `before`, of all that must be the same if a run is to go on: a line for each
-    /// key.
+    /// What of `self` is not as `before`, of all that must be the same if a run is to continue: a line for
+    /// each key.
     #[must_use]
     pub fn differences(&self, before: &Self) -> Vec<String> {
         self.differing(before, |key| !is_free(key))
@@ -130,13 +130,13 @@ impl Identity {
         let keys: BTreeSet<&String> = self.lines.keys().chain(other.lines.keys()).collect();
         let values = |key: &String| [self.lines.get(key), other.lines.get(key)];
         let keys = keys.into_iter().filter(|key| counts(key) && values(key)[0] != values(key)[1]);
-        let mut told: Vec<String> = keys.map(|key| line(key, values(key))).collect();
-        if told.len() > TOLD {
-            let more = told.len() - TOLD;
-            told.truncate(TOLD);
-            told.push(format!("and {more} more"));
+        let mut reported: Vec<String> = keys.map(|key| line(key, values(key))).collect();
+        if reported.len() > REPORTED_MAX {
+            let more = reported.len() - REPORTED_MAX;
+            reported.truncate(REPORTED_MAX);
+            reported.push(format!("and {more} more"));
         }
-        told
+        reported
     }
 }
 
@@ -234,32 +234,32 @@ mod tests {
     }
 
     #[test]
-    fn a_change_is_told_by_its_key_with_both_values() {
+    fn a_change_is_reported_by_its_key_with_both_values() {
         let before = Identity::of(&model());
-        let told = |change: fn(&mut Model)| {
+        let reported = |change: fn(&mut Model)| {
             let mut model = model();
             change(&mut model);
             let after = Identity::of(&model);
             assert_eq!(after.digest() == before.digest(), after.differences(&before).is_empty());
             after.differences(&before)
         };
-        assert_eq!(told(|_| {}), [] as [String; 0]);
-        assert_eq!(told(|model| model.run.safety = 0.5), ["run.safety: was 0.9, is 0.5"]);
-        assert_eq!(told(|model| model.parts[0].velocity[1] = 3.0), ["part[0].velocity[1]: was -2.0, is 3.0"]);
+        assert_eq!(reported(|_| {}), [] as [String; 0]);
+        assert_eq!(reported(|model| model.run.safety = 0.5), ["run.safety: was 0.9, is 0.5"]);
+        assert_eq!(reported(|model| model.parts[0].velocity[1] = 3.0), ["part[0].velocity[1]: was -2.0, is 3.0"]);
         let soft = |model: &mut Model| {
             if let Some(steel) = model.materials.get_mut("steel") {
                 steel.parameters.insert("young".into(), 1e8);
             }
         };
-        assert_eq!(told(soft), ["material.steel.parameters.young: was 1000000000.0, is 100000000.0"]);
-        let finer = told(|model| {
+        assert_eq!(reported(soft), ["material.steel.parameters.young: was 1000000000.0, is 100000000.0"]);
+        let finer = reported(|model| {
             if let Shape::Rectangle(shape) = &mut model.parts[0].shape {
                 shape.elements = [3, 5];
             }
         });
         assert!(finer.len() == 1 && finer[0].contains("elements[1]: was 4, is 5"), "{finer:?}");
-        assert!(!told(|model| model.parts.push(Part::default())).is_empty());
-        assert!(!told(|model| model.run.time_step = Some(1e-6)).is_empty());
+        assert!(!reported(|model| model.parts.push(Part::default())).is_empty());
+        assert!(!reported(|model| model.run.time_step = Some(1e-6)).is_empty());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Messages of checkpoints, and of runs that go on with them.
+//! Messages of checkpoints, and of runs that continue with them.
 
 use embate_solver::message::{Example, Message};
 
@@ -9,20 +9,23 @@ pub(super) static DAMAGED: Message = Message {
     code: "E0711",
     title: "a damaged checkpoint",
     example: Example::Shell(
-        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\ntruncate -s 1000 out/checkpoint/*.embate\nembate resume out\n",
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\ntruncate -s \
+            1000 out/checkpoint/*.embate\nembate resume out\n",
     ),
     cause: "A check sum of the file is not that of its bytes: the disk, a copy or another program changed it.",
-    cure: "Put the file back from a copy, or run the model again.",
+    remedy: "Put the file back from a copy, or run the model again.",
 };
 
 pub(super) static VERSION: Message = Message {
     code: "E0712",
     title: "a checkpoint of another version",
     example: Example::Shell(
-        "mkdir -p out/checkpoint\nprintf 'embate\\r\\n\\001\\000\\000\\000\\023\\000\\000\\000{\"version\":\"0.0.9\"}\\273\\112\\134\\321' > out/checkpoint/000000000008.embate\nembate resume out\n",
+        "mkdir -p out/checkpoint\nprintf \
+            'embate\\r\\n\\001\\000\\000\\000\\023\\000\\000\\000{\"version\":\"0.0.9\"}\\273\\112\\134\\321' > \
+            out/checkpoint/000000000008.embate\nembate resume out\n",
     ),
-    cause: "What a state holds changes from version to version, and a run that goes on must give the same bits.",
-    cure: "Go on with the version that the message names, or run the model again.",
+    cause: "What a state holds changes from version to version, and a continued run must give the same bits.",
+    remedy: "Continue with the version that the message names, or run the model again.",
 };
 
 /// Results are not as a checkpoint knows them.
@@ -30,10 +33,12 @@ pub(crate) static RESULTS_CHANGED: Message = Message {
     code: "E0713",
     title: "results that are not as the checkpoint knows them",
     example: Example::Shell(
-        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nsed -i 2d out/history.csv\nembate resume out\n",
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nsed -i 2d \
+            out/history.csv\nembate resume out\n",
     ),
-    cause: "A run that goes on appends to its files, so that they become those of a run that was never stopped; that can't be where they have changed.",
-    cure: "Put the file back as it was, or run the model again.",
+    cause: "A continued run appends to its files, so that they become those of a run that was never stopped; that \
+        can't be where they have changed.",
+    remedy: "Put the file back as it was, or run the model again.",
 };
 
 /// Another run writes there.
@@ -41,10 +46,12 @@ pub(crate) static IN_USE: Message = Message {
     code: "E0714",
     title: "results that another run writes",
     example: Example::Shell(
-        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nflock out/run.lock embate resume out\n",
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nflock \
+            out/run.lock embate resume out\n",
     ),
-    cause: "Two runs that write into one folder, or to one file, would spoil it. The lock (`run.lock`) is the system's and ends with the run, also with one that is killed.",
-    cure: "Wait for the other run, stop it first, or choose another folder with --out.",
+    cause: "Two runs that write into one folder, or to one file, would spoil it. The lock (`run.lock`) is the \
+        system's and ends with the run, also with one that is killed.",
+    remedy: "Wait for the other run, stop it first, or choose another folder with --out.",
 };
 
 /// The model is not the one that ran.
@@ -52,19 +59,20 @@ pub static MODEL_CHANGED: Message = Message {
     code: "E0715",
     title: "a model that is not the one that began the run",
     example: Example::Shell(
-        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nsed -i 's/7800/7900/' model.toml\nembate resume out\n",
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\nsed -i \
+            's/7800/7900/' model.toml\nembate resume out\n",
     ),
     cause: "A state is one of its model. End, limits, checkpoints and output may change; the message lists what else has.",
-    cure: "Undo the changes, or run the changed model from the start.",
+    remedy: "Undo the changes, or run the changed model from the start.",
 };
 
-/// Nothing to go on from.
+/// Nothing to continue from.
 pub static NO_CHECKPOINT: Message = Message {
     code: "E0716",
-    title: "nothing to go on from",
+    title: "nothing to continue from",
     example: Example::Command("resume results"),
     cause: "The folder holds no checkpoint: its run kept none, or it is not a folder of results.",
-    cure: "Set `run.checkpoint` or `run.checkpoint_steps`, and run the model.",
+    remedy: "Set `run.checkpoint` or `run.checkpoint_steps`, and run the model.",
 };
 
 /// An older checkpoint is used.
@@ -72,10 +80,11 @@ pub static OLDER: Message = Message {
     code: "W0711",
     title: "an older checkpoint instead of a damaged one",
     example: Example::Shell(
-        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\ntruncate -s 1000 out/checkpoint/000000000008.embate\nembate resume out --quiet\n",
+        "embate run model.toml --out out --quiet --set run.checkpoint_steps=4 --set run.max_steps=9\ntruncate -s \
+            1000 out/checkpoint/000000000008.embate\nembate resume out --quiet\n",
     ),
     cause: "A check sum of the newest file is not that of its bytes; two are kept for this.",
-    cure: "Nothing is lost: the run does the steps between the two once more. Look after the disk.",
+    remedy: "Nothing is lost: the run does the steps between the two once more. Look after the disk.",
 };
 
 /// The state of a failed run could not be kept.
@@ -84,5 +93,5 @@ pub static LAST_GOOD: Message = Message {
     title: "the last good step of a failed run could not be kept",
     example: Example::Words("A run fails because the disk is full, and its last good state does not fit on it either."),
     cause: "The run fails again before its last good step, or the state can't be written.",
-    cure: "Go on from the checkpoint before, or look at the last written state.",
+    remedy: "Continue from the checkpoint before, or look at the last written state.",
 };

@@ -1,10 +1,10 @@
-//! Checkpoints: what a run needs to go on, in files `checkpoint/<step>.embate` of its result folder.
+//! Checkpoints: what a run needs to continue, in files `checkpoint/<step>.embate` of its result folder.
 //!
 //! States come from the simulation through the writer of results, which knows how far history, fields and
-//! film are (`Told`); [`Checkpoint::write`] puts them into a file (`container`, its blocks packed by `pack`),
-//! under its final name only when it is on the disk as a whole. Two generations are kept. [`generations`]
-//! finds them, [`Checkpoint::read`] tells a damaged one from a sound one, and [`Identity`] whether a model is
-//! still the one that ran.
+//! film are (`Reported`); [`Checkpoint::write`] puts them into a file (`container`, its blocks packed by
+//! `pack`), under its final name only when it is on the disk as a whole. Two generations are kept.
+//! [`generations`] finds them, [`Checkpoint::read`] reports a damaged one from a sound one, and [`Identity`]
+//! whether a model is still the one that ran.
 
 mod container;
 mod difference;
@@ -14,7 +14,7 @@ mod pack;
 pub use difference::Identity;
 
 use crate::plain;
-use crate::results::{Told, write_whole_by};
+use crate::results::{Reported, write_whole_by};
 use crate::threads::Threads;
 use container::Block;
 use embate_solver::archive::Section;
@@ -39,11 +39,11 @@ const MODEL: &str = "model";
 /// Block of the frames of the film so far.
 const FILM: &str = "film";
 
-/// Why there is no checkpoint to go on from, or none could be written.
+/// Why there is no checkpoint to continue from, or none could be written.
 #[derive(Debug, Error)]
 pub enum CheckpointError {
     /// The system refused.
-    #[error("can't {action} {}: {source}{}", .path.display(), crate::results::cure(.source.kind()))]
+    #[error("can't {action} {}: {source}{}", .path.display(), crate::results::remedy(.source.kind()))]
     File {
         /// What was tried.
         action: &'static str,
@@ -61,7 +61,8 @@ pub enum CheckpointError {
         what: String,
     },
     /// The file is sound, but not for this program.
-    #[error("{} was written by embate {found}, and this is embate {own}; a run goes on only with the program that began it", .path.display())]
+    #[error("{} was written by embate {found}, and this is embate {own}; a run continues only with the program that \
+        began it", .path.display())]
     Version {
         /// The file.
         path: PathBuf,
@@ -108,7 +109,8 @@ struct Header {
     step: u64,
     time: f64,
     origin: Origin,
-    told: Told,
+    #[serde(rename = "told")]
+    reported: Reported,
     /// Number of blocks.
     blocks: usize,
 }
@@ -123,7 +125,7 @@ pub struct Checkpoint {
     /// What the model was.
     pub identity: Identity,
     /// How far history, fields and film were.
-    pub told: Told,
+    pub reported: Reported,
     /// Frames of the film so far; empty without pictures.
     pub(crate) film: Vec<Section>,
 }
@@ -132,8 +134,8 @@ impl Checkpoint {
     /// The state of a simulation of a model alone, without results.
     #[must_use]
     pub fn of(state: State, model: &Model) -> Self {
-        let told = Told::default();
-        Self { state: Arc::new(state), origin: Origin::default(), identity: Identity::of(model), told, film: Vec::new() }
+        let reported = Reported::default();
+        Self { state: Arc::new(state), origin: Origin::default(), identity: Identity::of(model), reported, film: Vec::new() }
     }
 
     /// Lets go of the state, which is large, once a simulation has taken it over; what else is known of it
@@ -181,7 +183,7 @@ impl Checkpoint {
             step: self.state.step,
             time: self.state.time,
             origin: self.origin.clone(),
-            told: self.told.clone(),
+            reported: self.reported.clone(),
             blocks: blocks.len(),
         };
         let header = serde_json::to_vec(&header).expect("plain numbers, texts and lists always have a JSON form");
@@ -226,7 +228,7 @@ impl Checkpoint {
         }
         let (film, sections) = sections.partition(|section| section.name == FILM);
         let state = Arc::new(State { step: header.step, time: header.time, sections });
-        Ok(Self { state, origin: header.origin, identity, told: header.told, film })
+        Ok(Self { state, origin: header.origin, identity, reported: header.reported, film })
     }
 }
 

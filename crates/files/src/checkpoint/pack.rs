@@ -7,7 +7,7 @@
 //! are noise, and are stored as they are without being tried. Each piece is packed from its bytes alone,
 //! several at a time.
 
-use crate::threads::{Rooms, Threads};
+use crate::threads::{ScratchPool, Threads};
 use flate2::{Compress, Compression, Decompress, FlushCompress, FlushDecompress, Status};
 
 /// Bytes of a piece before packing.
@@ -31,7 +31,7 @@ pub(super) struct Packed {
 /// Packs bytes.
 pub(super) fn pack(bytes: &[u8], threads: &Threads) -> Packed {
     let pieces: Vec<&[u8]> = bytes.chunks(PIECE).collect();
-    Packed { pieces: threads.map(&pieces, &Rooms::default(), Room::default, |room, piece| room.pack(piece)) }
+    Packed { pieces: threads.map(&pieces, &ScratchPool::default(), Scratch::default, |room, piece| room.pack(piece)) }
 }
 
 /// The `length` bytes that were packed; `None`: these are no such bytes.
@@ -48,20 +48,20 @@ pub(super) fn unpack(packed: &[u8], length: usize, threads: &Threads) -> Option<
     if !rest.is_empty() {
         return None;
     }
-    let plain = threads.map(&pieces, &Rooms::default(), Room::default, |room, (piece, length)| room.unpack(piece, *length));
+    let plain = threads.map(&pieces, &ScratchPool::default(), Scratch::default, |room, (piece, length)| room.unpack(piece, *length));
     // Room for the whole only once every piece is there: its length is a number of the file.
     plain.into_iter().collect::<Option<Vec<_>>>().map(|pieces| pieces.concat())
 }
 
 /// What a thread packs with.
-struct Room {
+struct Scratch {
     zlib: Compress,
     unzip: Decompress,
     planes: Vec<u8>,
     numbers: Vec<u64>,
 }
 
-impl Default for Room {
+impl Default for Scratch {
     fn default() -> Self {
         Self { zlib: Compress::new(Compression::fast(), false), unzip: Decompress::new(false), planes: Vec::new(), numbers: Vec::new() }
     }
@@ -94,7 +94,7 @@ fn best_stride(numbers: &[u64]) -> usize {
     (0..STRIDES.len()).fold(0, |best, at| if costs[at] < costs[best] { at } else { best })
 }
 
-impl Room {
+impl Scratch {
     /// Length, stride, lengths of the planes, planes, and the bytes that make no whole number.
     fn pack(&mut self, piece: &[u8]) -> Vec<u8> {
         let (chunks, tail) = piece.as_chunks::<WIDTH>();

@@ -3,14 +3,14 @@
 
 use crate::checkpoint::{self, Identity};
 use crate::threads::Threads;
+use embate_solver::divergence::{Divergence, Pairing};
 use embate_solver::error::Error;
 use embate_solver::hashes::Hashes;
 use embate_solver::model::Model;
-use embate_solver::parting::{Pairing, Parting};
 use embate_solver::simulation::{Options, Simulation};
 use std::path::Path;
 
-/// Steps between two calls that tell how far it is.
+/// Steps between two calls that say how far it is.
 const PIECE: u64 = 500;
 
 /// A run that is gone over once more.
@@ -39,7 +39,7 @@ impl Again {
         Ok(Self { begun: simulation.steps(), simulation })
     }
 
-    /// Goes on to a step, if the run does not end before.
+    /// Continues to a step, if the run does not end before.
     ///
     /// # Errors
     /// Those of a step.
@@ -62,7 +62,7 @@ impl Again {
 #[derive(Debug)]
 pub enum Found {
     /// They part.
-    Parting(Box<Parting>),
+    Divergence(Box<Divergence>),
     /// At least one fails in this step, and until there they are the same.
     Failure {
         /// The step that fails.
@@ -77,8 +77,8 @@ pub enum Found {
 /// Steps both until they part, at most to the step `to`; both stand at the same step.
 pub fn in_step(pairing: &Pairing, [a, b]: &mut [Again; 2], to: u64, mut on_step: impl FnMut(u64)) -> Found {
     loop {
-        if let Some(parting) = pairing.parting(&a.simulation, &b.simulation) {
-            return Found::Parting(Box::new(parting));
+        if let Some(divergence) = pairing.divergence(&a.simulation, &b.simulation) {
+            return Found::Divergence(Box::new(divergence));
         }
         let step = a.simulation.steps();
         if step >= to || a.simulation.is_over() || b.simulation.is_over() {

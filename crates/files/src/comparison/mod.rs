@@ -10,7 +10,7 @@ pub use again::{Again, Found, in_step};
 
 use crate::checkpoint::{Checkpoint, Identity, Origin, newest};
 use crate::program;
-use crate::results::{HashTable, Ran, ResultsError, read_json};
+use crate::results::{HashTable, Provenance, ResultsError, read_json};
 use crate::threads::Threads;
 use embate_solver::hashes::Hashes;
 use serde::Deserialize;
@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 pub struct RunLeft {
     /// Its folder.
     pub folder: PathBuf,
-    /// Where its model came from, and what it was; `None`: nothing tells.
+    /// Where its model came from, and what it was; `None`: nothing reports.
     pub model: Option<(Origin, Identity)>,
     /// Version of the program that ran it, with its commit, if that is known.
     pub version: Option<String>,
@@ -59,15 +59,16 @@ impl RunLeft {
     /// # Errors
     /// Files that are damaged or can't be read.
     pub fn read(folder: &Path) -> Result<Option<Self>, ResultsError> {
-        let (ran, end, hashes) = (Ran::read(folder)?, read_json::<End>(&folder.join("summary.json"))?, HashTable::read(folder)?);
+        let (provenance, end, hashes) =
+            (Provenance::read(folder)?, read_json::<End>(&folder.join("summary.json"))?, HashTable::read(folder)?);
         if end.is_none() && hashes.is_none() {
             return Ok(None);
         }
-        let version = ran.as_ref().map(|ran| program::named(&ran.version, ran.commit.as_deref()));
+        let version = provenance.as_ref().map(|provenance| program::named(&provenance.version, provenance.commit.as_deref()));
         let version = version.or_else(|| end.as_ref().map(|end| program::named(&end.version, end.commit.as_deref())));
         let of_checkpoint = |checkpoint: Checkpoint| (checkpoint.origin, checkpoint.identity);
-        let model = match ran {
-            Some(ran) => Some((ran.origin(), ran.keys)),
+        let model = match provenance {
+            Some(provenance) => Some((provenance.origin(), provenance.keys)),
             None => newest(folder, &Threads::one(), |_| true).ok().map(|(checkpoint, _)| of_checkpoint(checkpoint)),
         };
         Ok(Some(Self { folder: folder.into(), model, version, end, hashes }))
@@ -122,15 +123,15 @@ impl Window {
 /// What of two lines is not the same, of what both have.
 fn apart([(a, left), (b, right)]: [(&HashTable, &Hashes); 2]) -> Vec<String> {
     let mut what = Vec::new();
-    let mut tell = |name: &str, differs: bool| what.extend(differs.then(|| name.to_string()));
-    tell("the time", left.time.to_bits() != right.time.to_bits());
-    tell("the time step", left.time_step.to_bits() != right.time_step.to_bits());
+    let mut report = |name: &str, differs: bool| what.extend(differs.then(|| name.to_string()));
+    report("the time", left.time.to_bits() != right.time.to_bits());
+    report("the time step", left.time_step.to_bits() != right.time_step.to_bits());
     for (name, hash) in a.parts.iter().zip(&left.parts) {
         let other = b.parts.iter().position(|other| other == name).map(|at| right.parts[at]);
-        tell(&format!("part \"{name}\""), other.is_some_and(|other| other != *hash));
+        report(&format!("part \"{name}\""), other.is_some_and(|other| other != *hash));
     }
-    tell("contacts", left.contacts != right.contacts);
-    tell("rigid bodies", left.bodies != right.bodies);
+    report("contacts", left.contacts != right.contacts);
+    report("rigid bodies", left.bodies != right.bodies);
     what
 }
 

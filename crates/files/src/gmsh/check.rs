@@ -4,7 +4,7 @@
 //! `mesh.rs` hands in the cells with node indices and the places of nodes; faults go into its list.
 
 use super::faults::Faults;
-use super::form::{area, cross, cross_in_space};
+use super::form::{area, cross, cross_in_3d};
 use super::mesh::{AGAIN, Cell, Nodes, described};
 use super::reader::Reader;
 use crate::gmsh::messages::CELL;
@@ -33,7 +33,7 @@ impl<'a> Check<'a> {
         self.faults.add(kind, || reader.fault(&CELL, cell.file.at, format!("{} {}", described(cell.file, group), message()), help));
     }
 
-    /// Checks one cell; the first thing that is wrong with it is told.
+    /// Checks one cell; the first thing that is wrong with it is reported.
     pub(super) fn cell(&mut self, cell: &Cell) {
         let nodes = cell.nodes();
         let tag = |node: u32| self.nodes.file[node as usize].tag;
@@ -63,7 +63,7 @@ impl<'a> Check<'a> {
                 self.surface(cell, cell.file.shape == CellKind::Quadrilateral && turns_left == 2, area, longest);
             }
             (2, 3) => {
-                let (crosses, area) = of_space(cell.file.shape, &x);
+                let (crosses, area) = of_3d(cell.file.shape, &x);
                 self.surface(cell, crosses, area, longest);
             }
             (3, _) => {
@@ -114,15 +114,15 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Whether the sides of a quadrilateral of space cross (seen along the normal at its first corner two corners
+/// Whether the sides of a quadrilateral in 3D cross (seen along the normal at its first corner two corners
 /// turn each way), and the area of a triangle or quadrilateral, m².
-fn of_space(kind: CellKind, x: &[[f64; 3]]) -> (bool, f64) {
+fn of_3d(kind: CellKind, x: &[[f64; 3]]) -> (bool, f64) {
     let (n, is_quadrilateral) = (kind.corners(), kind == CellKind::Quadrilateral);
-    let turn = |k: usize| cross_in_space(x[k], x[(k + 1) % n], x[(k + 1) % n], x[(k + 2) % n]);
+    let turn = |k: usize| cross_in_3d(x[k], x[(k + 1) % n], x[(k + 1) % n], x[(k + 2) % n]);
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let first = turn(0);
     let like_the_first = (0..n).filter(|&k| dot(first, turn(k)) > 0.0).count();
-    let twice = if is_quadrilateral { cross_in_space(x[0], x[2], x[1], x[3]) } else { first };
+    let twice = if is_quadrilateral { cross_in_3d(x[0], x[2], x[1], x[3]) } else { first };
     (is_quadrilateral && like_the_first == 2, 0.5 * dot(twice, twice).sqrt())
 }
 

@@ -111,7 +111,8 @@ impl Contents {
 /// The kind of an element that the file gives as `number`.
 pub(super) fn element_kind(reader: &Reader, at: usize, number: i64) -> Result<&'static ElementKind, Fault> {
     ElementKind::numbered(number).ok_or_else(|| {
-        let help = "known are those with a fixed number of nodes; mesh with triangles and quadrilaterals, or with hexahedra, prisms and tetrahedra, or the file is damaged here";
+        let help = "known are those with a fixed number of nodes; mesh with triangles and quadrilaterals, or with \
+            hexahedra, prisms and tetrahedra, or the file is damaged here";
         reader.fault(&ELEMENT_TYPE, at, format!("element type {number} is not known"), help)
     })
 }

@@ -6,7 +6,7 @@
 use embate_solver::mesh::cell::CellKind;
 use embate_solver::mesh::signed_volume;
 
-/// Area of a triangle or quadrilateral of the plane, in the square of the positions' unit; negative when its
+/// Area of a triangle or quadrilateral in 2D, in the square of the positions' unit; negative when its
 /// nodes run clockwise.
 pub(crate) fn area(kind: CellKind, corners: &[[f64; 3]]) -> f64 {
     // Half the product of the diagonals; of a triangle, two sides.
@@ -23,13 +23,13 @@ pub(super) fn cross(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> f64 {
 }
 
 /// (b − a) × (d − c).
-pub(super) fn cross_in_space(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> [f64; 3] {
+pub(super) fn cross_in_3d(a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]) -> [f64; 3] {
     let u: [f64; 3] = std::array::from_fn(|k| b[k] - a[k]);
     let v: [f64; 3] = std::array::from_fn(|k| d[k] - c[k]);
     [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
-/// Whether a cell runs clockwise (a surface, in the plane) or has a negative volume.
+/// Whether a cell runs clockwise (a surface, in 2D) or has a negative volume.
 pub(crate) fn is_turned(kind: CellKind, corners: &[[f64; 3]]) -> bool {
     match kind.dimension() {
         2 => area(kind, corners) < 0.0,

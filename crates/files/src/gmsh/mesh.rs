@@ -110,7 +110,8 @@ fn foreign(reader: &Reader, group: &str, occurrence: &Occurrence) -> Fault {
     let elements = if *count == 1 { "element" } else { "elements" };
     let message = format!("group {group:?} has {count} {elements} of the type {:?} (number {})", kind.name, kind.number);
     let help = if kind.is_pyramid() {
-        "pyramids are not computed: mesh with hexahedra, prisms or tetrahedra, each from face to face, or take them out of the physical group"
+        "pyramids are not computed: mesh with hexahedra, prisms or tetrahedra, each from face to face, or take them \
+            out of the physical group"
     } else {
         "only nodes at corners are computed: mesh with Mesh.ElementOrder = 1 (gmsh -order 1), or take it out of the physical group"
     };
@@ -202,7 +203,7 @@ pub(super) struct Nodes<'a> {
     pub(super) used: &'a [bool],
     /// 2 or 3.
     pub(super) dimension: u8,
-    /// x, y, z, m; z is that of the file in the plane too.
+    /// x, y, z, m; z is that of the file in 2D too.
     positions: Vec<[f64; 3]>,
     /// Longer side of the box around the used nodes in x and y, m.
     size: f64,
@@ -230,7 +231,8 @@ impl<'a> Nodes<'a> {
             } else if self.dimension == 2 && x[2].abs() > OFF_PLANE * self.size {
                 faults.add("nodes off the plane z = 0", || {
                     let message = format!("node {} is at z = {:e} m, off the plane z = 0", node.tag, x[2]);
-                    let help = "bodies lie in the plane of x and y: move the geometry there; of solids put the volumes into physical groups (Physical Volume)";
+                    let help = "bodies lie in the plane of x and y: move the geometry there; of solids put the \
+                        volumes into physical groups (Physical Volume)";
                     reader.fault(&NODE, node.at, message, help)
                 });
             }

@@ -8,10 +8,11 @@ pub(crate) static MESH_FILE: Message = Message {
     code: "E0220",
     title: "a mesh file that can't be read",
     example: Example::Model(
-        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nmesh = { file = \"nowhere.msh\", group = \"block\" }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nmesh = { file = \"nowhere.msh\", group = \"block\" \
+            }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
     cause: "There is no such file, it may not be read, or the `scale` of its unit is no length.",
-    cure: "Paths begin at the folder of the model file.",
+    remedy: "Paths begin at the folder of the model file.",
 };
 
 pub(super) static FORMAT: Message = Message {
@@ -19,7 +20,7 @@ pub(super) static FORMAT: Message = Message {
     title: "a file that is no mesh of Gmsh 2.2 or 4.1",
     example: Example::Gmsh("$MeshFormat\n3.1 0 8\n$EndMeshFormat\n"),
     cause: "It is another file, or of a version of the format that is not read.",
-    cure: "Save it again with Gmsh: gmsh OLD.msh -save -format msh41 -o NEW.msh",
+    remedy: "Save it again with Gmsh: gmsh OLD.msh -save -format msh41 -o NEW.msh",
 };
 
 pub(super) static DAMAGED: Message = Message {
@@ -27,7 +28,7 @@ pub(super) static DAMAGED: Message = Message {
     title: "a mesh file that is damaged",
     example: Example::Gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0\n"),
     cause: "The file was cut, changed by hand or by a text tool, or its counts don't agree.",
-    cure: "Export the mesh again.",
+    remedy: "Export the mesh again.",
 };
 
 pub(super) static ELEMENT_TYPE: Message = Message {
@@ -38,7 +39,7 @@ pub(super) static ELEMENT_TYPE: Message = Message {
          $Nodes\n6\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 1 0 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n$Elements\n1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n",
     ),
     cause: "A physical group holds pyramids or elements of second order.",
-    cure: "Mesh with Mesh.ElementOrder = 1, and with hexahedra, prisms or tetrahedra instead of pyramids, or take them out of the group.",
+    remedy: "Mesh with Mesh.ElementOrder = 1, and with hexahedra, prisms or tetrahedra instead of pyramids, or take them out of the group.",
 };
 
 pub(super) static PHYSICAL_GROUP: Message = Message {
@@ -49,7 +50,7 @@ pub(super) static PHYSICAL_GROUP: Message = Message {
          $Nodes\n2\n1 0 0 0\n2 1 0 0\n$EndNodes\n$Elements\n1\n1 1 2 1 1 1 2\n$EndElements\n",
     ),
     cause: "No group has volumes, triangles or quadrilaterals, or two groups have one name.",
-    cure: "Put the surfaces of each plane body, the volumes of each solid, into a physical group of its own name.",
+    remedy: "Put the surfaces of each plane body, the volumes of each solid, into a physical group of its own name.",
 };
 
 pub(crate) static NODE: Message = Message {
@@ -59,8 +60,9 @@ pub(crate) static NODE: Message = Message {
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n\
          $Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 1\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n",
     ),
-    cause: "The file was put together by hand, the geometry of plane bodies does not lie in z = 0, or the volumes of solids are in no group.",
-    cure: "Move plane bodies into the plane of x and y, give the elements of solids a group, and export the mesh again.",
+    cause: "The file was put together by hand, the geometry of plane bodies does not lie in z = 0, or the volumes of \
+        solids are in no group.",
+    remedy: "Move plane bodies into the plane of x and y, give the elements of solids a group, and export the mesh again.",
 };
 
 pub(crate) static CELL: Message = Message {
@@ -71,5 +73,5 @@ pub(crate) static CELL: Message = Message {
          $Nodes\n3\n1 0 0 0\n2 1 0 0\n3 2 0 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n",
     ),
     cause: "Its nodes lie on a line, of a solid in a plane, on one another, or not in order around it.",
-    cure: "Mesh again, or merge nodes that are there twice.",
+    remedy: "Mesh again, or merge nodes that are there twice.",
 };

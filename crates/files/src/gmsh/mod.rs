@@ -45,8 +45,8 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     parse(&bytes, &source, scale)
 }
 
-/// Makes a mesh from the bytes of a Gmsh mesh file (.msh 2.2 or 4.1, text or binary of either byte order): of
-/// space if a physical group holds volumes, else of the plane.
+/// Makes a mesh from the bytes of a Gmsh mesh file (.msh 2.2 or 4.1, text or binary of either byte order): in
+/// 3D if a physical group holds volumes, else of the plane.
 ///
 /// - Positions are those of the file times `scale` (m per unit of the file); in the plane z is 0 within 1e-9
 ///   of the mesh's size.
@@ -57,10 +57,10 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
 ///   without elements are left out.
 /// - Elements of no group are left out; but if the file has no physical groups at all, its volumes are the
 ///   group `all`, and if it has none, its triangles and quadrilaterals are.
-/// - Nodes keep the file's order; those of no volume (in the plane: of no triangle or quadrilateral) of a
+/// - Nodes keep the file's order; those of no volume (in 2D: of no triangle or quadrilateral) of a
 ///   group are left out.
 /// - Clockwise cells and those of negative volume are turned, their first node kept. What is outside of a
-///   surface in space follows from the volume.
+///   surface in 3D follows from the volume.
 ///
 /// `source` names the file in messages.
 ///
@@ -173,7 +173,7 @@ fn read_format(reader: &mut Reader) -> Result<Version, Fault> {
                     return Err(reader.fault(
                         &DAMAGED,
                         reader.at(),
-                        format!("the file's byte order can't be told from the bytes {mark:?}"),
+                        format!("the file's byte order can't be derived from the bytes {mark:?}"),
                         help,
                     ));
                 }

@@ -218,7 +218,7 @@ impl Diagnostics {
         faults.into_diagnostics(&[Source { name: file, text: String::new() }], None)
     }
 
-    /// Faults of several variants of a model as one list: what is wrong in several is told once, with the
+    /// Faults of several variants of a model as one list: what is wrong in several is reported once, with the
     /// runs that have it; run 0: no run's fault. `of`: the number of runs.
     pub(crate) fn merged(found: Vec<(usize, Self)>, of: usize) -> Self {
         let mut all = Self { rendered: String::new(), count: 0, entries: Vec::new(), lines: Vec::new(), severity: Severity::Fault };

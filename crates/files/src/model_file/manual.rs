@@ -34,10 +34,24 @@ pub fn reference_markdown() -> String {
         "Units: {}. Those with a star take prefixes, from `f` (1e-15) to `P` (1e15) where usual; micro is `u` or `µ`.\n",
         units::names()
     );
-    out.push_str("## Names\n\nParts, materials, contacts, obstacles and probes have names of letters, digits, `_` and `-`. A contact, a constraint, a load, a join or a probe may name a part\n");
-    out.push_str("(its whole outside, or all its nodes), a side of a built-in shape such as `plate.top`, or a group of a mesh file; a part comes before a group of the same name.\n\n");
-    out.push_str("## Files\n\nPaths of files begin at the folder of the model file; between folders stands `/` on every system. A file must lie in that folder or below. Where a path ends decides, after `..` and symbolic links: a link that stays inside\n");
-    out.push_str("is followed, one that leads out is refused, and so is an absolute path to somewhere else. The same holds for what a deck includes. With `--allow-outside` every command that reads a model reads files from anywhere.\n\n");
+    out.push_str(
+        "## Names\n\nParts, materials, contacts, obstacles and probes have names of letters, digits, `_` \
+        and `-`. A contact, a constraint, a load, a join or a probe may name a part\n",
+    );
+    out.push_str(
+        "(its whole outside, or all its nodes), a side of a built-in shape such as `plate.top`, or a group \
+        of a mesh file; a part comes before a group of the same name.\n\n",
+    );
+    out.push_str(
+        "## Files\n\nPaths of files begin at the folder of the model file; between folders stands `/` on \
+        every system. A file must lie in that folder or below. Where a path ends decides, after `..` and symbolic \
+        links: a link that stays inside\n",
+    );
+    out.push_str(
+        "is followed, one that leads out is refused, and so is an absolute path to somewhere else. The same \
+        holds for what a deck includes. With `--allow-outside` every command that reads a model reads files from \
+        anywhere.\n\n",
+    );
     let _ = writeln!(out, "## Above all sections\n");
     table(&mut out, TOP.keys, TOP.rules);
     for section in SECTIONS {
@@ -128,9 +142,9 @@ pub(crate) fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
 const FAULTS_AND_WARNINGS: &str = "\
 ## Faults and warnings
 
-A *fault* keeps a model from being run: all are told at once, each with its code, its line, the reason and what to do; exit code 2. `embate explain CODE` says how such a fault comes about; [messages](messages.md)
+A *fault* keeps a model from being run: all are reported at once, each with its code, its line, the reason and what to do; exit code 2. `embate explain CODE` says how such a fault comes about; [messages](messages.md)
 has all codes. Of each code at most 20 are shown, the rest is counted. A *warning* keeps no model from being run: it is accepted, and
-`embate check` (exit code 0) and `embate run` tell what it is, what follows from it, and what to do, with line and excerpt. `run --quiet` tells warnings of the model, too,
+`embate check` (exit code 0) and `embate run` report what it is, what follows from it, and what to do, with line and excerpt. `run --quiet` reports warnings of the model, too,
 since they are no part of the summary that it leaves out; `summary.json` lists them first in `warnings`. Only what is certain before the run is a warning:
 
 | warning | where | what follows |
@@ -158,7 +172,7 @@ fn words(key: &Key) -> String {
         Kind::Angle(Dimension::RATE, _) => "angular velocity, rad/s".to_string(),
         Kind::Angle(..) => "angle, rad".to_string(),
         Kind::Vector(dimension, range) => format!("`[x, y]`: {}{}", of(dimension), within(range)),
-        Kind::Spatial(dimension, range) => format!("`[x, y]`, in space `[x, y, z]`: {}{}", of(dimension), within(range)),
+        Kind::Spatial(dimension, range) => format!("`[x, y]`, in 3D `[x, y, z]`: {}{}", of(dimension), within(range)),
         Kind::Quantities(dimension, range, least) => format!("list of {least} or more: {}{}", of(dimension), within(range)),
         Kind::Value => "number, or quantity of any dimension".to_string(),
         Kind::Values => "list of 1 or more: numbers, or quantities of one dimension".to_string(),
@@ -212,7 +226,13 @@ fn registries(out: &mut String) {
 fn overrides(out: &mut String) {
     out.push_str(FAULTS_AND_WARNINGS);
     out.push_str("## Overrides on the command line\n\n");
-    out.push_str("`--set path.to.key=value` replaces a value or adds one, as often as needed. Things of which there are several are named by number or by name:\n");
-    out.push_str("`--set run.end=\"5 ms\"`, `--set part.tube.velocity='[0, \"-60 m/s\"]'`, `--set part.0.ring.elements='[2, 80]'`, `--set material.steel.poisson=0.25`.\n");
+    out.push_str(
+        "`--set path.to.key=value` replaces a value or adds one, as often as needed. Things of which there \
+        are several are named by number or by name:\n",
+    );
+    out.push_str(
+        "`--set run.end=\"5 ms\"`, `--set part.tube.velocity='[0, \"-60 m/s\"]'`, `--set \
+        part.0.ring.elements='[2, 80]'`, `--set material.steel.poisson=0.25`.\n",
+    );
     out.push_str("The value is written as in the file; a text needs no quotes.\n");
 }

@@ -31,7 +31,7 @@ pub(crate) use reader::{Document, Record, Vocabulary};
 pub(crate) use template::{Change, Template};
 pub(crate) use tree::Node;
 
-use crate::Reach;
+use crate::PathPolicy;
 use crate::model_file::messages::{ENCODING, FILE, SYNTAX};
 use crate::plain;
 use embate_solver::error::Warning;
@@ -53,7 +53,7 @@ const SIZE_MAX: u64 = 16 << 20;
 /// # Errors
 /// All faults at once; a file outside of the model's folder is one.
 pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
-    load_with_places(path, set, Reach::Folder).map(|loaded| loaded.model)
+    load_with_places(path, set, PathPolicy::Folder).map(|loaded| loaded.model)
 }
 
 /// [`load`], with what is needed to show warnings at their places in the file. `reach`: from where files are
@@ -61,14 +61,14 @@ pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
 ///
 /// # Errors
 /// All faults at once.
-pub fn load_with_places(path: &Path, set: &[String], reach: Reach) -> Result<Loaded, Diagnostics> {
+pub fn load_with_places(path: &Path, set: &[String], reach: PathPolicy) -> Result<Loaded, Diagnostics> {
     Template::load(path, set, reach)?.loaded(&[])
 }
 
 /// [`load_with_places`] of a model with faults of one kind alone: as if it had none; `None` where it has
 /// others.
 #[must_use]
-pub fn load_despite(kind: &Message, path: &Path, set: &[String], reach: Reach) -> Option<Loaded> {
+pub fn load_despite(kind: &Message, path: &Path, set: &[String], reach: PathPolicy) -> Option<Loaded> {
     Template::load(path, set, reach).ok()?.loaded_despite(kind)
 }
 
@@ -116,7 +116,7 @@ impl Loaded {
     /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines
     /// and columns; no text where there are none.
     #[must_use]
-    pub fn told(&self, warnings: &[Warning]) -> Diagnostics {
+    pub fn reported(&self, warnings: &[Warning]) -> Diagnostics {
         Faults::warnings(warnings).into_diagnostics(&self.sources, Some(&self.root))
     }
 }
@@ -153,7 +153,7 @@ impl Described {
     }
 
     /// Faults that were found later, by their paths in the file.
-    pub(crate) fn told(&self, faults: Faults) -> Diagnostics {
+    pub(crate) fn reported(&self, faults: Faults) -> Diagnostics {
         faults.into_diagnostics(std::slice::from_ref(&self.source), Some(&self.root))
     }
 }
@@ -190,7 +190,7 @@ pub fn load_text(name: &str, text: &str, folder: &Path, set: &[String]) -> Resul
 /// # Errors
 /// All faults at once.
 pub fn load_text_with_places(name: &str, text: &str, folder: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
-    Template::of(name, Source { name: name.to_string(), text: text.to_string() }, (folder, Reach::Folder), set)?.loaded(&[])
+    Template::of(name, Source { name: name.to_string(), text: text.to_string() }, (folder, PathPolicy::Folder), set)?.loaded(&[])
 }
 
 /// Meshes in memory, each the bytes of a .msh file, by the names by which a model's text calls them as files.
@@ -204,7 +204,7 @@ pub type GivenMeshes = BTreeMap<String, Vec<u8>>;
 pub fn load_text_with_meshes(
     name: &str,
     text: &str,
-    (folder, reach): (&Path, Reach),
+    (folder, reach): (&Path, PathPolicy),
     set: &[String],
     given: GivenMeshes,
 ) -> Result<Loaded, Diagnostics> {

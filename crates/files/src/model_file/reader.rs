@@ -2,7 +2,7 @@
 //! [`sections`](embate_solver::input::sections) says.
 //!
 //! The tree comes from `tree.rs`; records of checked values go to `build.rs`. Every fault is noted and
-//! reading goes on.
+//! reading continues.
 
 use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
@@ -219,7 +219,7 @@ fn whole(value: u64) -> usize {
     usize::try_from(value).unwrap_or(usize::MAX)
 }
 
-/// Reads all sections. Where keys alone do not say so, `solids` tells that parts are solids.
+/// Reads all sections. Where keys alone do not say so, `solids` says that parts are solids.
 pub(super) fn read(root: &Node, vocabulary: &Vocabulary, solids: bool, faults: &mut Faults) -> Document {
     let extent = if solids { Extent::Solid } else { extent(root) };
     let mut reader = Reader { vocabulary, faults, extent };
@@ -262,14 +262,14 @@ struct Reader<'a> {
 enum Extent {
     /// Those of a metre of depth.
     Slice,
-    /// Those of whole bodies of revolution.
+    /// Those of whole axisymmetric bodies.
     Revolution,
     /// Those of solids.
     Solid,
 }
 
-/// What the keys of its parts say: whether one is axisymmetric or a solid; those that don't agree are told
-/// later. Of groups of mesh files the files know ([`read`]).
+/// What the keys of its parts say: whether one is axisymmetric or a solid; those that don't agree are
+/// reported later. Of groups of mesh files the files know ([`read`]).
 fn extent(root: &Node) -> Extent {
     let Value::Table(sections) = &root.value else { return Extent::Slice };
     let parts = sections.iter().filter(|section| section.key == "part").filter_map(|section| match &section.node.value {
@@ -295,7 +295,7 @@ fn extent(root: &Node) -> Extent {
 }
 
 impl Extent {
-    /// A key without the metre of depth where bodies are whole ones. Springs of a body of revolution are
+    /// A key without the metre of depth where bodies are whole ones. Springs of an axisymmetric body are
     /// those of its circumference, per metre of it.
     fn of(self, key: &Key) -> Key {
         let whole = |dimension: Dimension| match (dimension, key.name) {

@@ -81,7 +81,7 @@ fn exists(root: &Node, steps: &[String]) -> Result<(), Wrong> {
                 Some(at) => &items[at],
                 None => return Err(missing(items, step, above.trim_matches('`'))),
             },
-            _ => return Ok(()), // told by `put`
+            _ => return Ok(()), // reported by `put`
         };
         above = format!("`{}`", steps[..=depth].join("."));
     }

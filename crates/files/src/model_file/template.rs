@@ -7,7 +7,7 @@
 use super::diagnostics::{Diagnostics, Faults, Source};
 use super::tree::{self, Node, Place, Value};
 use super::{FILE_NAME, GivenMeshes, Loaded, build, name_of, parsed, reader, set, source};
-use crate::Reach;
+use crate::PathPolicy;
 use crate::model_file::messages::OVERRIDE;
 use embate_solver::error::Fault;
 use embate_solver::message::Message;
@@ -21,7 +21,7 @@ use std::sync::Arc;
 pub(crate) struct Template {
     name: String,
     folder: PathBuf,
-    reach: Reach,
+    reach: PathPolicy,
     given: Arc<GivenMeshes>,
     sources: Vec<Source>,
     root: Node,
@@ -48,14 +48,14 @@ impl Template {
     /// Reads the file, or `model.toml` in a folder, with overrides (`path.to.key=value`).
     ///
     /// # Errors
-    /// A file that can't be read or is no TOML. Faults of the overrides are told with those of a model.
-    pub(crate) fn load(path: &Path, set: &[String], reach: Reach) -> Result<Self, Diagnostics> {
+    /// A file that can't be read or is no TOML. Faults of the overrides are reported with those of a model.
+    pub(crate) fn load(path: &Path, set: &[String], reach: PathPolicy) -> Result<Self, Diagnostics> {
         let file = if path.is_dir() { path.join(FILE_NAME) } else { path.to_path_buf() };
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_path_buf);
         Self::of(&name_of(&file), source(&file)?, (&folder, reach), set)
     }
 
-    pub(super) fn of(name: &str, source: Source, (folder, reach): (&Path, Reach), set: &[String]) -> Result<Self, Diagnostics> {
+    pub(super) fn of(name: &str, source: Source, (folder, reach): (&Path, PathPolicy), set: &[String]) -> Result<Self, Diagnostics> {
         let (source, mut root) = parsed(source)?;
         let (mut sources, mut faults) = (vec![source], Faults::default());
         set::apply(&mut root, set, &mut sources, &mut faults);
@@ -84,7 +84,7 @@ impl Template {
     }
 
     /// Faults with their places.
-    pub(crate) fn told(&self, faults: Faults) -> Diagnostics {
+    pub(crate) fn reported(&self, faults: Faults) -> Diagnostics {
         faults.into_diagnostics(&self.sources, Some(&self.root))
     }
 
@@ -117,7 +117,7 @@ impl Template {
         let document = reader::read(&root, &reader::MODEL, false, &mut faults);
         let mut meshes = build::Meshes::new(&self.folder, self.reach, &self.given);
         let mut model = build::model(&document, &self.name, &mut meshes, &mut faults);
-        // Parts may be solids by their meshes alone: then all was read with the units of the plane.
+        // Parts may be solids by their meshes alone: then all was read with the units in 2D.
         if !document.is_of_solids && model.parts.iter().any(|part| model.dimension_of(part) == 3) {
             faults = before;
             meshes.forget_faults();
@@ -129,7 +129,7 @@ impl Template {
     }
 
     /// Faults of the model with these changes that were found later, with their places.
-    pub(crate) fn told_of_model(&self, changes: &[Change<'_>], found: Vec<Fault>) -> Diagnostics {
+    pub(crate) fn reported_of_model(&self, changes: &[Change<'_>], found: Vec<Fault>) -> Diagnostics {
         let (root, mut faults) = self.changed(changes);
         note(&mut faults, found);
         faults.into_diagnostics(&self.sources, Some(&root))

@@ -557,7 +557,8 @@ mod tests {
             (
                 "5 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9",
                 Dimension::LENGTH,
-                "`it` needs a unit of length, but \"5 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^...\" is in m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 ... | write it like \"3 mm\", or as a number in m",
+                "`it` needs a unit of length, but \"5 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^9 m^...\" is in m^9 m^9 m^9 \
+                    m^9 m^9 m^9 m^9 m^9 m^9 m^9 ... | write it like \"3 mm\", or as a number in m",
             ),
             ("5 psi^9 psi^9", Dimension::LENGTH, "`it`: the unit's powers are too large | "),
         ] {

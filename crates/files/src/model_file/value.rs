@@ -379,8 +379,8 @@ pub(super) fn words(kind: Kind) -> String {
         Kind::Angle(..) => "an angle".to_string(),
         Kind::Vector(Dimension::NONE, _) => "a list of 2 numbers".to_string(),
         Kind::Vector(dimension, _) => format!("a list of 2 numbers with a unit of {}", units::quantity(dimension)),
-        Kind::Spatial(Dimension::NONE, _) => "a list of 2 numbers (3 in space)".to_string(),
-        Kind::Spatial(dimension, _) => format!("a list of 2 numbers (3 in space) with a unit of {}", units::quantity(dimension)),
+        Kind::Spatial(Dimension::NONE, _) => "a list of 2 numbers (3 in 3D)".to_string(),
+        Kind::Spatial(dimension, _) => format!("a list of 2 numbers (3 in 3D) with a unit of {}", units::quantity(dimension)),
         Kind::Quantities(dimension, _, 1) => format!("a list of numbers with a unit of {}", units::quantity(dimension)),
         Kind::Quantities(dimension, _, least) => {
             format!("a list of at least {least} numbers with a unit of {}", units::quantity(dimension))

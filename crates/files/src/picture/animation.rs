@@ -7,7 +7,7 @@ pub(super) use super::palette::{Indices, Palette};
 use super::PictureError;
 use super::palette::UNKNOWN;
 use super::raster::Canvas;
-use crate::threads::{Rooms, Threads};
+use crate::threads::{ScratchPool, Threads};
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 use std::io::Write;
 use std::path::Path;
@@ -36,7 +36,7 @@ impl<'a> Animation<'a> {
         let all: Vec<Indices> = std::iter::once(std::mem::take(&mut self.before)).chain(pictures).collect();
         let pieces: Vec<_> = all.windows(2).zip(delays).collect();
         let size = [self.width, self.height];
-        let packed = threads.map(&pieces, &Rooms::default(), || (), |(), (pair, delay)| packed(size, &pair[0], &pair[1], **delay));
+        let packed = threads.map(&pieces, &ScratchPool::default(), || (), |(), (pair, delay)| packed(size, &pair[0], &pair[1], **delay));
         for frame in packed {
             self.encoder.write_lzw_pre_encoded_frame(&frame).map_err(|e| refused(self.path, e))?;
         }

@@ -129,7 +129,7 @@ impl Mesh {
     }
 
     /// Draws all cells and lines; `points` are pixels within the layer, not finite where there is nothing to
-    /// show. `planes`: x and y at which the body goes on in its mirror image; there it has no outline.
+    /// show. `planes`: x and y at which the body continues in its mirror image; there it has no outline.
     /// `looks`: one per part, as from [`Mesh::looks`].
     pub(super) fn draw(&self, layer: &mut Layer, points: &[[f32; 2]], planes: [Option<f32>; 2], values: Values<'_>, looks: &[Look]) {
         let map: Vec<[f32; 3]> = MAP.iter().map(|c| floats(*c)).collect();

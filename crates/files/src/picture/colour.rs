@@ -1,6 +1,6 @@
 //! Colours: the map from a field's value to a colour, and the distinct colours of parts and curves. The map
 //! is laid out in OKLCH (Ottosson 2020, "A perceptual color space for image processing"), so equal steps of
-//! the value look equal and lightness alone tells high from low (also in grey print and for colour-blind
+//! the value look equal and lightness alone reports high from low (also in grey print and for colour-blind
 //! readers). Read by `body`, `scene`, `animation`, `svg`.
 
 use std::sync::LazyLock;

@@ -41,7 +41,8 @@ impl Scalar {
         found
     }
 
-    /// All that can be told of some fields, by what [`Scalar::of`] knows them by: each, and its components.
+    /// All that can be reported of some fields, by what [`Scalar::of`] knows them by: each, and its
+    /// components.
     pub(crate) fn all(kinds: &[&'static FieldKind]) -> Vec<(String, Self)> {
         let has_equivalent = kinds.iter().any(|kind| kind.name == "von_mises");
         let mut all = Vec::new();
@@ -94,7 +95,7 @@ impl Scalar {
         size || scalars.contains(&self.kind.name)
     }
 
-    /// Names of the values 0, 1, ... of a field that tells states; empty for quantities.
+    /// Names of the values 0, 1, ... of a field that reports states; empty for quantities.
     pub(crate) fn states(&self) -> &'static [&'static str] {
         if self.kind.name == "contact_status" { &["open", "stick", "slip"] } else { &[] }
     }
@@ -141,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stress_of_space_shows_its_equivalent_value_and_a_velocity_has_a_third_component() {
+    fn a_stress_of_3d_shows_its_equivalent_value_and_a_velocity_has_a_third_component() {
         let named = |name: &str, values: &[f64]| Field {
             kind: fields_of(3).iter().find(|kind| kind.name == name).unwrap(),
             values: values.to_vec(),

@@ -19,7 +19,7 @@ use std::path::Path;
 /// # Errors
 /// [`PictureError::Io`] and [`PictureError::Encode`] if the file can't be written.
 pub fn mesh_png(frame: &Frame, cells: &Cells, settings: &FilmSettings, path: &Path) -> Result<(), PictureError> {
-    let canvas = if frame.dimension == 3 { in_space(frame, cells, settings) } else { in_plane(frame, cells, settings) };
+    let canvas = if frame.dimension == 3 { in_3d(frame, cells, settings) } else { in_plane(frame, cells, settings) };
     write_png(&canvas, path)
 }
 
@@ -63,7 +63,7 @@ fn in_plane(frame: &Frame, cells: &Cells, settings: &FilmSettings) -> Canvas {
     canvas
 }
 
-fn in_space(frame: &Frame, cells: &Cells, settings: &FilmSettings) -> Canvas {
+fn in_3d(frame: &Frame, cells: &Cells, settings: &FilmSettings) -> Canvas {
     let places = frame.positions::<3>();
     let place = |node: u32| places.get(node as usize).copied().unwrap_or([f64::NAN; 3]);
     let skin = Skinner::new(cells, &place).skin(cells, &[]);

@@ -5,7 +5,7 @@
 //! `animation.gif`, `final.png`, a mesh picture and two SVG plots. The way of a picture: `film` or `mesh`
 //! choose what to show, `view` how much of it, `scale` its units and ticks, `sheet` writes title and colour
 //! bar, `scene` lays out axes, `obstacle` and `body` hand lines, cells and edges to `raster`, `text` writes,
-//! `animation` encodes; models of space are drawn by `space`. `plots` chooses curves, `svg` draws them.
+//! `animation` encodes; models in 3D are drawn by `space`. `plots` chooses curves, `svg` draws them.
 
 mod animation;
 mod body;
@@ -50,7 +50,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum PictureError {
     /// The disk refused.
-    #[error("can't write {}: {source}{}", path.display(), cure(source))]
+    #[error("can't write {}: {source}{}", path.display(), remedy(source))]
     Io {
         #[doc = "File."]
         path: PathBuf,
@@ -90,7 +90,7 @@ impl PictureError {
 }
 
 /// What a person can do; what is no plain file says it itself.
-fn cure(error: &std::io::Error) -> &'static str {
+fn remedy(error: &std::io::Error) -> &'static str {
     if plain::kind(error).code == REFUSED.code { "; check that the folder exists, is writable and has space left" } else { "" }
 }
 

@@ -1,8 +1,8 @@
-//! A few elements at a few times, as SVG: the neighbourhood of the culprit of a failure, each element with
-//! its number.
+//! A few elements at a few times, as SVG: the neighbourhood of the failure location of a failure, each
+//! element with its number.
 //!
-//! Elements and times come from a [`Trace`]; every panel has the same scale and the culprit in its middle.
-//! The text goes to a file of the post-mortem.
+//! Elements and times come from a [`Trace`]; every panel has the same scale and the failure location in its
+//! middle. The text goes to a file of the post-mortem.
 
 use super::colour::{BORDER, DISTINCT, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAINT, WHITE, mix};
 use super::scale::{number, unit};
@@ -11,15 +11,15 @@ use super::text::{self, Weight};
 use embate_solver::post_mortem::{Moment, NearCell, Neighbourhood};
 use std::fmt::Write;
 
-/// Colour of the culprit.
+/// Colour of the failure location.
 pub(crate) const CULPRIT: Rgb = [214, 20, 60];
 /// Width of a panel where there are several, and of one alone, pixels; limits of its height over its width;
-/// the air around it, and the room for the culprit's name in it.
+/// the air around it, and the room for the failure location's name in it.
 pub(super) const WIDE: [f64; 2] = [500.0, 760.0];
 pub(super) const HIGH: [f64; 2] = [0.3, 1.1];
 pub(super) const AIR: f64 = 16.0;
 pub(super) const NAME: f64 = 42.0;
-/// A culprit that is narrower, pixels, gets a line to it.
+/// A failure location that is narrower, pixels, gets a line to it.
 pub(super) const FOUND: f64 = 22.0;
 pub(super) const HEAD: f64 = 34.0;
 /// Largest number of an element, pixels; a smaller one than the second is not legible.
@@ -33,8 +33,8 @@ pub(crate) struct Panel<'a> {
     pub(crate) moment: &'a Moment,
 }
 
-/// The picture as the text of an SVG file; `mark` is what the culprit is called in it, `depth` the unit of
-/// forces.
+/// The picture as the text of an SVG file; `mark` is what the failure location is called in it, `depth` the
+/// unit of forces.
 pub(crate) fn neighbourhood(title: &str, near: &Neighbourhood, panels: &[Panel<'_>], mark: &str, depth: &str) -> String {
     let scene = Scene::new(near, panels, width_of(panels.len()));
     laid_out(
@@ -51,8 +51,8 @@ pub(super) fn width_of(panels: usize) -> f64 {
     WIDE[usize::from(panels.clamp(1, 2) == 1)]
 }
 
-/// Panels of one size in two columns, with a title above and a legend below; both are told where they begin,
-/// and the legend how wide the picture is.
+/// Panels of one size in two columns, with a title above and a legend below; both are reported where they
+/// begin, and the legend how wide the picture is.
 pub(super) fn laid_out(
     title: &str,
     panels: usize,
@@ -92,7 +92,7 @@ struct Scene<'a> {
     near: &'a Neighbourhood,
     /// Width and height of a panel, pixels.
     size: [f64; 2],
-    /// Middle of what is shown, from the culprit, m, and pixels for a metre.
+    /// Middle of what is shown, from the failure location, m, and pixels for a metre.
     middle: [f64; 2],
     scale: f64,
     legend: Legend<'a>,
@@ -143,17 +143,17 @@ impl<'a> Scene<'a> {
             let _ = writeln!(out, "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"5\"/>", hex(BORDER));
         }
         let mut labels = Vec::new();
-        // The culprit's own last, so that its line lies above those of others.
+        // The failure location's own last, so that its line lies above those of others.
         for (k, cell) in self.near.cells.iter().enumerate().rev() {
             let corners: Vec<[f64; 2]> = cell.nodes.iter().map(|&node| seen(moment.positions[node])).collect();
             if !corners.iter().all(|x| is_finite(*x)) {
                 continue;
             }
             let points: Vec<[f64; 2]> = corners.into_iter().map(place).collect();
-            let is_culprit = self.near.element == Some(k);
+            let is_failure_location = self.near.element == Some(k);
             let fill = self.legend.fill(moment.values.get(k).copied().unwrap_or(f64::NAN), cell.ring.is_some());
             let own = DISTINCT[cell.part % DISTINCT.len()];
-            let (stroke, wide) = if is_culprit { (CULPRIT, 3.5) } else { (own, 1.1) };
+            let (stroke, wide) = if is_failure_location { (CULPRIT, 3.5) } else { (own, 1.1) };
             let _ = writeln!(
                 out,
                 "<path d=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{wide}\" stroke-linejoin=\"round\"/>",
@@ -161,7 +161,7 @@ impl<'a> Scene<'a> {
                 hex(fill),
                 hex(stroke)
             );
-            labels.extend(Label::of(&points, cell.element.to_string(), fill, is_culprit));
+            labels.extend(Label::of(&points, cell.element.to_string(), fill, is_failure_location));
         }
         self.forces(out, moment, &place);
         write_labels(out, labels.into_iter().rev());
@@ -186,7 +186,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The culprit's name in a corner, with a line to it.
+    /// The failure location's name in a corner, with a line to it.
     fn mark(&self, out: &mut String, moment: &Moment, [left, top]: [f64; 2], place: &impl Fn([f64; 2]) -> [f64; 2], mark: &str) {
         let at = place(centre(self.near, moment));
         let colour = hex(CULPRIT);
@@ -204,7 +204,7 @@ impl<'a> Scene<'a> {
         name(out, mark, [x, y]);
     }
 
-    /// The smaller side of the box around the culprit, m.
+    /// The smaller side of the box around the failure location, m.
     fn least(&self, moment: &Moment) -> f64 {
         let nodes = self.near.element.map_or(&[][..], |element| &self.near.cells[element].nodes);
         let side = |k: usize| {
@@ -215,7 +215,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Lower and upper corner, from the culprit, of what all panels show, of those of each.
+/// Lower and upper corner, from the failure location, of what all panels show, of those of each.
 pub(super) fn common(reaches: &[[[f64; 2]; 2]]) -> [[f64; 2]; 2] {
     // Of what flies apart in the last steps the scale is that of the first ones.
     let first = reaches.first().copied().unwrap_or_default();
@@ -226,7 +226,7 @@ pub(super) fn common(reaches: &[[[f64; 2]; 2]]) -> [[f64; 2]; 2] {
     reaches.iter().fold(first, grown)
 }
 
-/// Room around the elements: what is opposite of the culprit is shown as well.
+/// Room around the elements: what is opposite of the failure location is shown as well.
 pub(super) fn air(near: &Neighbourhood) -> f64 {
     let is_own = |cell: &NearCell| near.cells.first().is_some_and(|first| first.part == cell.part);
     if near.cells.iter().all(is_own) { 1.08 } else { 1.3 }
@@ -253,7 +253,7 @@ impl<'a> Legend<'a> {
         }
     }
 
-    /// Colour of a value; paler where the element does not hang together with the culprit.
+    /// Colour of a value; paler where the element does not hang together with the failure location.
     pub(super) fn fill(&self, value: f64, is_ring: bool) -> Rgb {
         if !value.is_finite() {
             return NO_VALUE;
@@ -325,17 +325,18 @@ impl<'a> Legend<'a> {
     }
 }
 
-/// Width of the culprit's name in its box, pixels.
+/// Width of the failure location's name in its box, pixels.
 pub(super) fn name_width(mark: &str) -> f64 {
     f64::from(text::width(mark, 13.0, Weight::Bold)) + 12.0
 }
 
-/// The culprit's name in a box with this upper left corner.
+/// The failure location's name in a box with this upper left corner.
 pub(super) fn name(out: &mut String, mark: &str, [x, y]: [f64; 2]) {
     let (wide, colour) = (name_width(mark), hex(CULPRIT));
     let _ = writeln!(
         out,
-        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{wide:.1}\" height=\"22\" rx=\"3\" fill=\"#ffffff\" stroke=\"{colour}\" stroke-width=\"1.5\"/>"
+        "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{wide:.1}\" height=\"22\" rx=\"3\" fill=\"#ffffff\" \
+            stroke=\"{colour}\" stroke-width=\"1.5\"/>"
     );
     write_text(out, mark, [x + 6.0, y + 15.5], "start", CULPRIT, " font-weight=\"bold\"");
 }
@@ -407,12 +408,12 @@ fn is_finite(x: [f64; 2]) -> bool {
     x.iter().all(|v| v.is_finite())
 }
 
-/// A vector of a model of the plane.
+/// A vector of a model in 2D.
 fn seen([x, y, _]: [f64; 3]) -> [f64; 2] {
     [x, y]
 }
 
-/// Middle of a panel: the culprit's node, or the mean of its element's.
+/// Middle of a panel: the failure location's node, or the mean of its element's.
 fn centre(near: &Neighbourhood, moment: &Moment) -> [f64; 2] {
     let of_node = near.node.map(|node| vec![node]);
     let nodes = of_node.or_else(|| near.element.map(|element| near.cells[element].nodes.clone())).unwrap_or_default();
@@ -421,7 +422,7 @@ fn centre(near: &Neighbourhood, moment: &Moment) -> [f64; 2] {
     if count > 0.0 {
         return sum.map(|v| v / count);
     }
-    // Where the culprit is nowhere any more: the mean of what is left.
+    // Where the failure location is nowhere any more: the mean of what is left.
     let left: Vec<[f64; 2]> = moment.positions.iter().map(|&x| seen(x)).filter(|x| is_finite(*x)).collect();
     [0, 1].map(|k| left.iter().map(|x| x[k]).sum::<f64>() / left.len().max(1) as f64)
 }

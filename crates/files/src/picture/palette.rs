@@ -14,7 +14,7 @@ pub(super) struct Palette {
     nearest: Vec<u8>,
 }
 
-/// Colours of the map, without light, in the palette of pictures of space.
+/// Colours of the map, without light, in the palette of pictures in 3D.
 const OF_MAP: usize = 64;
 
 /// Index that stands for "as in the frame before" in files, and for "not looked up" in the palette.

@@ -83,7 +83,8 @@ impl Sheet {
         write_text(&mut body, &shown, [AIR, 27.0], "start", TEXT, " font-size=\"16\" font-weight=\"bold\"");
         let _ = writeln!(
             body,
-            "<clipPath id=\"view\"><rect x=\"{AIR}\" y=\"{top}\" width=\"{FRAME}\" height=\"{high:.1}\"/></clipPath>\n<g clip-path=\"url(#view)\">"
+            "<clipPath id=\"view\"><rect x=\"{AIR}\" y=\"{top}\" width=\"{FRAME}\" \
+                height=\"{high:.1}\"/></clipPath>\n<g clip-path=\"url(#view)\">"
         );
         Self { body, scale, middle, wide, high }
     }
@@ -114,7 +115,8 @@ impl Sheet {
         let red = hex(CULPRIT);
         let _ = writeln!(
             body,
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"13\" fill=\"none\" stroke=\"{red}\" stroke-width=\"3\"/>\n<path d=\"M{:.1} {y:.1}H{:.1}M{x:.1} {:.1}V{:.1}\" stroke=\"{red}\" stroke-width=\"1.5\"/>",
+            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"13\" fill=\"none\" stroke=\"{red}\" stroke-width=\"3\"/>\n<path \
+                d=\"M{:.1} {y:.1}H{:.1}M{x:.1} {:.1}V{:.1}\" stroke=\"{red}\" stroke-width=\"1.5\"/>",
             x - 22.0,
             x + 22.0,
             y - 22.0,

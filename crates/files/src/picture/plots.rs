@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn what_goes_on_along_z_is_shown_in_space() {
+    fn what_continues_along_z_is_shown_in_3d() {
         let columns = ["time", "A.x", "A.y", "A.z", "contact.force_z[c]"];
         let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, 0.0, 0.1 * t, -0.2 * t, 1e3 * t]).collect();
         assert_eq!(names_of(&columns, &rows), ["position z", "position y", "contact force z"]);

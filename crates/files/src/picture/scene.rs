@@ -1,4 +1,4 @@
-//! Pixel pictures of the plane: the plot with its axes and grid, drawn once on a `sheet`; then one frame
+//! Pixel pictures in 2D: the plot with its axes and grid, drawn once on a `sheet`; then one frame
 //! after the other on a copy of it. `film` and `mesh` say what there is to show; obstacles and bodies are
 //! drawn by `obstacle` and `body`, the canvas goes to `animation` or to a PNG.
 

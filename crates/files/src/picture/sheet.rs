@@ -1,4 +1,4 @@
-//! The sheet of a pixel picture: what stands around the plot of a model of the plane or of space. Title,
+//! The sheet of a pixel picture: what stands around the plot of a model in 2D or 3D. Title,
 //! note, colour bar or names of parts, all drawn once. `film` and `mesh` say what there is; `scene` and
 //! `space` lay out the plot and draw in it.
 
@@ -24,11 +24,11 @@ pub(super) enum Key {
 pub(super) struct Plan<'a> {
     pub(super) title: &'a str,
     pub(super) mirror: [bool; 3],
-    /// In the plane: on which side of each mirror line the model lies, 1 or −1.
+    /// In 2D: on which side of each mirror line the model lies, 1 or −1.
     pub(super) sides: [f64; 2],
     /// Largest size, pixels.
     pub(super) size: [u32; 2],
-    /// Lower and upper corner of everything that must be seen, m, mirrored bodies included; in space to the
+    /// Lower and upper corner of everything that must be seen, m, mirrored bodies included; in 3D to the
     /// right and upwards in the picture.
     pub(super) view: [[f64; 2]; 2],
     pub(super) key: Key,

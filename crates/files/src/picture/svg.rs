@@ -254,7 +254,7 @@ fn draw_curves(out: &mut String, panel: &Panel, frame: &Frame, plot: [f64; 4], x
         };
         let place = |p: &[f64; 2]| [x(p[0]), frame.y(p[1], plot)];
         let mut path = String::new();
-        for piece in thinned(&curve.points, POINTS_MAX).split(|p| !(p[0].is_finite() && p[1].is_finite())) {
+        for piece in decimated(&curve.points, POINTS_MAX).split(|p| !(p[0].is_finite() && p[1].is_finite())) {
             for point in piece.iter().filter(|_| piece.len() == 1 || curve.dots) {
                 let [x, y] = place(point);
                 let _ = writeln!(out, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3\" fill=\"{}\"/>", hex(curve.colour));
@@ -329,7 +329,7 @@ fn apart(wanted: &[f64], distance: f64, low: f64, high: f64) -> Vec<f64> {
 
 /// At most `most` points that look the same: of each bucket the lowest and the highest in their order, first
 /// and last always; gaps stay.
-pub(crate) fn thinned(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
+pub(crate) fn decimated(points: &[[f64; 2]], most: usize) -> Vec<[f64; 2]> {
     if points.len() <= most {
         return points.to_vec();
     }
@@ -417,7 +417,7 @@ mod tests {
         points[43_210][1] = 50.0;
         points[77_777][1] = -40.0;
         points[60_000][1] = f64::NAN;
-        let thin = thinned(&points, 2000);
+        let thin = decimated(&points, 2000);
         assert!(thin.len() <= 2000, "{}", thin.len());
         assert!(thin.contains(&points[43_210]) && thin.contains(&points[77_777]));
         assert!(thin.iter().any(|p| p[0] == 60_000.0 && p[1].is_nan()));

@@ -1,7 +1,7 @@
 //! What to change in the model after a failure: keys, with what this failure says about them.
 //!
-//! General causes and cures are in the catalogue of messages; here is only what follows from the culprit, its
-//! history, and what acts on it.
+//! General causes and cures are in the catalogue of messages; here is only what follows from the failure
+//! location, its history, and what acts on it.
 
 use super::Failed;
 use super::page::shown;
@@ -10,7 +10,7 @@ use embate_solver::error::Error;
 use embate_solver::input::sections;
 use embate_solver::mesh::cell::CellKind;
 use embate_solver::model::{ContactLaw, Drive, Formulation, Interface, Load, Model, Penalty};
-use embate_solver::post_mortem::{Acting, Culprit, Moment, Trace};
+use embate_solver::post_mortem::{Acting, FailureLocation, Moment, Trace};
 use embate_solver::vocabulary::Need;
 
 /// One change.
@@ -32,11 +32,11 @@ impl Advice {
 pub(super) struct Case<'a> {
     pub(super) failed: &'a Failed<'a>,
     pub(super) trace: &'a Trace,
-    pub(super) culprit: Culprit,
+    pub(super) failure_location: FailureLocation,
     pub(super) acting: Vec<Acting>,
 }
 
-/// A contact that pressed on the culprit or the elements next to it.
+/// A contact that pressed on the failure location or the elements next to it.
 pub(super) struct Pressing<'a> {
     pub(super) kind: &'static str,
     pub(super) name: &'a str,
@@ -56,9 +56,9 @@ impl<'a> Case<'a> {
         self.failed.model
     }
 
-    /// Place of the culprit's part in the model.
+    /// Place of the failure location's part in the model.
     pub(super) fn part(&self) -> Option<usize> {
-        self.model().parts.iter().position(|part| part.name == self.culprit.part())
+        self.model().parts.iter().position(|part| part.name == self.failure_location.part())
     }
 
     /// The step that failed, and the last good one.
@@ -102,10 +102,10 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// The contact to blame, or that which presses most.
+    /// The contact the cause, or that which presses most.
     fn contact(&self) -> Option<(String, String)> {
-        match &self.culprit {
-            Culprit::Contact { kind, name, .. } => Some(((*kind).to_string(), name.clone())),
+        match &self.failure_location {
+            FailureLocation::Contact { kind, name, .. } => Some(((*kind).to_string(), name.clone())),
             _ => self.pressing().first().map(|it| (it.kind.to_string(), it.name.to_string())),
         }
     }
@@ -117,13 +117,13 @@ impl<'a> Case<'a> {
             Error::Inverted { .. } => {
                 self.too_fast_for_the_step(&mut all);
                 self.squeezed(&mut all);
-                self.driven(&mut all, "let it go slower or less far: it moves or loads the culprit");
+                self.driven(&mut all, "let it go slower or less far: it moves or loads the failure location");
                 self.soft(&mut all);
             }
             Error::Collapsed { limit, time_step, .. } => {
                 self.squeezed(&mut all);
                 self.stiffened(&mut all);
-                self.driven(&mut all, "let it go slower or less far: it moves or loads the culprit");
+                self.driven(&mut all, "let it go slower or less far: it moves or loads the failure location");
                 let what = format!(
                     "only if such steps are meant: allow less than {}; every step then costs as much as now",
                     shown(*time_step, "s")
@@ -132,13 +132,13 @@ impl<'a> Case<'a> {
             }
             Error::EnergyDrift { drift, .. } => self.unbalanced(&mut all, *drift),
             Error::NotFinite { .. } => {
-                self.driven(&mut all, "look at its value and unit: it acts on the culprit");
-                self.material(&mut all, "look at every value and unit: the law of the culprit's part");
+                self.driven(&mut all, "look at its value and unit: it acts on the failure location");
+                self.material(&mut all, "look at every value and unit: the law of the part that failed");
                 self.thrown(&mut all);
             }
             Error::TooDeep { depth, .. } => self.pressed_in(&mut all, *depth),
             Error::Runaway { speed, .. } => {
-                self.driven(&mut all, "look at its value and unit: it acts on the culprit");
+                self.driven(&mut all, "look at its value and unit: it acts on the failure location");
                 self.shot(&mut all);
                 self.material(&mut all, "look at the density and its unit: what is too light is too fast");
                 let what = format!("only if such speeds are meant: more than {}", shown(*speed, "m/s"));
@@ -189,7 +189,7 @@ impl<'a> Case<'a> {
         all.push(Advice::new("run.penetration_limit", format!("only if so much depth is meant: more than {}", shown(depth, "m"))));
     }
 
-    /// A contact that may have shot the culprit away.
+    /// A contact that may have shot the failure location away.
     fn shot(&self, all: &mut Vec<Advice>) {
         if let Some(it) = self.pressing().first()
             && let Some((path, interface)) = self.interface(it.kind, it.name)
@@ -205,7 +205,8 @@ impl<'a> Case<'a> {
             && last.vitals.shape <= 0.0
         {
             let what = format!(
-                "try 0.5: the shape of the element fell from {:.2} to {:.2} in one step, which speaks of a step that is not stable, or of a load that comes at once",
+                "try 0.5: the shape of the element fell from {:.2} to {:.2} in one step, which speaks of a step that \
+                    is not stable, or of a load that comes at once",
                 good.vitals.shape, last.vitals.shape
             );
             all.push(Advice::new("run.safety", what));
@@ -220,7 +221,8 @@ impl<'a> Case<'a> {
         let strain = vitals.map_or(f64::NAN, |it| it.strains[0].max(-it.strains[1]));
         let what = if strain > 0.5 {
             format!(
-                "take more elements (or shape them so that they are drawn or pressed into squares): this one had a strain of {strain:.2} before the failure"
+                "take more elements (or shape them so that they are drawn or pressed into squares): this one had a \
+                    strain of {strain:.2} before the failure"
             )
         } else {
             "take more elements there: one alone carries what should be shared by several".to_string()
@@ -229,8 +231,10 @@ impl<'a> Case<'a> {
         if self.model().materials.get(&part.material).is_some_and(|material| material.failure.is_empty()) {
             let plastic = vitals.map_or(f64::NAN, |it| it.plastic_strain);
             if plastic > 0.3 {
-                let what =
-                    format!("where the material would tear, let its elements fail before: the culprit's plastic strain was {plastic:.2}");
+                let what = format!(
+                    "where the material would tear, let its elements fail before: the plastic strain at the failure \
+                        location was {plastic:.2}"
+                );
                 all.push(Advice::new(format!("material.{}.failure.plastic_strain", part.material), what));
             } else if let Error::Collapsed { limit, .. } = self.failed.error {
                 let what = format!("let elements fail whose step falls this far, say at {}", shown(2.0 * limit, "s"));
@@ -252,7 +256,8 @@ impl<'a> Case<'a> {
             let ratio = first.vitals.time_step / last.vitals.time_step;
             let what = if ratio > 1.5 {
                 format!(
-                    "look at how stiff it becomes: the element kept its shape (size {:.2} of that at the start) while its step fell to 1/{ratio:.1}",
+                    "look at how stiff it becomes: the element kept its shape (size {:.2} of that at the start) \
+                        while its step fell to 1/{ratio:.1}",
                     last.vitals.area_ratio
                 )
             } else {
@@ -269,7 +274,8 @@ impl<'a> Case<'a> {
             && good.vitals.strains[1] < -0.5
         {
             let what = format!(
-                "look at stiffness and strength with their units: the largest stress there was {}, and the stiffest modulus of the law is {}",
+                "look at stiffness and strength with their units: the largest stress there was {}, and the stiffest \
+                    modulus of the law is {}",
                 shown(good.vitals.von_mises, "Pa"),
                 shown(wave, "Pa")
             );
@@ -377,7 +383,8 @@ impl<'a> Case<'a> {
             let formulation = self.model().contacts.iter().find(|it| kind == "contact" && it.name == name).map(|it| it.formulation);
             let why = match formulation {
                 Some(Formulation::Segment) => {
-                    "try `double_pass`: it bears penalties a thousand times as stiff; here pairs of segments begin and end with gaps of their own"
+                    "try `double_pass`: it bears penalties a thousand times as stiff; here pairs of segments begin \
+                        and end with gaps of their own"
                 }
                 Some(Formulation::Pinball) => "try `double_pass`: pinballs are coarse where bodies slide",
                 _ => "",
@@ -386,7 +393,7 @@ impl<'a> Case<'a> {
                 all.push(Advice::new(format!("{path}.formulation"), why));
             }
         }
-        all.push(Advice::new("run.safety", "try 0.5: where the step is to blame, the drift falls to a third or less"));
+        all.push(Advice::new("run.safety", "try 0.5: if the step is the cause, the drift falls to a third or less"));
         if let Some(index) = self.part() {
             let part = &self.model().parts[index];
             let finer = "take more elements there: what is strained much in one step is not resolved";

@@ -10,7 +10,7 @@ use crate::checkpoint::{generations, newest};
 use crate::threads::Threads;
 use embate_solver::error::Error;
 use embate_solver::output::Frame;
-use embate_solver::post_mortem::{Suspect, Trace};
+use embate_solver::post_mortem::{FailureEntity, Trace};
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress, Simulation, State};
 use std::sync::Arc;
 
@@ -24,8 +24,8 @@ const SHORT: u64 = 1_000_000_000;
 /// What was found.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
-    /// Who is to blame.
-    pub suspect: Suspect,
+    /// Where it failed.
+    pub failure_entity: FailureEntity,
     /// What was seen of him.
     pub trace: Trace,
     /// How that was had, or why there is only the state of the failure: a sentence.
@@ -66,12 +66,13 @@ struct Pass {
 }
 
 impl Failed<'_> {
-    /// Goes to the failure once more, where that can be done in sensible time, and looks at the culprit.
-    /// `goes_on` is asked now and then, and may say no.
+    /// Goes to the failure once more, where that can be done in sensible time, and looks at the failure
+    /// location. `continues` is asked now and then, and may say no.
     #[must_use]
-    pub fn findings(&self, mut goes_on: impl FnMut() -> bool) -> Findings {
-        let suspect = self.simulation.suspect(self.error);
-        let mut findings = Findings { suspect, trace: self.simulation.trace_now(&suspect, Some(self.error)), ..Findings::default() };
+    pub fn findings(&self, mut continues: impl FnMut() -> bool) -> Findings {
+        let failure_entity = self.simulation.failure_entity(self.error);
+        let mut findings =
+            Findings { failure_entity, trace: self.simulation.trace_now(&failure_entity, Some(self.error)), ..Findings::default() };
         let step = self.simulation.steps();
         let Some(from) = self.beginning(step) else {
             findings.how = "Only the state of the failure is shown: no state of the run is near enough to go there once more. With `run.checkpoint` (\"10 min\" for example) there would be one, and this \
@@ -80,10 +81,10 @@ impl Failed<'_> {
             return findings;
         };
         let last_good = (self.keeps_last_good && step > 1).then(|| step - 1);
-        match self.pass(&from, &suspect, [step.saturating_sub(WINDOW), step], last_good, &mut goes_on) {
+        match self.pass(&from, &failure_entity, [step.saturating_sub(WINDOW), step], last_good, &mut continues) {
             Ok(pass) => {
                 let is_same = pass.error.as_ref().is_some_and(|error| error.kind() == self.error.kind());
-                findings.fault = (last_good.is_some() && pass.state.is_none() && goes_on())
+                findings.fault = (last_good.is_some() && pass.state.is_none() && continues())
                     .then(|| "the run fails again before its last good step".into());
                 findings.last_good = pass.state;
                 if is_same {
@@ -95,8 +96,8 @@ impl Failed<'_> {
                     if !matches!(self.error, Error::EnergyDrift { .. }) {
                         findings.trace.jump = None;
                     }
-                    self.blame_energies(&from, &mut findings, &mut goes_on);
-                } else if goes_on() {
+                    self.blame_energies(&from, &mut findings, &mut continues);
+                } else if continues() {
                     findings.how = format!(
                         "Only the state of the failure is shown: the run went once more from {}, and did not fail in this way.",
                         from.name()
@@ -114,16 +115,16 @@ impl Failed<'_> {
         findings
     }
 
-    /// Where energies went wrong nobody is to blame until the worst step is known; then the run goes there a
+    /// Where energies went wrong no one is the cause until the worst step is known; then the run goes there a
     /// third time.
-    fn blame_energies(&self, from: &From, findings: &mut Findings, goes_on: &mut impl FnMut() -> bool) {
-        let Some(jump) = findings.trace.jump.filter(|_| findings.suspect.is_nobody()) else { return };
+    fn blame_energies(&self, from: &From, findings: &mut Findings, continues: &mut impl FnMut() -> bool) {
+        let Some(jump) = findings.trace.jump.filter(|_| findings.failure_entity.is_nobody()) else { return };
         let step = self.simulation.steps();
         let window = [jump.step.saturating_sub(WINDOW - AFTER), step.min(jump.step + AFTER)];
-        if let Ok(pass) = self.pass(from, &jump.suspect, window, None, goes_on)
+        if let Ok(pass) = self.pass(from, &jump.failure_entity, window, None, continues)
             && pass.trace.moments.last().is_some_and(|last| last.step == window[1])
         {
-            findings.suspect = jump.suspect;
+            findings.failure_entity = jump.failure_entity;
             findings.trace = Trace { jump: Some(jump), begin: findings.trace.begin, ..pass.trace };
         }
     }
@@ -153,10 +154,10 @@ impl Failed<'_> {
     fn pass(
         &self,
         from: &From,
-        suspect: &Suspect,
+        failure_entity: &FailureEntity,
         [first, last]: [u64; 2],
         keep: Option<u64>,
-        goes_on: &mut impl FnMut() -> bool,
+        continues: &mut impl FnMut() -> bool,
     ) -> Result<Pass, Error> {
         // The state is due at this step alone, so the run's own stages stay what they were.
         let mut model = self.model.clone();
@@ -165,8 +166,8 @@ impl Failed<'_> {
             From::State(state, _) => Simulation::resumed(&model, self.options, &state.sections)?,
             From::Start => Simulation::new(&model, self.options)?,
         };
-        simulation.follow(suspect, self.simulation, first.max(from.step()));
-        let mut waiting = Waiting { wanted: keep, state: None, goes_on };
+        simulation.follow(failure_entity, self.simulation, first.max(from.step()));
+        let mut waiting = Waiting { wanted: keep, state: None, continues };
         let error = simulation.run(&mut waiting).err();
         Ok(Pass { state: waiting.state, trace: simulation.take_trace().unwrap_or_default(), error })
     }
@@ -176,7 +177,7 @@ impl Failed<'_> {
 struct Waiting<'a, F> {
     wanted: Option<u64>,
     state: Option<State>,
-    goes_on: &'a mut F,
+    continues: &'a mut F,
 }
 
 impl<F: FnMut() -> bool> Observer for Waiting<'_, F> {
@@ -196,6 +197,6 @@ impl<F: FnMut() -> bool> Observer for Waiting<'_, F> {
         Ok(())
     }
     fn progress(&mut self, _: &Progress<'_>) -> Control {
-        if (self.goes_on)() { Control::Continue } else { Control::Stop }
+        if (self.continues)() { Control::Continue } else { Control::Stop }
     }
 }

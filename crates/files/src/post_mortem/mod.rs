@@ -28,7 +28,7 @@ pub const FOLDER: &str = "post-mortem";
 /// The page, relative to the results.
 pub const PAGE: &str = "post-mortem/README.md";
 /// Files in the folder; the page comes last.
-const FILES: &[&str] = &["place.svg", "neighbourhood.svg", "culprit.svg", "energies.svg", "mass.svg", "README.md"];
+const FILES: &[&str] = &["place.svg", "neighbourhood.svg", "failure-location.svg", "energies.svg", "mass.svg", "README.md"];
 
 /// A run that has failed.
 pub struct Failed<'a> {

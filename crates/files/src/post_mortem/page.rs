@@ -3,7 +3,7 @@
 
 use super::advice::{Advice, Case, key_now};
 use super::again::Findings;
-use super::plots::{changes, culprit as culprit_plot, energies, in_words};
+use super::plots::{changes, energies, failure_location as failure_location_plot, in_words};
 use super::{Failed, Files};
 use crate::model_file::Loaded;
 use crate::picture::neighbourhood::{Panel, neighbourhood};
@@ -13,7 +13,7 @@ use crate::picture::space::{self, Spot};
 use embate_solver::error::Error;
 use embate_solver::message::Message;
 use embate_solver::model::Model;
-use embate_solver::post_mortem::{Culprit, Moment, Neighbourhood, RINGS, Trace, Vitals};
+use embate_solver::post_mortem::{FailureLocation, Moment, Neighbourhood, RINGS, Trace, Vitals};
 use embate_solver::simulation::Simulation;
 use std::fmt::Write;
 
@@ -74,38 +74,42 @@ pub(super) fn causes(kind: &Message, advice: &[Advice], loaded: &Loaded) -> Stri
             vec![format!("`{path}`"), now, place, what.clone()]
         }),
     );
-    let _ = write!(text, "\nIn general: {} (`embate explain {}`)\n\n", kind.cure, kind.code);
+    let _ = write!(text, "\nIn general: {} (`embate explain {}`)\n\n", kind.remedy, kind.code);
     text
 }
 
 /// The page of a run, and its pictures.
 pub(super) fn of_run(failed: &Failed<'_>, findings: &Findings) -> Files {
     let (simulation, trace) = (failed.simulation, &findings.trace);
-    let case =
-        Case { failed, trace, culprit: simulation.culprit(&findings.suspect), acting: simulation.acting(failed.model, &findings.suspect) };
+    let case = Case {
+        failed,
+        trace,
+        failure_location: simulation.failure_location(&findings.failure_entity),
+        acting: simulation.acting(failed.model, &findings.failure_entity),
+    };
     let name = &failed.model.name;
     let (step, round) = (simulation.steps(), failed.model.is_of_whole_bodies());
     let depth = if round { "N" } else { "N/m" };
-    let mark = mark(&case.culprit);
+    let mark = mark(&case.failure_location);
     let mut files: Files = Vec::new();
-    files.extend(place_of_culprit(failed, &case, &findings.trace, &mark));
+    files.extend(place_of_failure_location(failed, &case, &findings.trace, &mark));
     if !trace.near.cells.is_empty() {
-        let title = format!("{name} – {} and the elements around it", case.culprit);
+        let title = format!("{name} – {} and the elements around it", case.failure_location);
         let panels = panels(failed, trace);
         files.push(("neighbourhood.svg", neighbourhood_of(failed.model, simulation, &title, &trace.near, &panels, [&mark, depth])));
     }
-    let culprit = culprit_plot(&format!("{name} – {} over the last steps", case.culprit), trace, step, round);
-    files.extend(culprit.map(|text| ("culprit.svg", text)));
+    let failure_location = failure_location_plot(&format!("{name} – {} over the last steps", case.failure_location), trace, step, round);
+    files.extend(failure_location.map(|text| ("failure-location.svg", text)));
     files.extend(energies(&format!("{name} – energies over the last steps"), trace, step, round).map(|text| ("energies.svg", text)));
     let page = text(&case, findings, &files);
     files.push(("README.md", page));
     files
 }
 
-/// Where the culprit is in the model.
-fn place_of_culprit(failed: &Failed<'_>, case: &Case<'_>, trace: &Trace, mark: &str) -> Option<(&'static str, String)> {
+/// Where the failure location is in the model.
+fn place_of_failure_location(failed: &Failed<'_>, case: &Case<'_>, trace: &Trace, mark: &str) -> Option<(&'static str, String)> {
     let (simulation, model) = (failed.simulation, failed.model);
-    let at = case.culprit.at().filter(|at| at.iter().all(|v| v.is_finite()))?;
+    let at = case.failure_location.at().filter(|at| at.iter().all(|v| v.is_finite()))?;
     let title = format!("{} – where: {}", model.name, point(at, simulation.dimension()));
     // Where the run failed its element is, if it is one.
     let own = trace.near.element.filter(|_| trace.near.node.is_none());
@@ -115,7 +119,7 @@ fn place_of_culprit(failed: &Failed<'_>, case: &Case<'_>, trace: &Trace, mark: &
     Some(("place.svg", place_in(model, simulation, &title, &Spot { at, nodes: &nodes, mark })))
 }
 
-/// The picture of a place, in the plane or in space.
+/// The picture of a place, in 2D or 3D.
 pub(super) fn place_in(model: &Model, simulation: &Simulation, title: &str, spot: &Spot<'_>) -> String {
     let (frame, cells) = (simulation.frame(), simulation.cells());
     if simulation.dimension() == 2 {
@@ -124,7 +128,7 @@ pub(super) fn place_in(model: &Model, simulation: &Simulation, title: &str, spot
     space::place(title, &cells, &frame, spot, &model.output.camera.unwrap_or_default())
 }
 
-/// The picture of a neighbourhood, in the plane or in space.
+/// The picture of a neighbourhood, in 2D or 3D.
 pub(super) fn neighbourhood_of(
     model: &Model,
     simulation: &Simulation,
@@ -140,13 +144,13 @@ pub(super) fn neighbourhood_of(
     space::neighbourhood(title, near, panels, (mark, depth), &camera, &simulation.frame())
 }
 
-/// What the culprit is called in pictures.
-fn mark(culprit: &Culprit) -> String {
-    match culprit {
-        Culprit::Element { element, .. } => format!("element {element}"),
-        Culprit::Node { node, .. } => format!("node {node}"),
-        Culprit::Contact { name, node, .. } => format!("{name}, node {node}"),
-        Culprit::Nobody => String::new(),
+/// What the failure location is called in pictures.
+fn mark(failure_location: &FailureLocation) -> String {
+    match failure_location {
+        FailureLocation::Element { element, .. } => format!("element {element}"),
+        FailureLocation::Node { node, .. } => format!("node {node}"),
+        FailureLocation::Contact { name, node, .. } => format!("{name}, node {node}"),
+        FailureLocation::Nobody => String::new(),
     }
 }
 
@@ -194,13 +198,13 @@ fn text(case: &Case<'_>, findings: &Findings, files: &Files) -> String {
     if has("neighbourhood.svg") {
         let _ = write!(
             text,
-            "![The neighbourhood](neighbourhood.svg)\n\nThe culprit and {RINGS} rings of elements around it, each with its number in its part, at {} times; the culprit is always in the middle, \
+            "![The neighbourhood](neighbourhood.svg)\n\nThe failure location and {RINGS} rings of elements around it, each with its number in its part, at {} times; the failure location is always in the middle, \
              and all panels have one scale.\n\n",
             panels(case.failed, case.trace).len()
         );
     }
-    if has("culprit.svg") {
-        text.push_str("![The culprit over the last steps](culprit.svg)\n\n");
+    if has("failure-location.svg") {
+        text.push_str("![The failure location over the last steps](failure-location.svg)\n\n");
     }
     if has("energies.svg") {
         text.push_str("![Energies over the last steps](energies.svg)\n\n");
@@ -211,12 +215,12 @@ fn text(case: &Case<'_>, findings: &Findings, files: &Files) -> String {
     text
 }
 
-/// The culprit, and what it is made of.
+/// The failure location, and what it is made of.
 fn facts(case: &Case<'_>) -> Vec<Vec<String>> {
     let simulation = case.failed.simulation;
     let line = |name: &str, value: String| vec![name.to_string(), value];
-    let mut rows = vec![line("**culprit**", format!("**{}**", case.culprit))];
-    rows.extend(case.culprit.at().map(|at| line("place", point(at, simulation.dimension()))));
+    let mut rows = vec![line("**failure location**", format!("**{}**", case.failure_location))];
+    rows.extend(case.failure_location.at().map(|at| line("place", point(at, simulation.dimension()))));
     rows.push(line(
         "time",
         format!("{} ({:.6e} s) of {}", shown(simulation.time(), "s"), simulation.time(), shown(case.failed.model.run.end, "s")),
@@ -246,7 +250,7 @@ fn facts(case: &Case<'_>) -> Vec<Vec<String>> {
         let path = case.interface(it.kind, it.name).map_or(String::new(), |(path, _)| format!(", {}", place_of(case.failed.loaded, &path)));
         let unit = if case.failed.model.is_of_whole_bodies() { "N" } else { "N/m" };
         let force = format!(
-            "{} \"{}\" with up to {} (step {}, sum over the nodes of the culprit and its neighbours)",
+            "{} \"{}\" with up to {} (step {}, sum over the nodes of the failure location and its neighbours)",
             it.kind,
             it.name,
             shown(it.force, unit),
@@ -266,10 +270,10 @@ fn place_of(loaded: &Loaded, path: &str) -> String {
     if place.line > 0 { format!("{file} line {}", place.line) } else { file }
 }
 
-/// Takes one of the figures of a culprit.
+/// Takes one of the figures of a failure location.
 type Figure = fn(&Vitals) -> f64;
 
-/// What became of the culprit, as a table; of energies also which of them changed.
+/// What became of the failure location, as a table; of energies also which of them changed.
 fn story(case: &Case<'_>) -> String {
     let mut text = in_sentences(case);
     let step = case.failed.simulation.steps();
@@ -348,7 +352,8 @@ fn balance(case: &Case<'_>) -> String {
     } else {
         let _ = writeln!(
             text,
-            "No step alone is to blame: the worst one, {}, brought {:.3} %. The balance is lost little by little; `energy.svg` of the results shows from when on.\n",
+            "No single step is the cause: the worst one, {}, brought {:.3} %. The balance is lost little by little; \
+                `energy.svg` of the results shows from when on.\n",
             jump.step,
             100.0 * jump.size
         );
@@ -364,7 +369,7 @@ fn balance(case: &Case<'_>) -> String {
     text
 }
 
-/// How to go on.
+/// How to continue.
 fn next(case: &Case<'_>, step: u64) -> String {
     let mut text = "## To see more\n\n".to_string();
     text.push_str("- The last state of all fields is the last frame of `fields.pvd`; ParaView shows elements by their numbers there.\n");
@@ -377,7 +382,10 @@ fn next(case: &Case<'_>, step: u64) -> String {
             case.failed.simulation.time(),
             case.failed.simulation.time_step()
         );
-        text.push_str("- After a change of limits (`run.step_limit`, `run.energy_limit` and their like) `embate resume DIR` goes on; any other change needs a new run.\n");
+        text.push_str(
+            "- After a change of limits (`run.step_limit`, `run.energy_limit` and their like) `embate \
+            resume DIR` continues; any other change needs a new run.\n",
+        );
     } else {
         let _ = writeln!(text, "- `--set run.max_steps={}` ends a run just before the failure, with its pictures.", step.saturating_sub(1));
     }

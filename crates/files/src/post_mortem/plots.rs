@@ -1,4 +1,4 @@
-//! Curves of a post-mortem: what became of the culprit and of all energies over the last steps.
+//! Curves of a post-mortem: what became of the failure location and of all energies over the last steps.
 //!
 //! Values come from the trace; [`crate::picture::svg`] draws them.
 
@@ -33,9 +33,9 @@ fn panel(name: &str, si: &'static str, from_zero: bool, curves: Vec<Curve>) -> P
     Panel { name: name.into(), si, from_zero, height, curves, remark: String::new() }
 }
 
-/// The culprit's step, shape, strains, stresses, energy, speed and contact; `None` where there are no two
-/// steps.
-pub(super) fn culprit(title: &str, trace: &Trace, failed: u64, is_of_whole_bodies: bool) -> Option<String> {
+/// The failure location's step, shape, strains, stresses, energy, speed and contact; `None` where there are
+/// no two steps.
+pub(super) fn failure_location(title: &str, trace: &Trace, failed: u64, is_of_whole_bodies: bool) -> Option<String> {
     let of = |value: &dyn Fn(&Vitals) -> f64| -> Vec<[f64; 2]> {
         trace.moments.iter().map(|moment| [moment.step as f64 - failed as f64, value(&moment.vitals)]).collect()
     };

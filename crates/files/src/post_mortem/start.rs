@@ -27,7 +27,7 @@ pub fn at_start(loaded: &Loaded, options: &Options, faults: &[Fault], results: &
         return alone(results, &vec![("README.md", memory_text(loaded, fault))]).map(Some);
     }
     let Some(fault) = faults.iter().find(|fault| fault.kind == &MASS_SCALING) else { return Ok(None) };
-    // Another fault of the model would be found here as well, and is told already.
+    // Another fault of the model would be found here as well, and is reported already.
     let Ok(Some(needed)) = MassNeeded::of(&loaded.model, options) else { return Ok(None) };
     alone(results, &of_mass(loaded, fault, &needed)).map(Some)
 }
@@ -42,7 +42,7 @@ fn alone(results: &Path, files: &Files) -> Result<PathBuf, ResultsError> {
 fn of_mass(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> Files {
     let (model, simulation) = (&loaded.model, &needed.simulation);
     let mut files: Files = Vec::new();
-    let mut trace = simulation.trace_now(&needed.suspect, None);
+    let mut trace = simulation.trace_now(&needed.failure_entity, None);
     trace.near.field = ("mass to be added, times its own", "");
     let shares = needed.shares_of(&trace.near);
     trace.moments.iter_mut().for_each(|moment| moment.values.clone_from(&shares));
@@ -79,7 +79,7 @@ fn mass_text(loaded: &Loaded, fault: &Fault, needed: &MassNeeded) -> String {
             &["", ""],
             [
                 vec![
-                    "**culprit**".into(),
+                    "**failure location**".into(),
                     format!(
                         "**element {} of part \"{}\"**, which needs {} of its mass besides",
                         worst.element,
@@ -156,7 +156,10 @@ fn memory_text(loaded: &Loaded, fault: &Fault) -> String {
     if let Some(part) = largest {
         text += &table(
             &["", ""],
-            [vec!["**culprit**".into(), format!("**part \"{}\"** with {} of {all} elements", model.parts[part].name, counts[part])]],
+            [vec![
+                "**failure location**".into(),
+                format!("**part \"{}\"** with {} of {all} elements", model.parts[part].name, counts[part]),
+            ]],
         );
     }
     text.push_str("\n## What is needed\n\n");

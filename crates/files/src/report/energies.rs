@@ -21,7 +21,7 @@ fn rows(left: &Left) -> Vec<Vec<String>> {
     whole.collect()
 }
 
-/// How well the books balance.
+/// How well the ledger balance.
 fn balance(left: &Left) -> String {
     let mut text = String::new();
     if let Some(residual) = left.number("ledger_residual") {
@@ -31,16 +31,18 @@ fn balance(left: &Left) -> String {
             "more than rounding: a fault of the program, please report it"
         };
         text += &paragraph(&format!(
-            "The works of all forces and the change of kinetic energy differ by {residual:.1e} of the largest total energy at most (ledger residual): {verdict}."
+            "The works of all forces and the change of kinetic energy differ by {residual:.1e} of the largest total \
+                energy at most (ledger residual): {verdict}."
         ));
     }
     if let Some(drift) = left.number("energy_drift") {
         text += &paragraph(&format!(
-            "What the forces took is found again in the energies to {:.2e} % of the largest total energy (energy drift): the error of the steps in time.",
+            "What the forces took is found again in the energies to {:.2e} % of the largest total energy (energy \
+                drift): the error of the steps in time.",
             100.0 * drift
         ));
     }
-    if text.is_empty() { paragraph("How well the books balance is known at the end of the run.") } else { text }
+    if text.is_empty() { paragraph("How well the energy balance closes is known at the end of the run.") } else { text }
 }
 
 pub(super) fn section(left: &Left) -> String {

@@ -70,11 +70,11 @@ pub(crate) fn paragraph(text: &str) -> String {
 }
 
 /// A plot: the text of an SVG file within the page.
-pub(crate) fn plot(svg: &str, told: &str, caption: &str) -> String {
+pub(crate) fn plot(svg: &str, reported: &str, caption: &str) -> String {
     let inner = svg.find("<svg").map_or("", |start| &svg[start..]);
     // Within a page its namespace is known; what is not in it must not look like an address.
     let inner = inner.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1);
-    let inner = inner.replacen("<svg", &format!("<svg role=\"img\" aria-label=\"{}\"", escape(told)), 1);
+    let inner = inner.replacen("<svg", &format!("<svg role=\"img\" aria-label=\"{}\"", escape(reported)), 1);
     format!(
         "<figure class=\"plot\"><div class=\"scroll\" tabindex=\"0\">\n{inner}</div><figcaption>{}</figcaption></figure>\n",
         escape(caption)

@@ -1,8 +1,8 @@
 //! The report of a run: one HTML file with everything in it, good enough to send to a colleague
 //! (`embate report`).
 //!
-//! What a run left is read here (`Left`), from `summary.json`, `run.json` and the history; `model.rs` tells
-//! what ran, `outcome.rs` how it ended and its figures, `energies.rs` the books, `pictures.rs` puts pictures
+//! What a run left is read here (`Left`), from `summary.json`, `run.json` and the history; `model.rs` says
+//! what ran, `outcome.rs` how it ended and its figures, `energies.rs` the ledger, `pictures.rs` puts pictures
 //! and plots in, `html.rs` has the frame of the page and escapes all that comes from files.
 
 mod energies;
@@ -12,7 +12,7 @@ mod outcome;
 mod pictures;
 
 use crate::program;
-use crate::results::{History, Ran, ResultsError, part_path, read_json, write_whole};
+use crate::results::{History, Provenance, ResultsError, part_path, read_json, write_whole};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
@@ -29,7 +29,7 @@ struct Left {
     summary: Option<Value>,
     /// When the summary was written.
     ended: Option<SystemTime>,
-    ran: Option<Ran>,
+    ran: Option<Provenance>,
     /// Keys of the model with their values as `run.json` has them.
     keys: BTreeMap<String, String>,
     history: Option<History>,
@@ -47,7 +47,7 @@ impl Left {
         if summary.as_ref().is_some_and(|summary| !summary.is_object()) {
             return Err(ResultsError::Damaged { path, line: 1, what: "this is no summary of a run".into() });
         }
-        let ran = Ran::read(folder)?;
+        let ran = Provenance::read(folder)?;
         let history = History::read(folder)?;
         if summary.is_none() && ran.is_none() && history.is_none() {
             return Err(ResultsError::NoRun { path: folder.into() });
@@ -69,7 +69,7 @@ impl Left {
         self.summary.as_ref()?.get(key)?.as_f64()
     }
 
-    /// Name of the model; that of the folder where no file tells it.
+    /// Name of the model; that of the folder where no file reports it.
     fn title(&self) -> String {
         let of_keys = || self.keys.get("name").map(|name| model::plain(name));
         let of_folder = || self.folder.file_name().map(|name| name.to_string_lossy().into_owned());

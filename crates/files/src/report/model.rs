@@ -17,18 +17,18 @@ pub(super) fn plain(value: &str) -> String {
     }
 }
 
-/// Whether energies and forces are those of whole bodies: axisymmetric parts, or elements of space.
+/// Whether energies and forces are those of whole bodies: axisymmetric parts, or elements in 3D.
 pub(super) fn is_of_whole_bodies(keys: &Keys, history: Option<&History>) -> bool {
     let part = |key: &str, ends: &str| key.starts_with("part[") && key.ends_with(ends);
-    let told = keys.iter().any(|(key, value)| {
-        part(key, "].stress_state") && plain(value) == "axisymmetric" || part(key, "].element") && is_of_space(&plain(value))
+    let reported = keys.iter().any(|(key, value)| {
+        part(key, "].stress_state") && plain(value) == "axisymmetric" || part(key, "].element") && is_of_3d(&plain(value))
     });
     let has_z = |history: &History| history.columns.iter().any(|name| name.contains(".force_z[") || name.ends_with(".vz"));
-    told || history.is_some_and(has_z)
+    reported || history.is_some_and(has_z)
 }
 
-/// Whether elements of this name are those of space.
-fn is_of_space(name: &str) -> bool {
+/// Whether elements of this name are those in 3D.
+fn is_of_3d(name: &str) -> bool {
     element::registry().iter().any(|kind| kind.name == name && kind.dimension == 3)
 }
 
@@ -46,8 +46,8 @@ impl Thing<'_> {
 
     /// Some values by names.
     fn values(&self, names: &[(&str, &str)]) -> String {
-        let told = names.iter().map(|(key, name)| (name, self.value(key))).filter(|(_, value)| !matches!(value.as_str(), "" | "None"));
-        told.map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join(", ")
+        let reported = names.iter().map(|(key, name)| (name, self.value(key))).filter(|(_, value)| !matches!(value.as_str(), "" | "None"));
+        reported.map(|(name, value)| format!("{name} {value}")).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -96,7 +96,7 @@ pub(super) fn section(left: &Left) -> String {
     let of_part = |it: &Thing<'_>| {
         let mut cells = texts(it, &["name", "shape.kind", "element", "material", "stress_state"]);
         // Solids have none.
-        if is_of_space(&cells[2]) {
+        if is_of_3d(&cells[2]) {
             cells[4] = "solid".into();
         }
         cells
@@ -121,7 +121,7 @@ pub(super) fn section(left: &Left) -> String {
         listed(keys, "obstacle").iter().map(|it| vec![it.value("name"), it.value("shape.kind"), it.values(&interface)]).collect();
     tables("Obstacles", &["name", "shape", "values"], obstacles);
     if keys.is_empty() {
-        body += "<p>There is no <code>run.json</code>, which tells the keys of the model.</p>\n";
+        body += "<p>There is no <code>run.json</code>, which has the keys of the model.</p>\n";
     } else {
         let rows: Vec<Vec<String>> = keys.iter().map(|(key, value)| vec![key.clone(), value.clone()]).collect();
         body += &format!(
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_of_space_and_of_revolution_are_whole() {
+    fn bodies_of_3d_and_of_revolution_are_whole() {
         let of = |key: &str, value: &str| is_of_whole_bodies(&[(key.to_string(), value.to_string())].into(), None);
         assert!(of("part[0].element", "\"hex8\"") && of("part[0].stress_state", "\"axisymmetric\""));
         assert!(!of("part[0].element", "\"quad4\"") && !of("part[0].stress_state", "\"plane_strain\""));

@@ -6,7 +6,7 @@ use super::html::{escape, facts, section};
 use crate::messages;
 use crate::post_mortem::shown;
 use crate::program;
-use crate::results::Ran;
+use crate::results::Provenance;
 use embate_solver::message::Message;
 use serde_json::Value;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -19,15 +19,16 @@ pub(super) fn head(left: &Left) -> String {
         Some("stopped") => ("note", "stopped before its end time".to_string()),
         Some(other) => ("note", other.to_string()),
         None if left.summary.is_some() => ("note", "unknown: summary.json has no status".to_string()),
-        None if left.grows() => ("note", "not at its end: the run goes on, or was cut off".to_string()),
+        None if left.grows() => ("note", "not at its end: the run continues, or was cut off".to_string()),
         None => ("note", "not known: there is no summary.json, which a run writes at its end".to_string()),
     };
     let mut text =
         format!("<header>\n<h1>{}</h1>\n<p>Status: <span class=\"status {class}\">{}</span></p>\n", escape(&left.title()), escape(&status));
     if left.summary.is_none() {
-        text += "<p>There is no <code>summary.json</code> yet: what follows is what the run has left so far. After it was cut off, <code>embate resume</code> goes on from its newest checkpoint, if it kept any.</p>\n";
+        text += "<p>There is no <code>summary.json</code> yet: what follows is what the run has left so far. After \
+            it was cut off, <code>embate resume</code> continues from its newest checkpoint, if it kept any.</p>\n";
     }
-    if let Some(command) = left.ran.as_ref().and_then(Ran::command) {
+    if let Some(command) = left.ran.as_ref().and_then(Provenance::command) {
         text += &format!("<p>To run it again:</p>\n<pre>{}</pre>\n", escape(&command));
     }
     let mut rows = vec![("embate".to_string(), format!("version {}", left.version()))];
@@ -65,7 +66,7 @@ pub(super) fn messages(left: &Left) -> String {
         body += &message(error, "message error");
         if let Some(page) = left.text("post_mortem") {
             body += &format!(
-                "<p>The post-mortem, with the culprit and what to change, is beside the results: <code>{}</code>.</p>\n",
+                "<p>The post-mortem, with the failure location and what to change, is beside the results: <code>{}</code>.</p>\n",
                 escape(page)
             );
         }
@@ -96,7 +97,7 @@ fn entry(text: &str) -> Option<&'static Message> {
 }
 
 fn line(entry: &Message) -> String {
-    format!("{}: {} What to do: {}", entry.title, entry.cause, entry.cure)
+    format!("{}: {} What to do: {}", entry.title, entry.cause, entry.remedy)
 }
 
 /// The figures of the summary.
@@ -142,14 +143,15 @@ pub(super) fn figures(left: &Left) -> String {
 
 fn eroded(summary: &Value) -> Option<String> {
     let parts = summary.pointer("/erosion/elements")?.as_object()?;
-    let told: Vec<String> = parts.iter().map(|(part, count)| format!("{} of part \"{part}\"", count.as_u64().unwrap_or(0))).collect();
-    Some(told.join(", "))
+    let reported: Vec<String> = parts.iter().map(|(part, count)| format!("{} of part \"{part}\"", count.as_u64().unwrap_or(0))).collect();
+    Some(reported.join(", "))
 }
 
 /// How the report was made.
 pub(super) fn made(left: &Left) -> String {
     let body = format!(
-        "<p class=\"faint\">Made by embate {} (<code>embate report</code>) from <code>{}</code>: summary.json, run.json, history.csv and the pictures. Everything is in this one file; it loads nothing.</p>\n",
+        "<p class=\"faint\">Made by embate {} (<code>embate report</code>) from <code>{}</code>: summary.json, \
+            run.json, history.csv and the pictures. Everything is in this one file; it loads nothing.</p>\n",
         program::named(program::VERSION, program::commit()),
         escape(&left.folder.to_string_lossy())
     );
@@ -171,8 +173,8 @@ mod tests {
 
     #[test]
     fn a_message_is_explained_by_its_code() {
-        let told = message("W0611: part \"<b>\": much", "message");
-        assert!(told.contains("part &quot;&lt;b&gt;&quot;") && told.contains("embate explain W0611"), "{told}");
+        let reported = message("W0611: part \"<b>\": much", "message");
+        assert!(reported.contains("part &quot;&lt;b&gt;&quot;") && reported.contains("embate explain W0611"), "{reported}");
         assert!(!message("W9999: unknown", "message").contains("explain"));
     }
 }

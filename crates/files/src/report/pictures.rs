@@ -65,7 +65,8 @@ pub(super) fn history(left: &Left) -> String {
     let Some([_, svg]) = plots(left) else { return String::new() };
     let rows = left.history.as_ref().map_or(0, History::rows);
     let caption = format!(
-        "From {rows} rows of history.csv; of long curves the lowest and highest values of each stretch are drawn. Forces are those of one instant."
+        "From {rows} rows of history.csv; of long curves the lowest and highest values of each stretch are drawn. \
+            Forces are those of one instant."
     );
     section("Histories", &plot(&svg, "Positions of probes and forces of contacts and obstacles over time", &caption))
 }

@@ -2,7 +2,7 @@
 //! only place where such files are made, and none is made through a link ([`plain`]).
 //!
 //! [`write_whole`] takes the bytes of a file at once, `write_whole_in_pieces` writes it from one end to the
-//! other; [`PartFile`] grows while a run goes on.
+//! other; [`PartFile`] grows while a run continues.
 
 use super::ResultsError;
 use crate::plain;
@@ -71,8 +71,8 @@ fn in_use_or(action: &'static str, path: &Path, error: io::Error) -> ResultsErro
     }
 }
 
-/// Two runs never write to one file, also where one of them goes on with it. Ends with the process, whatever
-/// ends that.
+/// Two runs never write to one file, also where one of them continues with it. Ends with the process,
+/// whatever ends that.
 fn locked(file: &File, path: &Path) -> Result<(), ResultsError> {
     plain::hold(file).map_err(|error| in_use_or("write", path, error))
 }
@@ -104,7 +104,7 @@ impl PartFile {
         Ok(Self { path: path.to_path_buf(), file, length: 0, sum: Crc::new() })
     }
 
-    /// Goes on with `path`, complete or not, from where it was marked: what came later is cut off. With it
+    /// Continues with `path`, complete or not, from where it was marked: what came later is cut off. With it
     /// comes what is there.
     pub(super) fn reopen(path: &Path, mark: Mark) -> Result<(Self, Vec<u8>), ResultsError> {
         let part = part_path(path);

@@ -29,7 +29,7 @@ impl CsvStream {
         Ok(Self { lines: Lines::create(path, names)?, columns: columns.len() })
     }
 
-    /// Goes on with the table `path` from where it was marked. With it come the rows that are there.
+    /// Continues with the table `path` from where it was marked. With it come the rows that are there.
     pub(super) fn reopen(path: &Path, columns: &[String], mark: Mark) -> Result<(Self, Vec<Vec<f64>>), ResultsError> {
         let (lines, bytes) = Lines::reopen(path, mark)?;
         let text = String::from_utf8_lossy(&bytes);

@@ -1,5 +1,5 @@
 //! History and summary of a run that was kept in memory: for many short runs, whose frames and pictures
-//! nobody looks at.
+//! no one looks at.
 //!
 //! Rows come from `sweep`; the files are those of a [`Recorder`](super::Recorder) without frames.
 //! [`read_figures`] reads them back.

@@ -1,7 +1,7 @@
 //! The folder: refuses to mix two runs, and removes only files that embate makes.
 
 use super::lock::FolderLock;
-use super::ran::RAN;
+use super::provenance::RAN;
 use super::{HASHES, ResultsError, atomic::part_path};
 use crate::checkpoint::{FOLDER, is_checkpoint};
 use crate::{plain, post_mortem};
@@ -83,8 +83,8 @@ impl ResultFolder {
         Ok(Self { path: path.to_path_buf(), _lock: Arc::new(FolderLock::take(path)?) })
     }
 
-    /// Results that go on from a checkpoint of `step`, with so many `frames`, and with `hashes` or not: what
-    /// came later is removed, and what only a run that has ended has.
+    /// Results that continue from a checkpoint of `step`, with so many `frames`, and with `hashes` or not:
+    /// what came later is removed, and what only a run that has ended has.
     ///
     /// # Errors
     /// What the system says.
@@ -96,7 +96,7 @@ impl ResultFolder {
         let is_later = |file: &Path| match file.file_name().and_then(|name| name.to_str()) {
             Some(name) if file.parent() == Some(&path.join(FRAMES)) => later(name),
             Some(name) if file.parent() == Some(&path.join(FOLDER)) => is_checkpoint(name).is_none_or(|own| own > step),
-            // Collections and what ran are written anew; tables are cut.
+            // Collections and what ran are written again; tables are cut.
             Some(name) => !is_table(file) && !["fields.pvd", "obstacles.pvd", RAN].contains(&name),
             None => false,
         };

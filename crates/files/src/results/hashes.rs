@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn every_changed_byte_is_told_with_its_line() {
+    fn every_changed_byte_is_reported_with_its_line() {
         let (text, table) = table();
         let read = |bytes: &[u8]| HashTable::of(bytes, Path::new("hashes.csv"));
         for at in 0..text.len() - 1 {
@@ -171,7 +171,9 @@ mod tests {
                 bytes[at] ^= flip;
                 let line = 1 + text[..at].matches('\n').count();
                 match read(&bytes) {
-                    Err(ResultsError::Damaged { line: told, .. }) => assert!(told == line || told == line + 1, "{at}: {told}"),
+                    Err(ResultsError::Damaged { line: reported, .. }) => {
+                        assert!(reported == line || reported == line + 1, "{at}: {reported}")
+                    }
                     // A name may be another one: no part of the other run will have it.
                     Ok(read) => assert!(line == 1 && read.parts != table.parts, "{at}"),
                     Err(error) => panic!("{error}"),

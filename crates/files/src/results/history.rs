@@ -1,7 +1,7 @@
-//! `history.csv` read back, also the growing `history.csv.part` of a run that goes on.
+//! `history.csv` read back, also the growing `history.csv.part` of a run that continues.
 //!
 //! Columns and rows come from the result folder; they go to `embate report` and to whoever follows a run.
-//! [`unit`] tells what the columns are in.
+//! [`unit`] says what the columns are in.
 
 use super::ResultsError;
 use super::atomic::part_path;
@@ -22,7 +22,8 @@ pub struct History {
 }
 
 impl History {
-    /// That of a result folder; of a run that goes on as far as there are whole lines. `None`: there is none.
+    /// That of a result folder; of a run that continues as far as there are whole lines. `None`: there is
+    /// none.
     ///
     /// # Errors
     /// [`ResultsError::Damaged`] with the line that is not as a run writes it; what the system says.
@@ -86,7 +87,7 @@ impl History {
     /// that stands out most from the mean of its stretch in any column, measured by what that column spans,
     /// so that a peak stays.
     #[must_use]
-    pub fn thinned(&self, rows: usize) -> Self {
+    pub fn decimated(&self, rows: usize) -> Self {
         let all = self.rows();
         let rows = rows.max(2);
         if all <= rows {
@@ -198,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn damage_is_told_with_its_line() {
+    fn damage_is_reported_with_its_line() {
         let what = |text: &str| read(text, false).unwrap_err();
         assert!(what("time,a\n0,1\n0\n").starts_with("history.csv, line 3: 1 values for 2 columns"));
         assert!(what("time,a\n0,x\n").starts_with("history.csv, line 2: `x` is no number"));
@@ -214,15 +215,15 @@ mod tests {
         let mut force = vec![0.0; 10_000];
         force[7_321] = 5.0;
         let time: Vec<f64> = (0..10_000).map(f64::from).collect();
-        let thin = History { columns: vec!["time".into(), "f".into()], values: vec![time, force] }.thinned(100);
+        let thin = History { columns: vec!["time".into(), "f".into()], values: vec![time, force] }.decimated(100);
         assert_eq!((thin.rows(), thin.values[0][0], thin.values[0][99]), (100, 0.0, 9_999.0));
         assert!(thin.values[1].contains(&5.0) && thin.values[0].windows(2).all(|pair| pair[0] < pair[1]));
-        assert_eq!(thin.thinned(100), thin);
-        assert_eq!((thin.thinned(0).rows(), thin.thinned(3).rows()), (2, 3));
+        assert_eq!(thin.decimated(100), thin);
+        assert_eq!((thin.decimated(0).rows(), thin.decimated(3).rows()), (2, 3));
     }
 
     #[test]
-    fn columns_have_units_in_the_plane_and_of_whole_bodies() {
+    fn columns_have_units_in_2d_and_of_whole_bodies() {
         let units = |column: &str| [unit(column, false), unit(column, true)];
         assert_eq!(units("energy.kinetic[bar]"), ["J/m", "J"]);
         assert_eq!(units("contact.force_x[hit]"), ["N/m", "N"]);

@@ -1,6 +1,6 @@
 //! A table that grows by whole lines and is written in pieces: what `history.csv` and `hashes.csv` share.
 //!
-//! Lines come from the tables; the growing `.part` file can be followed while a run goes on.
+//! Lines come from the tables; the growing `.part` file can be followed while a run continues.
 
 use super::ResultsError;
 use super::atomic::{Mark, PartFile};
@@ -24,7 +24,7 @@ impl Lines {
         Ok(lines)
     }
 
-    /// Goes on with the table `path` from where it was marked. With it come the bytes that are there.
+    /// Continues with the table `path` from where it was marked. With it come the bytes that are there.
     pub(super) fn reopen(path: &Path, mark: Mark) -> Result<(Self, Vec<u8>), ResultsError> {
         let (file, bytes) = PartFile::reopen(path, mark)?;
         Ok((Self { file, pending: String::new() }, bytes))

@@ -25,7 +25,7 @@ pub static EXISTS: Message = Message {
     title: "something is in the way",
     example: Example::Shell("embate run model.toml --out out --quiet\nembate run model.toml --out out\n"),
     cause: "The folder or file holds something that would be lost.",
-    cure: "Choose another place with --out, or replace what is there with --force.",
+    remedy: "Choose another place with --out, or replace what is there with --force.",
 };
 
 pub(super) static NOT_A_FOLDER: Message = Message {
@@ -33,7 +33,7 @@ pub(super) static NOT_A_FOLDER: Message = Message {
     title: "a file where a folder must be",
     example: Example::Command("run model.toml --out model.toml"),
     cause: "Results are a folder, and the path leads to a file.",
-    cure: "Choose another place with --out.",
+    remedy: "Choose another place with --out.",
 };
 
 /// The system refused.
@@ -41,8 +41,9 @@ pub static REFUSED: Message = Message {
     code: "E0704",
     title: "the system refused to write or read a file",
     example: Example::Command("run model.toml --out model.toml/results"),
-    cause: "The disk is full, the folder may not be written to, or a part of the path is a file; the system's own words are in the message.",
-    cure: "Free some space, or choose another folder with --out.",
+    cause: "The disk is full, the folder may not be written to, or a part of the path is a file; the system's own \
+        words are in the message.",
+    remedy: "Free some space, or choose another folder with --out.",
 };
 
 /// Nothing is written through it.
@@ -50,8 +51,9 @@ pub(crate) static LINK: Message = Message {
     code: "E0707",
     title: "a symbolic link where embate writes",
     example: Example::Shell("mkdir -p out elsewhere\nln -s ../elsewhere out/fields\nembate run model.toml --out out\n"),
-    cause: "A file or folder that embate makes itself is a symbolic link, which embate never makes: what is written there, or removed, would be somewhere else.",
-    cure: "Remove the link, or choose another folder. The folder that --out names may be a link itself.",
+    cause: "A file or folder that embate makes itself is a symbolic link, which embate never makes: what is written \
+        there, or removed, would be somewhere else.",
+    remedy: "Remove the link, or choose another folder. The folder that --out names may be a link itself.",
 };
 
 /// It is not opened.
@@ -60,7 +62,7 @@ pub(crate) static NO_FILE: Message = Message {
     title: "a named pipe, socket or device in place of a file",
     example: Example::Shell("embate run model.toml --out out --quiet\nrm out/history.csv\nmkfifo out/history.csv\nembate report out\n"),
     cause: "A file of a folder of results is none: reading it could wait for ever, or never end.",
-    cure: "Remove it, and put the file back from a copy or run the model again.",
+    remedy: "Remove it, and put the file back from a copy or run the model again.",
 };
 
 pub(super) static FRAME: Message = Message {
@@ -68,7 +70,7 @@ pub(super) static FRAME: Message = Message {
     title: "a frame that can't be written",
     example: Example::Words("A program that writes VTU files itself gives a field with another number of values than the mesh has."),
     cause: "Values, cells and nodes of a frame do not fit each other.",
-    cure: "If embate itself wrote the frame, report it with the model file.",
+    remedy: "If embate itself wrote the frame, report it with the model file.",
 };
 
 pub(crate) static PICTURE: Message = Message {
@@ -76,7 +78,7 @@ pub(crate) static PICTURE: Message = Message {
     title: "a picture that can't be made",
     example: Example::Words("A program that draws frames itself asks for a field that they don't have."),
     cause: "The field is not in the frames, a value is not finite, or the encoder refused.",
-    cure: "Take a field that is recorded (`output.include`), or leave pictures out (`pictures = false`).",
+    remedy: "Take a field that is recorded (`output.include`), or leave pictures out (`pictures = false`).",
 };
 
 /// A log is not as the run left it.
@@ -84,10 +86,12 @@ pub(crate) static DAMAGED_LOG: Message = Message {
     code: "E0721",
     title: "a damaged record of a run",
     example: Example::Shell(
-        "embate run model.toml --out one --quiet --set output.hash_steps=2\nembate run model.toml --out two --quiet --set output.hash_steps=2\nsed -i '2s/1/2/' two/hashes.csv\nembate diff one two\n",
+        "embate run model.toml --out one --quiet --set output.hash_steps=2\nembate run model.toml --out two --quiet \
+            --set output.hash_steps=2\nsed -i '2s/1/2/' two/hashes.csv\nembate diff one two\n",
     ),
-    cause: "A line of `hashes.csv` is not the one that its check sum was made of, or `run.json` can't be read: the disk, a copy or another program changed the file.",
-    cure: "Put the file back from a copy, or run the model again. Without the file the end states are compared all the same.",
+    cause: "A line of `hashes.csv` is not the one that its check sum was made of, or `run.json` can't be read: the \
+        disk, a copy or another program changed the file.",
+    remedy: "Put the file back from a copy, or run the model again. Without the file the end states are compared all the same.",
 };
 
 /// A field file is not as it was written.
@@ -96,7 +100,7 @@ pub(crate) static UNREADABLE: Message = Message {
     title: "a field file that can't be read",
     example: Example::Words("`embate view results/ball` where `fields/frame-00003.vtu` was cut off by a copy that failed."),
     cause: "The file was damaged, cut off, or written by another program: only field files as embate writes them are read.",
-    cure: "Put the file back from a copy, or run the model again. All other frames can be looked at.",
+    remedy: "Put the file back from a copy, or run the model again. All other frames can be looked at.",
 };
 
 /// A folder without frames.
@@ -105,7 +109,7 @@ pub static NOTHING_TO_SEE: Message = Message {
     title: "results without anything to look at",
     example: Example::Command("view ."),
     cause: "The folder is not one of results, or its run has not written its first frame, or wrote no fields.",
-    cure: "Give the folder that `embate run` wrote, the one with `fields.pvd`; run the model with `output.fields`.",
+    remedy: "Give the folder that `embate run` wrote, the one with `fields.pvd`; run the model with `output.fields`.",
 };
 
 /// Nothing of a run is there.
@@ -113,8 +117,9 @@ pub(super) static NO_RUN: Message = Message {
     code: "E0722",
     title: "a folder without results to report on",
     example: Example::Command("report ."),
-    cause: "The folder has none of `summary.json`, `run.json` and `history.csv`: it is not one of results, or its run was killed before it left anything.",
-    cure: "Give the folder that `embate run` wrote, such as results/NAME.",
+    cause: "The folder has none of `summary.json`, `run.json` and `history.csv`: it is not one of results, or its \
+        run was killed before it left anything.",
+    remedy: "Give the folder that `embate run` wrote, such as results/NAME.",
 };
 
 /// A bug.
@@ -123,7 +128,7 @@ pub static BUG: Message = Message {
     title: "a bug in embate",
     example: Example::Words("It should never come."),
     cause: "The program came into a state that its authors held to be impossible.",
-    cure: "Please report it with the message, the command and the model file.",
+    remedy: "Please report it with the message, the command and the model file.",
 };
 
 /// Pictures are missing.
@@ -132,7 +137,7 @@ pub static NO_PICTURES: Message = Message {
     title: "pictures are missing",
     example: Example::Shell("mkdir -p out/check.png\nembate check model.toml --out out\n"),
     cause: "A picture could not be made; all other results are there.",
-    cure: "Draw the fields with ParaView, or choose another `picture_field`.",
+    remedy: "Draw the fields with ParaView, or choose another `picture_field`.",
 };
 
 /// The post-mortem is missing.
@@ -140,6 +145,6 @@ pub static NO_POST_MORTEM: Message = Message {
     code: "W0702",
     title: "the post-mortem of a failed run is missing",
     example: Example::Words("A run fails because the disk is full, and there is no room for the page either."),
-    cause: "The page or one of its pictures could not be written; the failure itself is told all the same.",
-    cure: "Free some space and run the model again; it fails in the same step.",
+    cause: "The page or one of its pictures could not be written; the failure itself is reported all the same.",
+    remedy: "Free some space and run the model again; it fails in the same step.",
 };

@@ -1,10 +1,10 @@
 //! The result folder of a run: which files lie in it, how they get there, and who writes them.
 //!
-//! A [`Recorder`] listens to a simulation and hands frames and rows over (`handover`, `queue`) to the writer,
-//! which fills a [`ResultFolder`] while the run goes on: `history.csv` row by row, `hashes.csv` likewise,
-//! `fields/frame-*.vtu` and `fields.pvd`, the pictures, and last of all `summary.json`. Every file is written
-//! as `NAME.part` and renamed when it is complete, so a file under its final name is never half-written,
-//! whatever happens to the run or the machine.
+//! A [`Recorder`] listens to a simulation and hands frames and rows over (`writer_channel`, `queue`) to the
+//! writer, which fills a [`ResultFolder`] while the run continues: `history.csv` row by row, `hashes.csv`
+//! likewise, `fields/frame-*.vtu` and `fields.pvd`, the pictures, and last of all `summary.json`. Every file
+//! is written as `NAME.part` and renamed when it is complete, so a file under its final name is never
+//! half-written, whatever happens to the run or the machine.
 
 mod atomic;
 mod csv;
@@ -13,32 +13,32 @@ mod folder;
 mod hashes;
 mod history;
 pub mod messages;
-mod handover;
+mod writer_channel;
 mod lines;
 mod lock;
 mod queue;
-mod ran;
+mod provenance;
 mod recorder;
 mod report;
-mod thinned;
-mod told;
+mod decimated;
+mod reported;
 mod writer;
 
 pub(crate) use atomic::part_path;
 pub use atomic::write_whole;
 pub(crate) use atomic::write_whole_by;
 pub(crate) use csv::{append_number, append_text};
+pub use decimated::ThinnedRows;
 pub(crate) use figures::{read_figures, write_figures};
 pub use folder::ResultFolder;
 pub use hashes::HashTable;
 pub use history::{History, unit};
 pub(crate) use lock::FolderLock;
-pub(crate) use ran::read_json;
-pub use ran::{Appearance, Ran, Seen};
+pub(crate) use provenance::read_json;
+pub use provenance::{Appearance, Provenance, Seen};
 pub use recorder::{Checkpoints, OnProgress, Outcome, Recorder};
 pub use report::{MomentumDrift, Report, RunStatus};
-pub use thinned::ThinnedRows;
-pub use told::Told;
+pub use reported::Reported;
 pub use writer::film_settings;
 
 use crate::checkpoint::CheckpointError;
@@ -72,7 +72,7 @@ pub enum ResultsError {
         path: PathBuf,
     },
     /// The system refused.
-    #[error("can't {action} {}: {source}{}", .path.display(), cure(.source.kind()))]
+    #[error("can't {action} {}: {source}{}", .path.display(), remedy(.source.kind()))]
     File {
         /// What was tried: `write`, `rename` ...
         action: &'static str,
@@ -89,7 +89,7 @@ pub enum ResultsError {
         /// What is not.
         what: String,
     },
-    /// A file that tells what a run was has changed since.
+    /// A file that says what a run was has changed since.
     #[error("{}, line {line}: {what}; put the file back from a copy, or run the model again", .path.display())]
     Damaged {
         /// The file.
@@ -116,7 +116,8 @@ pub enum ResultsError {
         what: String,
     },
     /// A folder that holds nothing of a run.
-    #[error("{} holds no results of embate (no summary.json, run.json or history.csv); give the folder that `embate run` wrote", .path.display())]
+    #[error("{} holds no results of embate (no summary.json, run.json or history.csv); give the folder that `embate \
+        run` wrote", .path.display())]
     NoRun {
         /// The folder.
         path: PathBuf,
@@ -176,7 +177,7 @@ impl ResultsError {
 }
 
 /// What a person can do about an error of the system; empty where its own text says it all.
-pub(crate) fn cure(kind: ErrorKind) -> &'static str {
+pub(crate) fn remedy(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "; free some space, or choose a folder on another disk with --out",
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "; choose a folder that you may write to with --out",

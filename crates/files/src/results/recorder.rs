@@ -7,10 +7,10 @@
 use super::ResultsError;
 use super::atomic::write_whole;
 use super::folder::ResultFolder;
-use super::handover::Handover;
 use super::messages::NO_PICTURES;
 use super::report::{Report, RunStatus};
 use super::writer::{Job, Writer};
+use super::writer_channel::WriterChannel;
 use crate::checkpoint::{Checkpoint, Origin};
 use crate::post_mortem;
 use crate::threads::Threads;
@@ -41,7 +41,7 @@ pub struct Recorder<'a> {
     width: usize,
     rows: Vec<f64>,
     hashes: Vec<Hashes>,
-    handover: Handover,
+    writer_channel: WriterChannel,
     is_stopped: bool,
     /// The page about the failure.
     post_mortem: Option<String>,
@@ -119,7 +119,7 @@ impl<'a> Recorder<'a> {
         Ok(Self::of(writer, (model, part_names), threads, checkpoints, on_progress))
     }
 
-    /// One that goes on with the results in `path` where the checkpoint `past` was written; `frame` is the
+    /// One that continues with the results in `path` where the checkpoint `past` was written; `frame` is the
     /// state there.
     ///
     /// # Errors
@@ -157,7 +157,7 @@ impl<'a> Recorder<'a> {
             width: writer.width(),
             rows: Vec::new(),
             hashes: Vec::new(),
-            handover: Handover::new(writer, threads > 1),
+            writer_channel: WriterChannel::new(writer, threads > 1),
             is_stopped: false,
             post_mortem: None,
             begin: now,
@@ -167,7 +167,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// What was told since the last job.
+    /// What was reported since the last job.
     fn job(&mut self) -> Job {
         Job { rows: std::mem::take(&mut self.rows), hashes: std::mem::take(&mut self.hashes), ..Job::default() }
     }
@@ -177,18 +177,18 @@ impl<'a> Recorder<'a> {
         self.post_mortem = Some(post_mortem::PAGE.into());
     }
 
-    /// Completes all files. `error` is the message of a failed run, `user_cpu_seconds` tells the process's
+    /// Completes all files. `error` is the message of a failed run, `user_cpu_seconds` reports the process's
     /// user CPU time. What can be written is written even when something else can't.
     #[must_use]
     pub fn finish(mut self, error: Option<String>, summary: &Summary, user_cpu_seconds: impl FnOnce() -> Option<f64>) -> Outcome {
-        let steps_time = self.begin.elapsed().saturating_sub(self.handover.waited()).as_secs_f64();
+        let steps_time = self.begin.elapsed().saturating_sub(self.writer_channel.waited()).as_secs_f64();
         let mut report = Report::of(summary, &self.model, &self.part_names);
         let element_steps = summary.elements as f64 * summary.steps.saturating_sub(self.steps_before) as f64;
         report.element_steps_per_second = (element_steps > 0.0 && steps_time > 0.0).then(|| element_steps / steps_time);
 
         let job = self.job();
-        self.handover.give(job);
-        let end = self.handover.end();
+        self.writer_channel.give(job);
+        let end = self.writer_channel.end();
         if let Some(message) = end.pictures_missing {
             report.warnings.push(Notice::new(&NO_PICTURES, format!("pictures are missing: {message}")));
         }
@@ -213,20 +213,20 @@ impl<'a> Recorder<'a> {
 
 impl Observer for Recorder<'_> {
     fn spare(&mut self) -> Frame {
-        self.handover.spare()
+        self.writer_channel.spare()
     }
 
     fn frame(&mut self, frame: Frame) -> Result<(), ObserverError> {
         let job = Job { frame: Some(frame), ..self.job() };
-        self.handover.give(job);
-        Ok(self.handover.fault()?)
+        self.writer_channel.give(job);
+        Ok(self.writer_channel.fault()?)
     }
 
     fn show(&mut self, shown: &dyn Shown) -> Result<(), ObserverError> {
-        let Self { rows, hashes, handover, .. } = self;
+        let Self { rows, hashes, writer_channel, .. } = self;
         let job = || Job { rows: std::mem::take(rows), hashes: std::mem::take(hashes), ..Job::default() };
-        if handover.show(job, shown) {
-            return Ok(self.handover.fault()?);
+        if writer_channel.show(job, shown) {
+            return Ok(self.writer_channel.fault()?);
         }
         let mut frame = self.spare();
         shown.fill(&mut frame);
@@ -240,8 +240,8 @@ impl Observer for Recorder<'_> {
         self.rows.extend_from_slice(row);
         if self.rows.len() >= ROWS {
             let job = self.job();
-            self.handover.give(job);
-            self.handover.fault()?;
+            self.writer_channel.give(job);
+            self.writer_channel.fault()?;
         }
         Ok(())
     }
@@ -253,10 +253,10 @@ impl Observer for Recorder<'_> {
     fn state(&mut self, state: State) -> Result<(), ObserverError> {
         if self.checkpoints.is_some() {
             let job = Job { state: Some(Arc::new(state)), ..self.job() };
-            self.handover.give(job);
+            self.writer_channel.give(job);
             self.last_checkpoint = Instant::now();
         }
-        Ok(self.handover.fault()?)
+        Ok(self.writer_channel.fault()?)
     }
 
     fn keeps_hashes(&self) -> bool {
@@ -267,8 +267,8 @@ impl Observer for Recorder<'_> {
         self.hashes.push(hashes);
         if self.hashes.len() * self.part_names.len() >= ROWS {
             let job = self.job();
-            self.handover.give(job);
-            self.handover.fault()?;
+            self.writer_channel.give(job);
+            self.writer_channel.fault()?;
         }
         Ok(())
     }
@@ -276,7 +276,7 @@ impl Observer for Recorder<'_> {
     fn failing(&mut self) {
         if self.checkpoints.is_some() {
             let job = Job { is_failing: true, ..self.job() };
-            self.handover.give(job);
+            self.writer_channel.give(job);
         }
     }
 

@@ -60,7 +60,7 @@ pub struct FirstEroded {
     pub part: String,
     /// Its number in the part.
     pub element: usize,
-    /// Its place when it failed, m: two components in the plane, three in space.
+    /// Its place when it failed, m: two components in 2D, three in 3D.
     pub at: Vec<f64>,
     /// When it failed, s.
     pub time: f64,

@@ -1,14 +1,14 @@
-//! What a run leaves behind while it goes on: history, hashes, field files, obstacles, film. Jobs come from
-//! `handover`; [`Writer::close`] completes the files.
+//! What a run leaves behind while it continues: history, hashes, field files, obstacles, film. Jobs come from
+//! `writer_channel`; [`Writer::close`] completes the files.
 
 use super::atomic::{write_whole, write_whole_in_pieces};
 use super::csv::CsvStream;
+use super::decimated::ThinnedRows;
 use super::folder::ResultFolder;
 use super::hashes;
 use super::lines::Lines;
-use super::ran::Ran;
-use super::thinned::ThinnedRows;
-use super::told::Told;
+use super::provenance::Provenance;
+use super::reported::Reported;
 use super::{HASHES, ResultsError};
 use crate::checkpoint::{Checkpoint, Identity, Origin};
 use crate::outline::{Extent, LineReader, Surface};
@@ -55,7 +55,7 @@ pub(super) fn bytes(frame: &Frame) -> usize {
     16 * frame.positions::<2>().len() + 8 * values + 16 * frame.outlines.iter().map(|outline| outline.points.len()).sum::<usize>()
 }
 
-/// The files of a run that grow while it goes on.
+/// The files of a run that grow while it continues.
 pub(super) struct Writer {
     folder: ResultFolder,
     title: String,
@@ -72,8 +72,8 @@ pub(super) struct Writer {
     model: Model,
     identity: OnceCell<Identity>,
     origin: Origin,
-    /// What was told before the run failed.
-    before_failure: Option<(Told, Vec<Section>)>,
+    /// What was reported before the run failed.
+    before_failure: Option<(Reported, Vec<Section>)>,
 }
 
 /// How the files were completed.
@@ -117,7 +117,7 @@ impl Writer {
         })
     }
 
-    /// Goes on where a checkpoint was written; `frame` is the state there.
+    /// Continues where a checkpoint was written; `frame` is the state there.
     pub(super) fn reopen(
         folder: &Path,
         (model, past): (&Model, &Checkpoint),
@@ -125,14 +125,14 @@ impl Writer {
         (cells, frame): (Cells, &Frame),
         threads: Threads,
     ) -> Result<Self, ResultsError> {
-        let told = &past.told;
+        let reported = &past.reported;
         let own = ResultFolder::take(folder)?;
         // Who can't have the history changes nothing.
-        let (history, rows) = CsvStream::reopen(&folder.join("history.csv"), &columns, told.history)?;
+        let (history, rows) = CsvStream::reopen(&folder.join("history.csv"), &columns, reported.history)?;
         let mut frames = Frames::new(&cells, &threads);
-        frames.recall(told);
-        let hashes = told.hashes.map(|mark| Lines::reopen(&folder.join(HASHES), mark)).transpose()?.map(|(lines, _)| lines);
-        own.cut(told.frames.len(), hashes.is_some(), past.state.step)?;
+        frames.recall(reported);
+        let hashes = reported.hashes.map(|mark| Lines::reopen(&folder.join(HASHES), mark)).transpose()?.map(|(lines, _)| lines);
+        own.cut(reported.frames.len(), hashes.is_some(), past.state.step)?;
         let folder = own;
         frames.write_collection(&folder)?;
         let mut plot_rows = ThinnedRows::default();
@@ -170,7 +170,7 @@ impl Writer {
     /// `parts` are its names.
     pub(super) fn set_origin(&mut self, origin: Origin, parts: &[String]) -> Result<(), ResultsError> {
         let folder = self.folder.path();
-        Ran::of(self.identity().clone(), &origin, &self.model).write(folder)?;
+        Provenance::of(self.identity().clone(), &origin, &self.model).write(folder)?;
         if self.model.output.hash_steps.is_some() && self.hashes.is_none() {
             self.hashes = Some(Lines::create(&folder.join(HASHES), hashes::names(parts))?);
         }
@@ -182,20 +182,20 @@ impl Writer {
         self.identity.get_or_init(|| Identity::of(&self.model))
     }
 
-    fn told_so_far(&mut self) -> Result<(Told, Vec<Section>), ResultsError> {
+    fn reported_so_far(&mut self) -> Result<(Reported, Vec<Section>), ResultsError> {
         let hashes = self.hashes.as_mut().map(Lines::mark).transpose()?;
-        let told = Told { history: self.history.mark()?, hashes, ..self.frames.told() };
-        Ok((told, self.film.as_mut().map_or_else(Vec::new, Film::kept)))
+        let reported = Reported { history: self.history.mark()?, hashes, ..self.frames.reported() };
+        Ok((reported, self.film.as_mut().map_or_else(Vec::new, Film::kept)))
     }
 
-    /// Writes a checkpoint of what is told so far and the state there.
+    /// Writes a checkpoint of what is reported so far and the state there.
     fn keep(&mut self, state: &Arc<State>) -> Result<(), ResultsError> {
-        let (told, film) = match self.before_failure.take() {
+        let (reported, film) = match self.before_failure.take() {
             Some(before) => before,
-            None => self.told_so_far()?,
+            None => self.reported_so_far()?,
         };
         let identity = self.identity().clone();
-        let checkpoint = Checkpoint { state: state.clone(), origin: self.origin.clone(), identity, told, film };
+        let checkpoint = Checkpoint { state: state.clone(), origin: self.origin.clone(), identity, reported, film };
         Ok(checkpoint.write(self.folder.path(), &self.threads)?)
     }
 
@@ -207,18 +207,18 @@ impl Writer {
     /// Does a job; `shown` stands for a frame that the job has not. A frame is written even when rows can't
     /// be.
     pub(super) fn write(&mut self, job: &Job, shown: Option<&dyn Shown>) -> Result<(), ResultsError> {
-        let told = self.tell(job, shown);
+        let reported = self.report(job, shown);
         if job.is_failing {
-            self.before_failure = Some(self.told_so_far()?);
+            self.before_failure = Some(self.reported_so_far()?);
         }
-        // What is not told can't be gone on from.
+        // What is not reported can't be continued from.
         match &job.state {
-            Some(state) if told.is_ok() => self.keep(state),
-            _ => told,
+            Some(state) if reported.is_ok() => self.keep(state),
+            _ => reported,
         }
     }
 
-    fn tell(&mut self, job: &Job, shown: Option<&dyn Shown>) -> Result<(), ResultsError> {
+    fn report(&mut self, job: &Job, shown: Option<&dyn Shown>) -> Result<(), ResultsError> {
         let mut rows = Ok(());
         for row in job.rows.chunks_exact(self.columns.len().max(1)) {
             rows = rows.and(self.history.row(row));
@@ -312,24 +312,24 @@ impl Frames {
     }
 
     /// How far they are.
-    fn told(&self) -> Told {
+    fn reported(&self) -> Reported {
         let Obstacles { lines, extent, written } = &self.obstacles;
-        Told {
+        Reported {
             frames: self.written.iter().map(|(time, _)| *time).collect(),
             frame_step: self.step_last,
             has_obstacles: !written.is_empty(),
             extent: *extent,
             far: lines.far,
-            ..Told::default()
+            ..Reported::default()
         }
     }
 
-    /// Goes on from there.
-    fn recall(&mut self, told: &Told) {
-        let with = |name: fn(usize) -> String| told.frames.iter().copied().zip((0..).map(name)).collect();
-        (self.written, self.step_last) = (with(ResultFolder::frame_name), told.frame_step);
-        self.obstacles.written = if told.has_obstacles { with(ResultFolder::obstacles_name) } else { Vec::new() };
-        (self.obstacles.extent, self.obstacles.lines.far) = (told.extent, told.far);
+    /// Continues from there.
+    fn recall(&mut self, reported: &Reported) {
+        let with = |name: fn(usize) -> String| reported.frames.iter().copied().zip((0..).map(name)).collect();
+        (self.written, self.step_last) = (with(ResultFolder::frame_name), reported.frame_step);
+        self.obstacles.written = if reported.has_obstacles { with(ResultFolder::obstacles_name) } else { Vec::new() };
+        (self.obstacles.extent, self.obstacles.lines.far) = (reported.extent, reported.far);
     }
 
     fn write_collection(&self, folder: &ResultFolder) -> Result<(), ResultsError> {

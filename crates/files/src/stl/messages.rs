@@ -12,5 +12,5 @@ pub(super) static STL: Message = Message {
          embate check model.toml --set 'part=[{name=\"b\",material=\"steel\",box={corner=[0,0,0],size=[1,1,1],elements=[1,1,1]}}]' --set 'contact=[]' --set 'obstacle=[{stl={file=\"cut.stl\"}}]'\n",
     ),
     cause: "The file was cut, changed by a text tool, or is of another format; or its number of triangles, or a coordinate, is none.",
-    cure: "Export the surface again, as STL (text or binary).",
+    remedy: "Export the surface again, as STL (text or binary).",
 };

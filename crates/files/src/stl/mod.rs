@@ -1,8 +1,8 @@
-//! Triangulated surfaces of STL files, text or binary: the triangles of an obstacle of space.
+//! Triangulated surfaces of STL files, text or binary: the triangles of an obstacle in 3D.
 //!
 //! The bytes of a file become corners in its order, scaled to metres; corners at one place become one point,
 //! and whether the triangles make a surface is the solver's to say ([`TriangleSurface`]). A file is binary if
-//! its size is that of the triangles that its header tells (also where it begins with `solid`, as some do);
+//! its size is that of the triangles that its header reports (also where it begins with `solid`, as some do);
 //! else it is text if it begins so. Names, normals, attributes and colours don't count; several solids in one
 //! file are one surface.
 
@@ -69,7 +69,7 @@ fn binary(bytes: &[u8], count: Option<usize>, fits: bool) -> Result<Vec<[[f64; 3
     let (room, rest) = ((bytes.len() - HEADER) / TRIANGLE, (bytes.len() - HEADER) % TRIANGLE);
     if !fits {
         let partly = if rest > 0 { format!(" and {rest} bytes of another one") } else { String::new() };
-        let message = format!("its header tells of {count} triangles, but the file holds {room}{partly}");
+        let message = format!("its header announces {count} triangles, but the file holds {room}{partly}");
         return Err(fault(
             "byte 80",
             message,
@@ -220,7 +220,7 @@ mod tests {
         bytes
     }
 
-    fn told(bytes: &[u8]) -> String {
+    fn reported(bytes: &[u8]) -> String {
         let Fault { kind, path, message, .. } = parse(bytes, "a.stl", 1.0).unwrap_err();
         format!("{} {path}: {message}", kind.code)
     }
@@ -239,47 +239,47 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_text_is_told_with_its_line() {
+    fn a_cut_text_is_reported_with_its_line() {
         let text = text();
         for cut in [0, 30, 80, 200, 300] {
             let cut = text.len() - 10 - cut;
-            let told = told(&text.as_bytes()[..cut]);
-            assert!(told.starts_with("E0240 line "), "{told}");
+            let reported = reported(&text.as_bytes()[..cut]);
+            assert!(reported.starts_with("E0240 line "), "{reported}");
         }
         assert_eq!(
-            told(b"solid one\n facet normal 0 0 1\n outer loop\n vertex 0 0\n"),
+            reported(b"solid one\n facet normal 0 0 1\n outer loop\n vertex 0 0\n"),
             "E0240 line 4: the file ends where a number should follow"
         );
-        assert_eq!(told(b"solid one\n"), "E0240 line 1: the file ends where `facet` or `endsolid` should follow");
-        assert_eq!(told(b"solid one\nendsolid\n"), "E0240 : the file holds no triangles");
+        assert_eq!(reported(b"solid one\n"), "E0240 line 1: the file ends where `facet` or `endsolid` should follow");
+        assert_eq!(reported(b"solid one\nendsolid\n"), "E0240 : the file holds no triangles");
     }
 
     #[test]
-    fn words_and_numbers_that_are_none_are_told() {
+    fn words_and_numbers_that_are_none_are_reported() {
         let text = text();
-        let told_of = |from: &str, to: &str| told(text.replacen(from, to, 1).as_bytes());
-        assert_eq!(told_of("vertex 0e0", "vertex NaN"), "E0240 line 4: here stands `NaN`, but a finite number should");
-        assert_eq!(told_of("vertex 0e0", "vertex zero"), "E0240 line 4: here stands `zero`, but a finite number should");
-        assert_eq!(told_of("endloop", "vertex"), "E0240 line 7: here stands `vertex`, but `endloop` should");
-        assert_eq!(told_of("facet normal", "face normal"), "E0240 line 2: here stands `face`, but `facet` or `endsolid` should");
+        let reported_of = |from: &str, to: &str| reported(text.replacen(from, to, 1).as_bytes());
+        assert_eq!(reported_of("vertex 0e0", "vertex NaN"), "E0240 line 4: here stands `NaN`, but a finite number should");
+        assert_eq!(reported_of("vertex 0e0", "vertex zero"), "E0240 line 4: here stands `zero`, but a finite number should");
+        assert_eq!(reported_of("endloop", "vertex"), "E0240 line 7: here stands `vertex`, but `endloop` should");
+        assert_eq!(reported_of("facet normal", "face normal"), "E0240 line 2: here stands `face`, but `facet` or `endsolid` should");
     }
 
     #[test]
-    fn binary_files_of_wrong_size_or_with_wrong_numbers_are_told() {
+    fn binary_files_of_wrong_size_or_with_wrong_numbers_are_reported() {
         let good = bytes(b"");
         assert_eq!(
-            told(&good[..good.len() - 7]),
-            "E0240 byte 80: its header tells of 4 triangles, but the file holds 3 and 43 bytes of another one"
+            reported(&good[..good.len() - 7]),
+            "E0240 byte 80: its header announces 4 triangles, but the file holds 3 and 43 bytes of another one"
         );
-        assert_eq!(told(&[&good[..], &[0; 50]].concat()), "E0240 byte 80: its header tells of 4 triangles, but the file holds 5");
-        assert!(told(&good[..60]).starts_with("E0240 : the file has 60 bytes"));
+        assert_eq!(reported(&[&good[..], &[0; 50]].concat()), "E0240 byte 80: its header announces 4 triangles, but the file holds 5");
+        assert!(reported(&good[..60]).starts_with("E0240 : the file has 60 bytes"));
         let mut other = good.clone();
         other[84 + 50 + 24..][..4].copy_from_slice(&f32::NAN.to_le_bytes());
-        assert_eq!(told(&other), "E0240 byte 158: corner 2 of triangle 2 has the coordinates [NaN, 0.0, 0.0]");
+        assert_eq!(reported(&other), "E0240 byte 158: corner 2 of triangle 2 has the coordinates [NaN, 0.0, 0.0]");
         other[80..84].copy_from_slice(&0_u32.to_le_bytes());
-        assert_eq!(told(&other[..84]), "E0240 : the file holds no triangles");
+        assert_eq!(reported(&other[..84]), "E0240 : the file holds no triangles");
         // So many that their size is none.
         other[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
-        assert!(told(&other).contains("4294967295 triangles"));
+        assert!(reported(&other).contains("4294967295 triangles"));
     }
 }

@@ -66,7 +66,7 @@ pub(super) struct Entry {
     pub(super) cells: Vec<String>,
 }
 
-/// The journal of a sweep that goes on; the folder is this program's as long as it lives.
+/// The journal of a sweep that continues; the folder is this program's as long as it lives.
 #[derive(Debug)]
 pub(super) struct Journal {
     path: PathBuf,

@@ -9,7 +9,7 @@ pub(super) static VALUES: Message = Message {
     title: "values of a sweep that can't be",
     example: Example::Command("sweep model.toml --vary material.steel.young=1GPa:2GPa --output last(block.vx)"),
     cause: "A key has no values, a range is not FROM:TO:COUNT, a column of the table is no key, or there are too many runs.",
-    cure: "Write them as the message shows: --vary key=1,2,3 or key=1:3:5.",
+    remedy: "Write them as the message shows: --vary key=1,2,3 or key=1:3:5.",
 };
 
 pub(super) static WANTED: Message = Message {
@@ -17,7 +17,7 @@ pub(super) static WANTED: Message = Message {
     title: "an output of a sweep that is not there",
     example: Example::Command("sweep model.toml --vary material.steel.young=1GPa,2GPa --output last(nothing)"),
     cause: "The history has no such column, the summary no such figure, or the text is no output.",
-    cure: "Take a column of history.csv, such as last(energy.kinetic), or a key of summary.json.",
+    remedy: "Take a column of history.csv, such as last(energy.kinetic), or a key of summary.json.",
 };
 
 pub(super) static TABLE: Message = Message {
@@ -25,25 +25,27 @@ pub(super) static TABLE: Message = Message {
     title: "a table of runs that can't be read",
     example: Example::Command("sweep model.toml --table nowhere.csv --output last(block.vx)"),
     cause: "There is no such file, or it may not be read.",
-    cure: "Check the path.",
+    remedy: "Check the path.",
 };
 
 pub(super) static OTHER: Message = Message {
     code: "E0904",
     title: "a folder with another sweep",
     example: Example::Shell(
-        "embate sweep model.toml --vary contact.hit.friction=0.1,0.2 --out swept --quiet\nembate sweep model.toml --vary contact.hit.friction=0.1,0.3 --out swept --quiet\n",
+        "embate sweep model.toml --vary contact.hit.friction=0.1,0.2 --out swept --quiet\nembate sweep model.toml \
+            --vary contact.hit.friction=0.1,0.3 --out swept --quiet\n",
     ),
-    cause: "A sweep goes on where it was stopped, but this one has other runs.",
-    cure: "Choose another folder with --out, or start anew with --force.",
+    cause: "A sweep continues where it was stopped, but this one has other runs.",
+    remedy: "Choose another folder with --out, or start again with --force.",
 };
 
 pub(super) static BUSY: Message = Message {
     code: "E0905",
     title: "two sweeps in one folder",
     example: Example::Shell(
-        "mkdir swept\ntouch swept/sweep.journal\nflock swept/sweep.journal embate sweep model.toml --vary contact.hit.friction=0.1,0.2 --out swept --quiet\n",
+        "mkdir swept\ntouch swept/sweep.journal\nflock swept/sweep.journal embate sweep model.toml --vary \
+            contact.hit.friction=0.1,0.2 --out swept --quiet\n",
     ),
     cause: "Another program writes into the folder.",
-    cure: "Wait for its end, or choose another folder with --out.",
+    remedy: "Wait for its end, or choose another folder with --out.",
 };

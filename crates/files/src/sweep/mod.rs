@@ -2,7 +2,7 @@
 //!
 //! The walk: which runs (`plan.rs`, `values.rs`) -> a sound model for each of them (`prepare.rs`) -> what is
 //! noted (`outputs.rs`) -> runs, one on each thread (`run.rs`) -> a journal that outlives the program
-//! (`journal.rs`) -> table and plot (`table.rs`). The program's command `sweep` asks and tells.
+//! (`journal.rs`) -> table and plot (`table.rs`). The program's command `sweep` asks and reports.
 
 pub(crate) mod messages;
 mod journal;
@@ -62,7 +62,7 @@ pub enum SweepError {
         source: std::io::Error,
     },
     /// The folder holds another sweep.
-    #[error("{} holds another sweep: {difference}; choose another folder with --out, or start anew with --force", .path.display())]
+    #[error("{} holds another sweep: {difference}; choose another folder with --out, or start again with --force", .path.display())]
     Other {
         /// The folder.
         path: PathBuf,
@@ -75,7 +75,7 @@ pub enum SweepError {
         /// The folder.
         path: PathBuf,
     },
-    /// Results can't be written while a run goes on.
+    /// Results can't be written while a run continues.
     #[error("{0}")]
     Output(String),
     /// Results can't be written.

@@ -74,7 +74,7 @@ impl Plan {
             Template::fault(&VALUES, &mut faults, input.source, input.key.clone(), wrong);
         }
         if !faults.is_empty() {
-            return Err(SweepError::Model(template.told(faults)));
+            return Err(SweepError::Model(template.reported(faults)));
         }
         let runs = if is_factorial { factorial(&counts) } else { (0..first).map(|run| vec![run; inputs.len()]).collect() };
         Ok(Self { inputs, runs, is_factorial })
@@ -112,7 +112,7 @@ fn varied(texts: &[String], template: &mut Template) -> Result<Vec<Input>, Sweep
             Err((place, wrong)) => Template::fault(&VALUES, &mut faults, source, place, wrong),
         }
     }
-    if faults.is_empty() { Ok(inputs) } else { Err(SweepError::Model(template.told(faults))) }
+    if faults.is_empty() { Ok(inputs) } else { Err(SweepError::Model(template.reported(faults))) }
 }
 
 fn one_varied(text: &str, source: usize) -> Result<Input, (Range<usize>, Wrong)> {
@@ -134,7 +134,7 @@ fn tabled(file: &Path, template: &mut Template) -> Result<Vec<Input>, SweepError
     let Some((header, rows)) = rows.split_first().filter(|(_, rows)| !rows.is_empty()) else {
         let wrong = ("the table has no row".to_string(), "its first line names keys, each further line is a run".to_string());
         Template::fault(&VALUES, &mut faults, source, 0..0, wrong);
-        return Err(SweepError::Model(template.told(faults)));
+        return Err(SweepError::Model(template.reported(faults)));
     };
     let mut inputs: Vec<Input> = Vec::new();
     let mut units = Vec::new();
@@ -164,7 +164,7 @@ fn tabled(file: &Path, template: &mut Template) -> Result<Vec<Input>, SweepError
             input.items.push(values::with_unit(field, unit));
         }
     }
-    if faults.is_empty() { Ok(inputs) } else { Err(SweepError::Model(template.told(faults))) }
+    if faults.is_empty() { Ok(inputs) } else { Err(SweepError::Model(template.reported(faults))) }
 }
 
 #[cfg(test)]

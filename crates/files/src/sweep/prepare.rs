@@ -1,13 +1,13 @@
 //! Every run of a sweep looked at before the first one begins: its model, its mesh, and whether it will have
 //! what is to be noted.
 //!
-//! Plans come from `plan.rs`; all faults of all runs are told at once, each with the runs that have it. A
+//! Plans come from `plan.rs`; all faults of all runs are reported at once, each with the runs that have it. A
 //! [`Sweep`] without faults goes to `run.rs`.
 
 use super::outputs::{self, Output};
 use super::plan::{Plan, Request};
 use super::{Keep, SweepError};
-use crate::Reach;
+use crate::PathPolicy;
 use crate::model_file::{Diagnostics, Faults, Template};
 use crate::results::Report;
 use crate::sweep::messages::WANTED;
@@ -49,7 +49,7 @@ impl Sweep {
     /// All faults at once. `None` where `is_stopped` ended the examination.
     pub fn prepare(
         model: &Path,
-        reach: Reach,
+        reach: PathPolicy,
         set: &[String],
         request: Request<'_>,
         outputs: &[String],
@@ -60,7 +60,7 @@ impl Sweep {
         let mut template = Template::load(model, set, reach).map_err(SweepError::Model)?;
         let plan = Plan::read(request, &mut template)?;
         let options = Options { threads: 1, simd };
-        // Where it has faults, they are told below with those of the other runs.
+        // Where it has faults, they are reported below with those of the other runs.
         let first = template.model(&plan.changes(0)).unwrap_or_default();
         let mut sweep = Self { template, plan, outputs: Vec::new(), options, first, hashes: Vec::new() };
         let (places, faults) = sweep.read_outputs(outputs);
@@ -69,7 +69,7 @@ impl Sweep {
         let Some(examined) = examined else { return Ok(None) };
         let mut found = Vec::new();
         if !faults.is_empty() {
-            found.push((0, sweep.template.told(faults)));
+            found.push((0, sweep.template.reported(faults)));
         }
         let mut missing = Vec::new();
         for (run, examined) in examined.into_iter().enumerate() {
@@ -81,7 +81,7 @@ impl Sweep {
                     Some(source) => {
                         let mut faults = Faults::default();
                         Template::fault(&WANTED, &mut faults, *source, 0..sweep.template.source(*source).len(), wrong);
-                        found.push((run + 1, sweep.template.told(faults)));
+                        found.push((run + 1, sweep.template.reported(faults)));
                     }
                 }
             }
@@ -110,7 +110,7 @@ impl Sweep {
     /// the sources, none for the usual ones, and what is wrong with them.
     fn read_outputs(&mut self, wanted: &[String]) -> (Vec<usize>, Faults) {
         let simulation = self.model(0, Keep::Figures).ok().and_then(|model| Simulation::new(&model, &self.options).ok());
-        // Without it what is wrong is told elsewhere, and of outputs only their form is known.
+        // Without it what is wrong is reported elsewhere, and of outputs only their form is known.
         let samples = simulation.map_or_else(
             || Samples::recorded(Vec::new(), Vec::new(), serde_json::Value::Null),
             |simulation| samples(&simulation, &self.first.name),
@@ -133,8 +133,8 @@ impl Sweep {
         (sources, faults)
     }
 
-    fn told(&self, run: usize, faults: Vec<embate_solver::error::Fault>) -> Diagnostics {
-        self.template.told_of_model(&self.plan.changes(run), faults)
+    fn reported(&self, run: usize, faults: Vec<embate_solver::error::Fault>) -> Diagnostics {
+        self.template.reported_of_model(&self.plan.changes(run), faults)
     }
 
     /// The model of a run.
@@ -159,7 +159,7 @@ impl Sweep {
                 let without = |(number, output): (usize, &Output)| Some((number, output.examine(&samples, model.run.end).err()?));
                 (None, self.outputs.iter().enumerate().filter_map(without).collect())
             }
-            Err(Error::Model(faults)) => (Some(self.told(run, faults)), Vec::new()),
+            Err(Error::Model(faults)) => (Some(self.reported(run, faults)), Vec::new()),
             Err(_) => (None, Vec::new()), // the run will fail, and its row say why
         };
         Examined { hash, faults, without }
@@ -203,7 +203,7 @@ pub(super) fn in_parallel<T: Send>(count: usize, jobs: usize, work: &(dyn Fn(usi
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Tells models apart: a hash (FNV-1a) of everything that a model says.
+/// Distinguishes models: a hash (FNV-1a) of everything that a model says.
 fn hash(model: &Model) -> String {
     let mut hash = Fnv::default();
     // Numbers are written so that they read back as the same numbers; writing here can't fail.

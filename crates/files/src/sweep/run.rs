@@ -2,7 +2,7 @@
 //! from one queue.
 //!
 //! A [`Sweep`] comes from `prepare.rs`; every run that ends is noted in the journal and, where results are
-//! kept, has its own folder. A run that fails is noted with its reason and the others go on.
+//! kept, has its own folder. A run that fails is noted with its reason and the others continue.
 
 use super::journal::{Entry, Journal, Manifest, RunEnd};
 use super::prepare::{Sweep, in_parallel};
@@ -57,7 +57,7 @@ pub struct Running<'a> {
     pub user_cpu_seconds: fn() -> Option<f64>,
     /// Whether the user wants it to stop.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
-    /// Told after each run.
+    /// Reported after each run.
     pub on_advance: &'a (dyn Fn(Advance) + Sync),
 }
 
@@ -167,9 +167,9 @@ impl Sweep {
         if (running.is_stopped)() || lock().error.is_some() {
             return;
         }
-        // The hook has told the user about a panic; here it is a run that failed.
+        // The hook has reported the user about a panic; here it is a run that failed.
         let bug = |_| Ok(Some(self.failed(run, "this run ended with a bug in embate".to_string())));
-        let ended = catch_unwind(AssertUnwindSafe(|| self.ran(run, running))).unwrap_or_else(bug);
+        let ended = catch_unwind(AssertUnwindSafe(|| self.provenance(run, running))).unwrap_or_else(bug);
         let mut shared = lock();
         let noted = ended.and_then(|entry| {
             let Some(entry) = entry else { return Ok(()) };
@@ -190,7 +190,7 @@ impl Sweep {
     }
 
     /// Runs to the end; `None` where the user stopped it.
-    fn ran(&self, run: usize, running: &Running<'_>) -> Result<Option<Entry>, SweepError> {
+    fn provenance(&self, run: usize, running: &Running<'_>) -> Result<Option<Entry>, SweepError> {
         let (begin, cpu) = (Instant::now(), (running.user_cpu_seconds)());
         let used = || Some((running.user_cpu_seconds)()? - cpu?);
         let model = match self.model(run, running.keep) {
@@ -201,7 +201,7 @@ impl Sweep {
         };
         let mut simulation = match Simulation::new(&model, &self.options) {
             Ok(simulation) => simulation,
-            Err(error) => return Ok(Some(self.failed(run, told(&error)))),
+            Err(error) => return Ok(Some(self.failed(run, reported(&error)))),
         };
         let folder = self.folder(running.folder, run);
         let recorder = match running.keep {
@@ -225,7 +225,7 @@ impl Sweep {
         if is_stopped {
             return Ok(None);
         }
-        let (error, summary) = (error.map(|error| told(&error)), simulation.summary());
+        let (error, summary) = (error.map(|error| reported(&error)), simulation.summary());
         let report = match recorder {
             Some(recorder) => {
                 let outcome = recorder.finish(error.clone(), &summary, used);
@@ -275,7 +275,7 @@ fn report(
 }
 
 /// An error on one line: a cell of the table.
-fn told(error: &Error) -> String {
+fn reported(error: &Error) -> String {
     first_line(&error.with_code())
 }
 

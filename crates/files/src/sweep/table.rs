@@ -136,7 +136,7 @@ fn unit_of(path: &str, model: &Model) -> Option<String> {
     })
 }
 
-/// Masses and forces of a body of revolution are those of the whole circumference.
+/// Masses and forces of an axisymmetric body are those of the whole circumference.
 fn all_around(dimension: Dimension, model: &Model) -> Dimension {
     match dimension {
         Dimension::MASS_PER_LENGTH if model.is_of_whole_bodies() => Dimension::MASS,

@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_range_is_told() {
+    fn what_is_no_range_is_reported() {
         for (written, word) in [
             ("1:2", "three parts"),
             ("1:2:3:4", "three parts"),

@@ -4,7 +4,7 @@
 
 use super::case::{Accepted, Case, Check, How, Source};
 use super::quantity::Samples;
-use crate::picture::svg::thinned;
+use crate::picture::svg::decimated;
 use crate::results::unit;
 
 /// Points of a curve.
@@ -63,7 +63,7 @@ impl Plot {
             if self.curves.len() == CURVES {
                 return;
             }
-            self.curves.push((model.to_string(), thinned(curve, POINTS)));
+            self.curves.push((model.to_string(), decimated(curve, POINTS)));
         }
         if !self.marks.contains(&mark) {
             self.marks.push(mark);

@@ -85,7 +85,7 @@ impl Samples {
         }
     }
 
-    /// Whether a quantity will be there, as far as can be told before the run.
+    /// Whether a quantity will be there, as far as can be reported before the run.
     pub(crate) fn examine(&self, source: &Source, end: f64) -> Result<(), Missing> {
         if let Some(late) = source.times().into_iter().find(|time| *time > end) {
             let key = if matches!(source, Source::History { during: [Some(begin), _], .. } if *begin == late) {
@@ -116,9 +116,9 @@ impl Samples {
     /// # Errors
     /// Why there is none.
     pub(crate) fn number(&self, source: &Source) -> Result<f64, String> {
-        let told = |(_, message, _): Missing| message;
+        let reported = |(_, message, _): Missing| message;
         let value = match source {
-            Source::Summary(path) => self.figure(path).map_err(told)?.ok_or_else(|| format!("`{path}` is null in summary.json"))?,
+            Source::Summary(path) => self.figure(path).map_err(reported)?.ok_or_else(|| format!("`{path}` is null in summary.json"))?,
             Source::HistoryAt(column, at) => {
                 let curve = self.curve(column, [Some(*at), None])?;
                 curve.first().map_or(f64::NAN, |point| point[1])
@@ -127,10 +127,10 @@ impl Samples {
                 .ok_or_else(|| format!("`{column}` is never there: {} {level}", take.name))?,
             Source::Field { name, at, part, place, take } => {
                 let frame = self.frame(*at)?;
-                let (field, component) = field(frame, name).map_err(told)?;
+                let (field, component) = field(frame, name).map_err(reported)?;
                 let values: Vec<f64> = self
                     .chosen(field, part.as_deref(), *place)
-                    .map_err(told)?
+                    .map_err(reported)?
                     .into_iter()
                     .map(|index| field.values[index * field.kind.width() + component])
                     .collect();

@@ -5,7 +5,7 @@
 
 use super::case::{Accepted, Case, Check, Combination, How, Place, Quantity, Source, TAKES, Take, Tier, With};
 use super::describe::EXPECTED;
-use crate::Reach;
+use crate::PathPolicy;
 use crate::model_file::{self, Described, Diagnostics, Document, Faults, Record};
 use crate::verification::messages::{CASE, UNJUDGED};
 use embate_solver::model::Model;
@@ -28,7 +28,7 @@ struct Variant {
 ///
 /// # Errors
 /// All faults of `expected.toml`, or all of a model file.
-pub fn load(folder: &Path, reach: Reach) -> Result<Case, Diagnostics> {
+pub fn load(folder: &Path, reach: PathPolicy) -> Result<Case, Diagnostics> {
     let name = folder.file_name().map_or_else(|| "case".to_string(), |name| name.to_string_lossy().into_owned());
     let files = model_files(folder);
     let (text, (title, tier, variants, checks)) = Described::read(&folder.join(FILE_NAME), &EXPECTED, |document, faults| {
@@ -102,7 +102,7 @@ fn names(document: &Document, files: &[String], variants: &BTreeMap<String, Vari
         }
     }
     if document.section("check").is_empty() {
-        return; // Told already.
+        return; // Reported already.
     }
     for unused in all.iter().filter(|name| !used.contains(**name)) {
         let path = if variants.contains_key(*unused) { format!("variant.{unused}") } else { String::new() };
@@ -117,7 +117,7 @@ fn check(record: &Record, faults: &mut Faults) -> Check {
         let table = record.table(name)?;
         Some(With { how, quantity: quantity(table, faults), model: table.written("model").is_some().then(|| table.text("model")) })
     });
-    // A table that is not sound has been told.
+    // A table that is not sound has been reported.
     let nothing = || Quantity { path: String::new(), source: Source::Summary(String::new()) };
     Check {
         name: record.text("name"),
@@ -163,7 +163,7 @@ const SOURCES: &[(&str, &[&str])] =
 fn quantity(record: &Record, faults: &mut Faults) -> Quantity {
     let has = |name: &str| record.written(name).is_some();
     let sources: Vec<_> = SOURCES.iter().filter(|(name, _)| has(name)).collect();
-    // None or several: told by the section's rule.
+    // None or several: reported by the section's rule.
     let [(source, allowed)] = sources.as_slice() else {
         return Quantity { path: record.path.clone(), source: Source::Summary(String::new()) };
     };
@@ -240,7 +240,7 @@ fn taken(record: &Record, source: &str, missing: &str, fits: impl Fn(&Take) -> b
 
 /// The models that the checks name, each once.
 fn models(
-    (folder, reach): (&Path, Reach),
+    (folder, reach): (&Path, PathPolicy),
     variants: &BTreeMap<String, Variant>,
     checks: &[Check],
 ) -> Result<Vec<(String, Model)>, Diagnostics> {

@@ -15,7 +15,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// In which form a report is written; the end of its file's name tells.
+/// In which form a report is written; the end of its file's name reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// `.html`: one file with everything in it.
@@ -337,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_tell_how_near_the_border_is() {
+    fn shares_report_how_near_the_border_is() {
         let limit = |found, at_least, at_most| CheckOutcome { found: Some(found), at_least, at_most, ..CheckOutcome::default() }.share();
         assert_eq!(outcome(true).checks[0].share(), Some(0.5));
         assert_eq!(limit(0.5, None, Some(2.0)), Some(0.25));

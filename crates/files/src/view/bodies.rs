@@ -1,4 +1,4 @@
-//! The bodies of a run as what is seen of them: skins in space, all cells in the plane, each set of eroded
+//! The bodies of a run as what is seen of them: skins in 3D, all cells in 2D, each set of eroded
 //! cells with a skin of its own.
 //!
 //! Cells come from the first field file or from the simulation; a [`Topology`] is made when the first frame
@@ -71,7 +71,7 @@ impl Found {
 }
 
 impl Bodies {
-    /// The cells of a run, as they are shown first; where there is a field `displacement`, it tells initial
+    /// The cells of a run, as they are shown first; where there is a field `displacement`, it reports initial
     /// places.
     #[must_use]
     pub fn new(cells: Cells, shown: &dyn Shown) -> Self {
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_of_the_plane_are_all_seen_and_those_that_have_gone_are_not() {
+    fn cells_of_2d_are_all_seen_and_those_that_have_gone_are_not() {
         let bodies = bodies();
         let whole = bodies.without(&[]);
         assert_eq!((whole.facets.len(), whole.bars.len(), whole.nodes.len()), (3, 1, 9));

@@ -1,5 +1,5 @@
-//! What a page is told of a run: its model, what can be shown of it, how it ended. Plain data for JSON, made
-//! by `folder`.
+//! What a page is sent about a run: its model, what can be shown of it, how it ended. Plain data for JSON,
+//! made by `folder`.
 
 use crate::picture::field::Scalar;
 use crate::results::Appearance;
@@ -42,7 +42,7 @@ pub struct ScalarDescription {
     pub location: &'static str,
     /// Whether its colours begin at zero.
     pub starts_at_zero: bool,
-    /// Names of the values 0, 1, ... of a field that tells states.
+    /// Names of the values 0, 1, ... of a field that reports states.
     pub states: &'static [&'static str],
 }
 
@@ -99,13 +99,13 @@ pub struct RunDescription {
     pub path: String,
     /// By which it can be run again.
     pub command: Option<String>,
-    /// 2 in the plane, 3 in space.
+    /// 2 in 2D, 3 in 3D.
     pub dimension: usize,
-    /// Whether it is a body of revolution.
+    /// Whether it is an axisymmetric body.
     pub axisymmetric: bool,
     /// End time, s.
     pub end: Option<f64>,
-    /// J/m in the plane, else J.
+    /// J/m in 2D, else J.
     pub energy_unit: &'static str,
     /// How many.
     pub nodes: usize,
@@ -146,7 +146,7 @@ pub struct RunDescription {
 }
 
 impl RunDescription {
-    /// What the model tells of how it wants to be shown, with the fields that its frames have.
+    /// What the model reports of how it wants to be shown, with the fields that its frames have.
     pub(super) fn show(&mut self, appearance: &Appearance, kinds: &[&'static FieldKind]) {
         let of_whole_bodies = appearance.axisymmetric || self.dimension == 3;
         let Appearance { title, axisymmetric, end, mirror, camera, .. } = appearance;

@@ -1,5 +1,5 @@
 //! A result folder that is looked at: its description, frames, histories, values over time; of a run that
-//! goes on, too.
+//! continues, too.
 //!
 //! Files are read when they are asked for (`vtu::read`, `results`); what a whole run must be read for (the
 //! range of a scalar) is kept.
@@ -7,10 +7,10 @@
 use super::bodies::{Bodies, Topology};
 use super::container::Container;
 use super::describe::{Column, FrameTime, PartDescription, RunDescription};
-use super::frame::{self, Wish, range};
+use super::frame::{self, FrameRequest, range};
 use crate::picture::field::Scalar;
 use crate::plain;
-use crate::results::{Appearance, History, Ran, ResultsError, read_json, unit};
+use crate::results::{Appearance, History, Provenance, ResultsError, read_json, unit};
 use crate::vtu::read::VtuReader;
 use embate_solver::output::{Cells, FieldKind, Location, Outline};
 use serde::Serialize;
@@ -80,7 +80,7 @@ impl ResultView {
         if !path.is_dir() {
             return Err(nothing(if path.exists() { "it is a file" } else { "there is no such folder" }));
         }
-        let appearance = Ran::read(path)?.map(|ran| ran.appearance).unwrap_or_default();
+        let appearance = Provenance::read(path)?.map(|provenance| provenance.appearance).unwrap_or_default();
         let first = frames(path)?.into_iter().next();
         let mut reader = match first {
             Some((_, file)) => VtuReader::open(&file)?,
@@ -128,7 +128,7 @@ impl ResultView {
     /// What the system says; [`ResultsError::Damaged`].
     pub fn description(&self) -> Result<RunDescription, ResultsError> {
         let summary: Option<Value> = read_json(&self.path.join("summary.json"))?;
-        let ran = Ran::read(&self.path)?;
+        let provenance = Provenance::read(&self.path)?;
         let text = |key: &str| summary.as_ref().and_then(|summary| summary.get(key)).and_then(Value::as_str).map(ToString::to_string);
         let folder = self.path.file_name().map(|name| name.to_string_lossy().into_owned());
         let name = text("model").or(folder).unwrap_or_default();
@@ -147,7 +147,7 @@ impl ResultView {
             title: name.clone(),
             name,
             path: std::path::absolute(&self.path).unwrap_or_else(|_| self.path.clone()).to_string_lossy().into_owned(),
-            command: ran.and_then(|ran| ran.command()),
+            command: provenance.and_then(|provenance| provenance.command()),
             dimension: self.bodies.dimension,
             nodes: self.nodes,
             elements: self.bodies.cells.len(),
@@ -171,17 +171,18 @@ impl ResultView {
     ///
     /// # Errors
     /// [`ResultsError::Unreadable`], what the system says.
-    pub fn frame(&self, number: usize, wish: &Wish) -> Result<Option<Container>, ResultsError> {
+    pub fn frame(&self, number: usize, frame_request: &FrameRequest) -> Result<Option<Container>, ResultsError> {
         let Some(file) = self.file("frame", number) else { return Ok(None) };
         let mut reader = VtuReader::open(&file)?;
         self.check(&reader)?;
         let topology = self.topology(&mut reader)?;
-        let scalar = wish.scalar.as_deref().and_then(|name| Scalar::of(self.kinds.iter().copied(), name)).map(|scalar| scalar.kind.name);
-        let is_wanted = |kind: &&&FieldKind| Some(kind.name) == scalar || (wish.arrows && kind.name == "contact_force");
+        let scalar =
+            frame_request.scalar.as_deref().and_then(|name| Scalar::of(self.kinds.iter().copied(), name)).map(|scalar| scalar.kind.name);
+        let is_wanted = |kind: &&&FieldKind| Some(kind.name) == scalar || (frame_request.arrows && kind.name == "contact_force");
         let wanted: Vec<_> = self.kinds.iter().filter(is_wanted).copied().collect();
         let shown = reader.frame(self.bodies.dimension, &wanted)?;
         let outlines = self.outlines(number)?;
-        Ok(Some(frame::frame(&self.bodies, &topology, &shown, &outlines, wish).with("frame", number)))
+        Ok(Some(frame::frame(&self.bodies, &topology, &shown, &outlines, frame_request).with("frame", number)))
     }
 
     fn topology(&self, reader: &mut VtuReader) -> Result<Arc<Topology>, ResultsError> {
@@ -211,13 +212,13 @@ impl ResultView {
         Some(self.path.join("fields").join(format!("{kind}-{number:05}.vtu"))).filter(|file| file.is_file())
     }
 
-    /// The history, thinned to so many rows; of a run that goes on as far as it is written.
+    /// The history, thinned to so many rows; of a run that continues as far as it is written.
     ///
     /// # Errors
     /// [`ResultsError::Damaged`], what the system says.
     pub fn history(&self, rows: usize) -> Result<Series, ResultsError> {
         let Some(history) = History::read(&self.path)? else { return Ok(Series::default()) };
-        let History { columns, values } = history.thinned(rows);
+        let History { columns, values } = history.decimated(rows);
         Ok(Series::of(&columns, values, self.is_of_whole_bodies()))
     }
 
@@ -278,13 +279,13 @@ impl ResultView {
     }
 }
 
-/// The names of the parts, as far as anything tells them.
+/// The names of the parts, as far as anything reports them.
 fn part_names(path: &Path, appearance: &Appearance, cells: &Cells) -> Result<Vec<String>, ResultsError> {
     let count = cells.parts.iter().max().map_or(0, |&last| last as usize + 1).min(cells.len());
     let summary: Option<Value> = read_json(&path.join("summary.json"))?;
-    let told = summary.as_ref().and_then(|summary| summary.get("parts")).and_then(Value::as_array);
-    let told: Vec<String> = told.into_iter().flatten().filter_map(Value::as_str).map(ToString::to_string).collect();
-    let mut names = if told.is_empty() { appearance.parts.iter().map(|(name, _)| name.clone()).collect() } else { told };
+    let reported = summary.as_ref().and_then(|summary| summary.get("parts")).and_then(Value::as_array);
+    let reported: Vec<String> = reported.into_iter().flatten().filter_map(Value::as_str).map(ToString::to_string).collect();
+    let mut names = if reported.is_empty() { appearance.parts.iter().map(|(name, _)| name.clone()).collect() } else { reported };
     names.extend((names.len()..count).map(|part| format!("part {part}")));
     Ok(names)
 }
@@ -294,7 +295,7 @@ fn frames(path: &Path) -> Result<Vec<(FrameTime, PathBuf)>, ResultsError> {
     let collection = plain::read_to_string(&path.join("fields.pvd")).unwrap_or_default();
     let attribute =
         |line: &str, name: &str| line.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()).map(ToString::to_string);
-    let told: BTreeMap<String, f64> = collection
+    let reported: BTreeMap<String, f64> = collection
         .lines()
         .filter_map(|line| {
             Some((attribute(line, "file")?, attribute(line, "timestep")?.parse().ok().filter(|time: &f64| time.is_finite())?))
@@ -313,9 +314,10 @@ fn frames(path: &Path) -> Result<Vec<(FrameTime, PathBuf)>, ResultsError> {
         found.push((number, folder.join(&name), format!("fields/{name}")));
     }
     found.sort_unstable_by_key(|(number, _, _)| *number);
-    let time = |file: &Path, name: &str| told.get(name).map_or_else(|| VtuReader::open(file).map(|reader| reader.time), |time| Ok(*time));
+    let time =
+        |file: &Path, name: &str| reported.get(name).map_or_else(|| VtuReader::open(file).map(|reader| reader.time), |time| Ok(*time));
     let frames = found.into_iter().filter_map(|(number, file, name)| {
-        // One that can't be read is told of when it is wanted; without a time it has no place.
+        // One that can't be read is reported when it is wanted; without a time it has no place.
         let time = time(&file, &name).ok()?;
         Some((FrameTime { number, time }, file))
     });

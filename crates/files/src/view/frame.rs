@@ -1,6 +1,6 @@
 //! A frame as a page gets it: places of the nodes that are seen, one scalar, contact forces, obstacles. Taken
-//! piece by piece from what is shown, a file that was read or a simulation between two steps; of a model of
-//! space no more than its skin is asked for.
+//! piece by piece from what is shown, a file that was read or a simulation between two steps; of a model in
+//! 3D no more than its skin is asked for.
 
 use super::bodies::{self, Bodies, Topology, ranges};
 use super::container::Container;
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 /// What a page wants to see of a frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Wish {
+pub struct FrameRequest {
     /// `von_mises`, `velocity` (its size), `stress.xy`; none: no colours.
     pub scalar: Option<String>,
     /// Contact forces.
@@ -21,7 +21,7 @@ pub struct Wish {
 /// What is shown on a topology that has its cells; `outlines`: the obstacles as they are drawn. A scalar that
 /// is not shown has no values.
 #[must_use]
-pub fn frame(bodies: &Bodies, topology: &Topology, shown: &dyn Shown, outlines: &[Outline], wish: &Wish) -> Container {
+pub fn frame(bodies: &Bodies, topology: &Topology, shown: &dyn Shown, outlines: &[Outline], frame_request: &FrameRequest) -> Container {
     let kinds = shown.kinds();
     let mut container = Container::default().with("topology", topology.id).with("time", shown.time());
     let nodes = || topology.nodes.iter().copied();
@@ -30,7 +30,7 @@ pub fn frame(bodies: &Bodies, topology: &Topology, shown: &dyn Shown, outlines: 
     let place = |own: &[f64]| -> [f32; 3] { std::array::from_fn(|d| own.get(d).map_or(0.0, |x| (x - origin[d]) as f32)) };
     container.floats("positions", places.chunks_exact(shown.dimension().max(1)).flat_map(place).collect());
 
-    let scalar = wish.scalar.as_deref().and_then(|name| Some((name, Scalar::of(kinds.iter().copied(), name)?)));
+    let scalar = frame_request.scalar.as_deref().and_then(|name| Some((name, Scalar::of(kinds.iter().copied(), name)?)));
     let values = scalar.map(|(_, scalar)| {
         let field = kinds.iter().position(|kind| kind.name == scalar.kind.name).expect("the scalar is of one of the fields");
         let take = |range, room: &mut Vec<f64>| shown.values(field, range, room);
@@ -50,7 +50,7 @@ pub fn frame(bodies: &Bodies, topology: &Topology, shown: &dyn Shown, outlines: 
         container.with("scalar", scalar.map(|(name, _)| name)).with("range", range.map_or(Value::Null, |range| json!(range)));
     container.floats("values", values.unwrap_or_default());
 
-    if let Some(field) = kinds.iter().position(|kind| kind.name == "contact_force").filter(|_| wish.arrows) {
+    if let Some(field) = kinds.iter().position(|kind| kind.name == "contact_force").filter(|_| frame_request.arrows) {
         let width = kinds[field].width();
         let forces = taken(nodes(), width, |range, room| shown.values(field, range, room));
         let acting = (0..)
@@ -177,7 +177,7 @@ mod tests {
         let (cells, shown) = shown();
         let bodies = Bodies::new(cells, &shown);
         let outlines = [Outline::line("wall", [[0.0, -1.0], [1.0, -1.0], [2.0, -2.0]])];
-        frame(&bodies, &bodies.without(gone), &shown, &outlines, &Wish { scalar: Some(scalar.into()), arrows: true })
+        frame(&bodies, &bodies.without(gone), &shown, &outlines, &FrameRequest { scalar: Some(scalar.into()), arrows: true })
     }
 
     #[test]

@@ -18,4 +18,4 @@ pub use bodies::{Bodies, Topology};
 pub use container::Container;
 pub use describe::{Column, FrameTime, PartDescription, RunDescription, ScalarDescription, Warned};
 pub use folder::{Probed, Ranged, ResultView, Series};
-pub use frame::{Wish, frame, gone, outlines};
+pub use frame::{FrameRequest, frame, gone, outlines};

@@ -5,7 +5,7 @@
 //! numbers alone, so that equal arrays give equal bytes. Numbers of nodes and cells are made block by block
 //! ([`Shown`]): neither they nor the streams of a large array are ever there as a whole.
 
-use crate::threads::{Rooms, Threads};
+use crate::threads::{ScratchPool, Threads};
 use embate_solver::output::Shown;
 use flate2::{Compress, Compression, FlushCompress, Status};
 use std::io::{self, Seek, SeekFrom, Write};
@@ -167,7 +167,7 @@ fn head(data: &Data<'_>, sizes: &[usize]) -> Vec<u8> {
 /// slower ones save is little, because digits are noise.
 pub(super) fn zlib_blocks<'a>(
     arrays: &'a [&Plain<'_>],
-    packers: &Rooms<Packer>,
+    packers: &ScratchPool<Packer>,
     threads: &Threads,
 ) -> impl Iterator<Item = Array> + use<'a> {
     let pieces: Vec<(&Data<'_>, Range<usize>)> =
@@ -188,7 +188,7 @@ pub(super) fn zlib_blocks<'a>(
 pub(super) fn write_in_pieces(
     data: &Data<'_>,
     at_once: usize,
-    (packers, threads): (&Rooms<Packer>, &Threads),
+    (packers, threads): (&ScratchPool<Packer>, &Threads),
     start: usize,
     out: &mut (impl Write + Seek),
 ) -> io::Result<usize> {

@@ -262,7 +262,7 @@ impl VtuReader {
         self.tag(section, kind.name).filter(|tag| tag.components == kind.width() + usize::from(is_plane_vector(kind)))
     }
 
-    /// Components of a position that its fields tell of: 2 in the plane, 3 in space.
+    /// Components of a position that its fields tell of: 2 in 2D, 3 in 3D.
     pub(crate) fn dimension(&self, cells: &Cells) -> usize {
         let has_six = self.tag("CellData", "stress").is_some_and(|tag| tag.components == 6);
         if has_six || cells.kinds.iter().any(|kind| kind.dimension() == 3) { 3 } else { 2 }
@@ -295,7 +295,7 @@ impl VtuReader {
         Ok(first_of(self.floats(&tag, places, wanted)?, kind.width(), tag.components))
     }
 
-    /// Obstacles of a file of obstacles, by their numbers: lines in the plane, in space facets.
+    /// Obstacles of a file of obstacles, by their numbers: lines in 2D, in 3D facets.
     pub(crate) fn outlines(&mut self) -> Result<Vec<(usize, Outline)>, ResultsError> {
         let frame = self.frame(3, &[])?;
         let numbers = {

@@ -21,7 +21,7 @@ output.pictures = false
 /// was looked up among the elements.
 #[test]
 fn lanes_without_an_element_are_never_alive() {
-    let model = load_text("model.toml", MEETING, Path::new("."), &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+    let model = load_text("model.toml", MEETING, Path::new("."), &[]).unwrap_or_else(|reported| panic!("{}", reported.rendered));
     let options = Options { threads: 1, simd: None };
     let mut simulation = Simulation::new(&model, &options).unwrap();
     simulation.advance(f64::INFINITY, 1).unwrap();

@@ -1,4 +1,4 @@
-//! Pictures of models of space: a bent bar of hexahedra, a ball of tetrahedra, two tubes that cross,
+//! Pictures of models in 3D: a bent bar of hexahedra, a ball of tetrahedra, two tubes that cross,
 //! obstacles. Pixels are sampled where a body must be seen and where another hides it.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 

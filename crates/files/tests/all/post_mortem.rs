@@ -1,6 +1,6 @@
 //! Post-mortems without the program: a search that is stopped, and where keys stand.
 
-use embate_files::Reach;
+use embate_files::PathPolicy;
 use embate_files::model_file::{self, KeyPlace};
 use embate_files::post_mortem::{Failed, PAGE};
 use embate_solver::output::Frame;
@@ -28,7 +28,7 @@ fn a_search_that_is_stopped_leaves_a_page_of_the_failure_alone() {
     let results = Path::new(env!("CARGO_TARGET_TMPDIR")).join("post-mortem-stopped");
     let _ = fs::remove_dir_all(&results);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../failures/inverted-element");
-    let loaded = model_file::load_with_places(&path, &[], Reach::Folder).unwrap();
+    let loaded = model_file::load_with_places(&path, &[], PathPolicy::Folder).unwrap();
     let options = Options { threads: 1, simd: None };
     let mut simulation = Simulation::new(&loaded.model, &options).unwrap();
     let error = simulation.run(&mut Deaf).unwrap_err();
@@ -46,15 +46,15 @@ fn a_search_that_is_stopped_leaves_a_page_of_the_failure_alone() {
     failed.write(&stopped, &results).unwrap();
     let page = fs::read_to_string(results.join(PAGE)).unwrap();
     assert!(page.contains("element 178 of part \"pad\"") && page.contains("going to it once more was stopped"), "{page}");
-    assert!(results.join("post-mortem/neighbourhood.svg").exists() && !results.join("post-mortem/culprit.svg").exists());
+    assert!(results.join("post-mortem/neighbourhood.svg").exists() && !results.join("post-mortem/failure-location.svg").exists());
 
     // The whole search replaces it, and has the state of the last good step.
     let found = failed.findings(|| true);
     assert_eq!(found.last_good.as_ref().map(|state| state.step), Some(simulation.steps() - 1));
     failed.write(&found, &results).unwrap();
     let page = fs::read_to_string(results.join(PAGE)).unwrap();
-    assert!(page.contains("once more from the start") && page.contains("](culprit.svg)"), "{page}");
-    assert!(results.join("post-mortem/culprit.svg").exists() && !results.join("post-mortem.part").exists());
+    assert!(page.contains("once more from the start") && page.contains("](failure-location.svg)"), "{page}");
+    assert!(results.join("post-mortem/failure-location.svg").exists() && !results.join("post-mortem.part").exists());
 }
 
 #[test]

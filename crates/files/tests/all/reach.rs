@@ -3,7 +3,7 @@
 
 use embate_files::abaqus::import::{Units, import};
 use embate_files::model_file::{Diagnostics, load, load_text, load_with_places};
-use embate_files::{Reach, abaqus};
+use embate_files::{PathPolicy, abaqus};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -27,31 +27,31 @@ fn model(file: &str) -> String {
 }
 
 /// Reads a model whose mesh is this file.
-fn named(folder: &Path, file: &str, reach: Reach) -> Result<(), Diagnostics> {
+fn named(folder: &Path, file: &str, reach: PathPolicy) -> Result<(), Diagnostics> {
     let path = folder.join("model/model.toml");
     fs::write(&path, model(file)).unwrap();
     load_with_places(&path, &[], reach).map(drop)
 }
 
-/// It is refused with its place, reason and cure, and read where leave is given.
+/// It is refused with its place, reason and remedy, and read where leave is given.
 #[track_caller]
 fn is_outside(folder: &Path, file: &str, reason: &str) {
-    let told = named(folder, file, Reach::Folder).unwrap_err();
-    let [fault] = &told.entries[..] else { panic!("{}", told.rendered) };
+    let reported = named(folder, file, PathPolicy::Folder).unwrap_err();
+    let [fault] = &reported.entries[..] else { panic!("{}", reported.rendered) };
     assert_eq!(
         (fault.kind.code, fault.line, fault.column, fault.path.as_str()),
         ("E0124", 7, 17, "part[0].mesh.file"),
         "{}",
-        told.rendered
+        reported.rendered
     );
-    assert!(fault.message.contains("leads out of the model's folder") && fault.message.contains(reason), "{}", told.rendered);
-    assert!(told.rendered.contains("mesh = { file = ") && fault.help.contains("--allow-outside"), "{}", told.rendered);
-    named(folder, file, Reach::Anywhere).unwrap_or_else(|told| panic!("{}", told.rendered));
+    assert!(fault.message.contains("leads out of the model's folder") && fault.message.contains(reason), "{}", reported.rendered);
+    assert!(reported.rendered.contains("mesh = { file = ") && fault.help.contains("--allow-outside"), "{}", reported.rendered);
+    named(folder, file, PathPolicy::Anywhere).unwrap_or_else(|reported| panic!("{}", reported.rendered));
 }
 
 #[track_caller]
 fn is_inside(folder: &Path, file: &str) {
-    named(folder, file, Reach::Folder).unwrap_or_else(|told| panic!("{}", told.rendered));
+    named(folder, file, PathPolicy::Folder).unwrap_or_else(|reported| panic!("{}", reported.rendered));
 }
 
 #[test]
@@ -110,18 +110,18 @@ fn links_are_followed_and_their_end_decides() {
     symlink("nowhere", own.join("dangling.inp")).unwrap();
     symlink("round.inp", own.join("round.inp")).unwrap();
     for file in ["dangling.inp", "round.inp"] {
-        let told = named(&folder, file, Reach::Folder).unwrap_err();
-        assert!(told.rendered.contains("E0220") && told.rendered.contains("there is no file"), "{}", told.rendered);
+        let reported = named(&folder, file, PathPolicy::Folder).unwrap_err();
+        assert!(reported.rendered.contains("E0220") && reported.rendered.contains("there is no file"), "{}", reported.rendered);
     }
 }
 
 #[test]
-fn what_is_outside_is_told_whether_it_is_there_or_not() {
+fn what_is_outside_is_reported_whether_it_is_there_or_not() {
     let folder = laid_out("reach-nothing");
-    let told = named(&folder, "../nothing.inp", Reach::Folder).unwrap_err();
-    assert!(told.rendered.contains("E0124") && !told.rendered.contains("E0220"), "{}", told.rendered);
-    let told = named(&folder, "../nothing.inp", Reach::Anywhere).unwrap_err();
-    assert!(told.rendered.contains("E0220"), "{}", told.rendered);
+    let reported = named(&folder, "../nothing.inp", PathPolicy::Folder).unwrap_err();
+    assert!(reported.rendered.contains("E0124") && !reported.rendered.contains("E0220"), "{}", reported.rendered);
+    let reported = named(&folder, "../nothing.inp", PathPolicy::Anywhere).unwrap_err();
+    assert!(reported.rendered.contains("E0220"), "{}", reported.rendered);
 }
 
 #[cfg(unix)]
@@ -129,8 +129,8 @@ fn what_is_outside_is_told_whether_it_is_there_or_not() {
 fn backslashes_are_no_separators_and_the_cure_says_so() {
     let folder = laid_out("reach-backslashes");
     for file in [r"below\mesh.inp", r"..\mesh.inp", r"C:\mesh.inp"] {
-        let told = named(&folder, file, Reach::Folder).unwrap_err();
-        assert!(told.rendered.contains("E0220") && told.rendered.contains("stands / on every system"), "{}", told.rendered);
+        let reported = named(&folder, file, PathPolicy::Folder).unwrap_err();
+        assert!(reported.rendered.contains("E0220") && reported.rendered.contains("stands / on every system"), "{}", reported.rendered);
     }
 }
 
@@ -143,16 +143,16 @@ fn a_deck_includes_files_of_the_models_folder_alone() {
     let faults = abaqus::read(&folder.join("model/below/deck.inp"), 1.0).unwrap_err();
     assert!(faults[0].kind.code == "E0124" && faults[0].path.ends_with("deck.inp, line 1"), "{}", faults[0]);
     fs::write(folder.join("model/below/deck.inp"), "** meshes of all\n*INCLUDE, INPUT=\"../../mesh.inp\"\n").unwrap();
-    let told = named(&folder, "below/deck.inp", Reach::Folder).unwrap_err();
-    let [fault] = &told.entries[..] else { panic!("{}", told.rendered) };
-    assert_eq!((fault.kind.code, fault.line), ("E0124", 7), "{}", told.rendered);
-    assert!(fault.message.contains("deck.inp, line 2: \"../../mesh.inp\" leads out of the model's folder"), "{}", told.rendered);
-    named(&folder, "below/deck.inp", Reach::Anywhere).unwrap_or_else(|told| panic!("{}", told.rendered));
+    let reported = named(&folder, "below/deck.inp", PathPolicy::Folder).unwrap_err();
+    let [fault] = &reported.entries[..] else { panic!("{}", reported.rendered) };
+    assert_eq!((fault.kind.code, fault.line), ("E0124", 7), "{}", reported.rendered);
+    assert!(fault.message.contains("deck.inp, line 2: \"../../mesh.inp\" leads out of the model's folder"), "{}", reported.rendered);
+    named(&folder, "below/deck.inp", PathPolicy::Anywhere).unwrap_or_else(|reported| panic!("{}", reported.rendered));
     // An import has the deck's folder, and the same leave.
     let units = Units::default();
-    let faults = import(&folder.join("model/below/deck.inp"), &units, Reach::Folder).map(drop).unwrap_err();
+    let faults = import(&folder.join("model/below/deck.inp"), &units, PathPolicy::Folder).map(drop).unwrap_err();
     assert!(faults[0].kind.code == "E0124" && faults[0].message.contains("the deck's folder"), "{}", faults[0]);
-    let faults = import(&folder.join("model/below/deck.inp"), &units, Reach::Anywhere).map(drop).unwrap_err();
+    let faults = import(&folder.join("model/below/deck.inp"), &units, PathPolicy::Anywhere).map(drop).unwrap_err();
     assert!(faults.iter().all(|fault| fault.kind.code != "E0124"), "a mesh alone is no model: {}", faults[0]);
 }
 
@@ -169,9 +169,9 @@ fn what_is_no_file_is_not_waited_for() {
     let folder = laid_out("reach-pipe");
     let pipe = folder.join("model/pipe.inp");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    assert!(named(&folder, "pipe.inp", Reach::Folder).unwrap_err().rendered.contains("there is no file"));
+    assert!(named(&folder, "pipe.inp", PathPolicy::Folder).unwrap_err().rendered.contains("there is no file"));
     fs::write(folder.join("model/deck.inp"), "*INCLUDE, INPUT=pipe.inp\n").unwrap();
-    let told = named(&folder, "deck.inp", Reach::Folder).unwrap_err();
-    assert!(told.rendered.contains("it is no file"), "{}", told.rendered);
+    let reported = named(&folder, "deck.inp", PathPolicy::Folder).unwrap_err();
+    assert!(reported.rendered.contains("it is no file"), "{}", reported.rendered);
     assert!(abaqus::read(&pipe, 1.0).unwrap_err()[0].message.contains("it is no file"));
 }

@@ -108,7 +108,7 @@ fn names_that_are_code_of_a_page_are_shown_as_text() {
 }
 
 #[test]
-fn a_failed_run_is_told_with_its_error_and_its_post_mortem() {
+fn a_failed_run_is_reported_with_its_error_and_its_post_mortem() {
     let error = "\"failed\", \"post_mortem\": \"post-mortem/README.md\"";
     let summary =
         SUMMARY.replace("\"done\"", error).replace("\"error\": null", "\"error\": \"E0601: element 3 of part <bar> turned inside out\"");
@@ -126,10 +126,10 @@ fn a_failed_run_is_told_with_its_error_and_its_post_mortem() {
 }
 
 #[test]
-fn a_run_that_goes_on_is_told_as_one_with_what_it_has_so_far() {
+fn a_run_that_continues_is_reported_as_one_with_what_it_has_so_far() {
     let page = of("grows", &[("run.json", RUN), ("history.csv.part", &format!("{HISTORY}2e-4,1e-6,4"))]).unwrap();
     assert_is_sound(&page);
-    for part in ["the run goes on, or was cut off", "100 µs", "<th scope=\"col\" class=\"n\">now</th>", "none yet"] {
+    for part in ["the run continues, or was cut off", "100 µs", "<th scope=\"col\" class=\"n\">now</th>", "none yet"] {
         assert!(page.contains(part), "{part}\n{page}");
     }
     assert!(!page.contains("Figures of the run"));
@@ -187,7 +187,7 @@ fn no_damage_panics_and_what_is_written_of_it_is_sound() {
         state
     };
     let whole = [("summary.json", SUMMARY), ("run.json", RUN), ("history.csv", HISTORY)];
-    let mut told = 0;
+    let mut reported = 0;
     for round in 0..600 {
         let mut files: Vec<(&str, Vec<u8>)> = whole.iter().map(|(name, text)| (*name, text.as_bytes().to_vec())).collect();
         let bytes = &mut files[round % 3].1;
@@ -202,10 +202,10 @@ fn no_damage_panics_and_what_is_written_of_it_is_sound() {
         let files: Vec<(&str, &[u8])> = files.iter().map(|(name, bytes)| (*name, bytes.as_slice())).collect();
         match page(&folder("damage", &files)) {
             Ok(page) => assert_is_sound(&page),
-            Err(error) => told += usize::from(["E0721", "E0722"].contains(&error.kind().code)),
+            Err(error) => reported += usize::from(["E0721", "E0722"].contains(&error.kind().code)),
         }
     }
-    assert!(told > 300, "{told}");
+    assert!(reported > 300, "{reported}");
     let odd = SUMMARY
         .replace("1e-5", "1e308")
         .replace("\"done\"", "7")

@@ -101,14 +101,14 @@ fn record(folder: &Path, on_progress: OnProgress<'_>, error: Option<&str>) -> Ou
     recorder.finish(error.map(ToString::to_string), &summary(done), || Some(0.5))
 }
 
-fn go_on<'a>() -> OnProgress<'a> {
+fn continue_run<'a>() -> OnProgress<'a> {
     Box::new(|_| Control::Continue)
 }
 
 #[test]
 fn a_finished_run_has_all_its_files_and_no_parts() {
     let folder = fresh("finished");
-    let outcome = record(&folder, go_on(), None);
+    let outcome = record(&folder, continue_run(), None);
     assert!(outcome.unwritten.is_none());
     assert_eq!(outcome.report.status, RunStatus::Done);
     let found = names(&folder);
@@ -125,7 +125,7 @@ fn a_finished_run_has_all_its_files_and_no_parts() {
 #[test]
 fn the_summary_has_its_keys_in_order() {
     let folder = fresh("summary");
-    record(&folder, go_on(), None);
+    record(&folder, continue_run(), None);
     let text = fs::read_to_string(folder.join("summary.json")).unwrap();
     let keys: Vec<&str> =
         text.lines().filter(|l| l.starts_with("  \"")).map(|l| l.trim().split('"').nth(1).unwrap()).filter(|k| !k.is_empty()).collect();
@@ -170,7 +170,7 @@ fn the_summary_has_its_keys_in_order() {
 #[test]
 fn a_failed_run_keeps_its_results_and_says_why() {
     let folder = fresh("failed");
-    let outcome = record(&folder, go_on(), Some("element 3 turned inside out"));
+    let outcome = record(&folder, continue_run(), Some("element 3 turned inside out"));
     assert_eq!(outcome.report.status, RunStatus::Failed);
     let value: serde_json::Value = serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap();
     assert_eq!((value["status"].as_str(), value["error"].as_str()), (Some("failed"), Some("element 3 turned inside out")));
@@ -188,7 +188,7 @@ fn a_stopped_run_keeps_its_results() {
 #[test]
 fn an_existing_result_is_refused_and_untouched() {
     let folder = fresh("existing");
-    record(&folder, go_on(), None);
+    record(&folder, continue_run(), None);
     let before = fs::read(folder.join("summary.json")).unwrap();
     let error = ResultFolder::create(&folder, false).unwrap_err();
     assert!(matches!(error, ResultsError::Exists { .. }));
@@ -209,7 +209,7 @@ fn a_run_that_was_killed_counts_as_a_result() {
 #[test]
 fn force_removes_only_files_that_embate_makes() {
     let folder = fresh("forced");
-    record(&folder, go_on(), None);
+    record(&folder, continue_run(), None);
     fs::write(folder.join("notes.txt"), "mine").unwrap();
     fs::write(folder.join("fields/frame-old.vtu"), "mine").unwrap();
     ResultFolder::create(&folder, true).unwrap();
@@ -245,7 +245,7 @@ fn two_runs_never_share_a_folder() {
         assert!(matches!(ResultFolder::create(&folder, force).unwrap_err(), ResultsError::InUse { path } if path == folder));
     }
     // Until the last file is there.
-    let running = Recorder::new(first, &model(), columns(), cells(), 1, go_on()).unwrap();
+    let running = Recorder::new(first, &model(), columns(), cells(), 1, continue_run()).unwrap();
     assert!(matches!(ResultFolder::create(&folder, true), Err(ResultsError::InUse { .. })));
     assert!(running.finish(None, &summary(10), || None).unwritten.is_none());
     ResultFolder::create(&folder, true).unwrap();
@@ -255,7 +255,7 @@ fn two_runs_never_share_a_folder() {
 #[test]
 fn a_row_of_the_wrong_length_is_an_error() {
     let folder = ResultFolder::create(&fresh("row"), false).unwrap();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, continue_run()).unwrap();
     assert!(recorder.row(&[1.0]).unwrap_err().to_string().contains("1 values for 2 columns"));
 }
 
@@ -263,7 +263,7 @@ fn a_row_of_the_wrong_length_is_an_error() {
 fn the_last_state_is_not_written_twice() {
     let folder = ResultFolder::create(&fresh("twice"), false).unwrap();
     let path = folder.path().to_path_buf();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, continue_run()).unwrap();
     for step in [0, 5, 5] {
         recorder.frame(frame(step)).unwrap();
     }
@@ -274,7 +274,7 @@ fn the_last_state_is_not_written_twice() {
 fn a_lost_folder_is_reported_with_its_path() {
     let folder = ResultFolder::create(&fresh("lost"), false).unwrap();
     let path = folder.path().to_path_buf();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 1, continue_run()).unwrap();
     fs::remove_dir_all(&path).unwrap();
     let error = recorder.frame(frame(0)).unwrap_err().to_string();
     assert!(error.contains("lost") && error.contains("frame-00000.vtu"), "{error}");
@@ -284,12 +284,12 @@ fn a_lost_folder_is_reported_with_its_path() {
 }
 
 #[test]
-fn a_writer_beside_the_run_tells_of_a_lost_folder_too() {
+fn a_writer_beside_the_run_reports_of_a_lost_folder_too() {
     let folder = ResultFolder::create(&fresh("lost-beside"), false).unwrap();
     let path = folder.path().to_path_buf();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 3, go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 3, continue_run()).unwrap();
     fs::remove_dir_all(&path).unwrap();
-    // The queue holds a few frames that nobody has tried to write yet.
+    // The queue holds a few frames that no one has tried to write yet.
     let error = (0..10).find_map(|step| recorder.frame(frame(step)).err()).expect("the run is told").to_string();
     assert!(error.contains("lost-beside") && error.contains("frame-00000.vtu"), "{error}");
     let outcome = recorder.finish(None, &summary(10), || None);
@@ -297,10 +297,10 @@ fn a_writer_beside_the_run_tells_of_a_lost_folder_too() {
 
     let folder = ResultFolder::create(&fresh("lost-at-the-end"), false).unwrap();
     let path = folder.path().to_path_buf();
-    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 3, go_on()).unwrap();
+    let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 3, continue_run()).unwrap();
     fs::remove_dir_all(&path).unwrap();
-    let told = recorder.frame(frame(0)).map_err(|error| error.to_string());
-    let outcome = recorder.finish(told.as_ref().err().cloned(), &summary(10), || None);
+    let reported = recorder.frame(frame(0)).map_err(|error| error.to_string());
+    let outcome = recorder.finish(reported.as_ref().err().cloned(), &summary(10), || None);
     assert_eq!(outcome.report.status, RunStatus::Failed);
     let error = outcome.report.error.unwrap();
     assert!(error.contains("frame-00000.vtu"), "what went wrong first is told: {error}");
@@ -311,7 +311,7 @@ fn rows_between_frames_are_written_in_their_order() {
     for threads in [1, 2] {
         let path = fresh(&format!("rows-{threads}"));
         let mut recorder =
-            Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), threads, go_on()).unwrap();
+            Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), threads, continue_run()).unwrap();
         for step in 0..20_000 {
             recorder.row(&[f64::from(step), 1.0]).unwrap();
             if step % 3000 == 0 {
@@ -379,14 +379,14 @@ fn a_real_run_leaves_the_same_bytes_for_any_number_of_threads() {
     "#;
     let path = folder.join("model.toml");
     fs::write(&path, text).unwrap();
-    let model = embate_files::model_file::load(&path, &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+    let model = embate_files::model_file::load(&path, &[]).unwrap_or_else(|reported| panic!("{}", reported.rendered));
     let run = |threads: usize| {
         let options = Options { threads, simd: None };
         let mut simulation = Simulation::new(&model, &options).unwrap();
         let own = folder.join(threads.to_string());
         let results = ResultFolder::create(&own, false).unwrap();
         let (columns, cells) = (simulation.history_columns(), simulation.cells());
-        let mut recorder = Recorder::new(results, &model, columns, cells, threads, go_on()).unwrap();
+        let mut recorder = Recorder::new(results, &model, columns, cells, threads, continue_run()).unwrap();
         simulation.run(&mut recorder).unwrap();
         let outcome = recorder.finish(None, &simulation.summary(), || Some(1.0));
         assert!(outcome.unwritten.is_none() && outcome.report.warnings.is_empty(), "{:?}", outcome.report.warnings);
@@ -417,7 +417,7 @@ fn frame_with_obstacles(step: u64) -> Frame {
 
 fn record_obstacles(name: &str) -> PathBuf {
     let path = fresh(name);
-    let mut recorder = Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), 1, go_on()).unwrap();
+    let mut recorder = Recorder::new(ResultFolder::create(&path, false).unwrap(), &model(), columns(), cells(), 1, continue_run()).unwrap();
     for step in 0..=10 {
         recorder.frame(frame_with_obstacles(step)).unwrap();
         recorder.row(&[step as f64 * 1e-4, 5.0]).unwrap();
@@ -436,7 +436,7 @@ fn obstacles_have_a_collection_of_their_own_with_the_times_of_the_fields() {
     assert_eq!(names(&folder), ["fields"], "all of them are removed with the others");
     assert!(names(&folder.join("fields")).is_empty());
     let without = fresh("no-obstacles");
-    record(&without, go_on(), None);
+    record(&without, continue_run(), None);
     assert!(!without.join("obstacles.pvd").exists());
 }
 
@@ -445,7 +445,7 @@ fn obstacles_have_a_collection_of_their_own_with_the_times_of_the_fields() {
 #[test]
 fn python_reads_the_results_back() {
     let folder = fresh("read-back");
-    record(&folder, go_on(), None);
+    record(&folder, continue_run(), None);
     let with_obstacles = record_obstacles("read-back-obstacles");
     let Some(python) = std::env::var_os("EMBATE_PYTHON") else {
         eprintln!("skipped: EMBATE_PYTHON names no interpreter");

@@ -48,14 +48,14 @@ fn model(obstacle: &str) -> String {
 
 /// The surface of the obstacle.
 fn surface(folder: &Path, obstacle: &str) -> Arc<TriangleSurface> {
-    let model = load_text("model.toml", &model(obstacle), folder, &[]).unwrap_or_else(|told| panic!("{told}"));
+    let model = load_text("model.toml", &model(obstacle), folder, &[]).unwrap_or_else(|reported| panic!("{reported}"));
     let ObstacleShape::Triangles(surface) = &model.obstacles[0].shape else { panic!("{:?}", model.obstacles[0].shape) };
     Arc::clone(surface)
 }
 
 /// Code, path and words of the faults.
-fn told(folder: &Path, obstacle: &str) -> Vec<String> {
-    let entries = load_text("model.toml", &model(obstacle), folder, &[]).map_or_else(|told| told.entries, |_| Vec::new());
+fn reported(folder: &Path, obstacle: &str) -> Vec<String> {
+    let entries = load_text("model.toml", &model(obstacle), folder, &[]).map_or_else(|reported| reported.entries, |_| Vec::new());
     entries.iter().map(|fault| format!("{} {}: {}", fault.kind.code, fault.path, fault.message)).collect()
 }
 
@@ -77,7 +77,7 @@ fn an_obstacle_is_the_surface_of_its_file_scaled_turned_and_moved() {
 }
 
 #[test]
-fn files_that_make_no_obstacle_are_told_at_their_key() {
+fn files_that_make_no_obstacle_are_reported_at_their_key() {
     let mut turned = FACETS;
     turned[2].swap(0, 1);
     let mut flat = FACETS;
@@ -95,10 +95,10 @@ fn files_that_make_no_obstacle_are_told_at_their_key() {
             ("flat.stl", text(&flat).as_bytes()),
         ],
     );
-    let file = |file: &str| told(&folder, &format!("stl.file = \"{file}\""));
+    let file = |file: &str| reported(&folder, &format!("stl.file = \"{file}\""));
     for (name, code, words) in [
         ("cut.stl", "E0240", "the file ends where"),
-        ("cut-binary.stl", "E0240", "its header tells of 4 triangles, but the file holds 2 and 40 bytes of another one"),
+        ("cut-binary.stl", "E0240", "its header announces 4 triangles, but the file holds 2 and 40 bytes of another one"),
         ("nan.stl", "E0240", "here stands `nan`, but a finite number should"),
         ("empty.stl", "E0240", "the file has 0 bytes"),
         ("none.stl", "E0240", "the file holds no triangles"),
@@ -111,8 +111,8 @@ fn files_that_make_no_obstacle_are_told_at_their_key() {
         let head = format!("{code} obstacle[0].stl.file: ");
         assert!(!found.is_empty() && found[0].starts_with(&head) && found[0].contains(words), "{name}: {found:?}");
     }
-    assert_eq!(told(&folder, "stl = { file = \"cut.stl\", scale = \"1 s\" }").len(), 1);
-    assert!(told(&folder, "stl.scale = 1")[0].contains("has no `file`"));
+    assert_eq!(reported(&folder, "stl = { file = \"cut.stl\", scale = \"1 s\" }").len(), 1);
+    assert!(reported(&folder, "stl.scale = 1")[0].contains("has no `file`"));
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use embate_files::checkpoint::Origin;
 use embate_files::model_file;
 use embate_files::results::{Checkpoints, History, Recorder, ResultFolder, ResultsError};
-use embate_files::view::{Bodies, ResultView, Wish, frame, gone, outlines};
+use embate_files::view::{Bodies, FrameRequest, ResultView, frame, gone, outlines};
 use embate_solver::output::{Frame, Shown};
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
 use serde_json::Value;
@@ -63,7 +63,7 @@ impl Observer for Kept<'_> {
 
 /// Runs a model into a folder; its frames.
 fn run(text: &str, folder: &Path) -> (Vec<Frame>, Simulation) {
-    let model = model_file::load_text("model.toml", text, folder, &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+    let model = model_file::load_text("model.toml", text, folder, &[]).unwrap_or_else(|reported| panic!("{}", reported.rendered));
     let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
     let results = ResultFolder::create(folder, true).unwrap();
     let shown = (simulation.history_columns(), simulation.cells());
@@ -76,8 +76,8 @@ fn run(text: &str, folder: &Path) -> (Vec<Frame>, Simulation) {
     (kept.frames, simulation)
 }
 
-fn wish(scalar: &str) -> Wish {
-    Wish { scalar: Some(scalar.into()), arrows: true }
+fn frame_request(scalar: &str) -> FrameRequest {
+    FrameRequest { scalar: Some(scalar.into()), arrows: true }
 }
 
 /// Head of a container.
@@ -105,8 +105,8 @@ fn frames_of_a_folder_are_those_that_the_simulation_has_shown() {
         let bodies = Bodies::new(simulation.cells(), &frames[0]);
         for (number, shown) in frames.iter().enumerate() {
             for scalar in scalars {
-                let from_file = view.frame(number, &wish(scalar)).unwrap().unwrap().bytes();
-                let direct = frame(&bodies, &bodies.without(&gone(shown)), shown, &outlines(shown), &wish(scalar)).bytes();
+                let from_file = view.frame(number, &frame_request(scalar)).unwrap().unwrap().bytes();
+                let direct = frame(&bodies, &bodies.without(&gone(shown)), shown, &outlines(shown), &frame_request(scalar)).bytes();
                 for name in ["positions", "values", "arrow_nodes", "arrows"] {
                     assert!(array(&from_file, name) == array(&direct, name), "{name} of {scalar} in frame {number}");
                 }
@@ -115,7 +115,7 @@ fn frames_of_a_folder_are_those_that_the_simulation_has_shown() {
                 assert!(!array(&from_file, "values").is_empty(), "{scalar}");
             }
         }
-        assert!(view.frame(frames.len(), &wish("velocity")).unwrap().is_none());
+        assert!(view.frame(frames.len(), &frame_request("velocity")).unwrap().is_none());
     }
 }
 
@@ -126,8 +126,8 @@ fn eroded_cells_have_gone_from_the_topology_of_their_frame() {
     let last = frames.len() - 1;
     assert!(!gone(&frames[last]).is_empty(), "the tip is lost");
     let view = ResultView::open(&folder).unwrap();
-    let first = head(&view.frame(0, &wish("velocity")).unwrap().unwrap().bytes());
-    let end = head(&view.frame(last, &wish("velocity")).unwrap().unwrap().bytes());
+    let first = head(&view.frame(0, &frame_request("velocity")).unwrap().unwrap().bytes());
+    let end = head(&view.frame(last, &frame_request("velocity")).unwrap().unwrap().bytes());
     assert_ne!(first["topology"], end["topology"]);
     let topology = view.bodies().numbered(end["topology"].as_u64().unwrap() as usize).unwrap();
     let bytes = view.bodies().container(&topology).bytes();
@@ -155,7 +155,7 @@ fn a_probe_is_the_value_in_every_frame_and_the_range_is_over_all_of_them() {
 }
 
 #[test]
-fn the_description_tells_what_the_model_is_and_how_it_wants_to_be_shown() {
+fn the_description_reports_what_the_model_is_and_how_it_wants_to_be_shown() {
     let folder = fresh("view-description");
     run(PLANE, &folder);
     let description = ResultView::open(&folder).unwrap().description().unwrap();
@@ -178,7 +178,7 @@ fn the_description_tells_what_the_model_is_and_how_it_wants_to_be_shown() {
 }
 
 #[test]
-fn a_run_that_goes_on_is_shown_as_far_as_it_is() {
+fn a_run_that_continues_is_shown_as_far_as_it_is() {
     let folder = fresh("view-going-on");
     run(PLANE, &folder);
     fs::remove_file(folder.join("summary.json")).unwrap();
@@ -212,7 +212,7 @@ fn what_is_no_folder_of_results_is_refused_with_what_it_is() {
 }
 
 #[test]
-fn damaged_files_are_told_by_name_and_the_others_are_shown_all_the_same() {
+fn damaged_files_are_reported_by_name_and_the_others_are_shown_all_the_same() {
     let folder = fresh("view-damaged");
     run(PLANE, &folder);
     let file = folder.join("fields/frame-00003.vtu");
@@ -220,16 +220,16 @@ fn damaged_files_are_told_by_name_and_the_others_are_shown_all_the_same() {
     let view = ResultView::open(&folder).unwrap();
     for damaged in [&sound[..sound.len() / 2], &sound[..200], b"", b"<VTKFile/>"] {
         fs::write(&file, damaged).unwrap();
-        let error = view.frame(3, &wish("velocity")).unwrap_err().to_string();
+        let error = view.frame(3, &frame_request("velocity")).unwrap_err().to_string();
         assert!(error.contains("frame-00003.vtu") && error.contains("run the model again"), "{error}");
-        assert!(view.frame(4, &wish("velocity")).unwrap().is_some());
+        assert!(view.frame(4, &frame_request("velocity")).unwrap().is_some());
         assert!(view.range("velocity").is_err() && view.probe("velocity", 0).is_err());
     }
     // A frame of another mesh.
     let other = fresh("view-damaged-other");
     run(&PLANE.replace("[8, 4]", "[4, 2]"), &other);
     fs::copy(other.join("fields/frame-00003.vtu"), &file).unwrap();
-    assert!(view.frame(3, &wish("velocity")).unwrap_err().to_string().contains("the first frame has"));
+    assert!(view.frame(3, &frame_request("velocity")).unwrap_err().to_string().contains("the first frame has"));
     fs::write(folder.join("summary.json"), "{ \"model\":").unwrap();
     assert!(matches!(view.description(), Err(ResultsError::Damaged { .. })));
     fs::write(folder.join("history.csv"), "time,energy.total\n0,1\n1\n").unwrap();

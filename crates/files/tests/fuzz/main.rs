@@ -5,7 +5,7 @@
 //! (two seconds each if nothing is said). Inputs are those of the other tests (`--write DIR` writes them
 //! there) with bytes flipped, cut out, doubled, put in from elsewhere, and numbers made large, negative or
 //! none; input number N is always the same. States and checkpoints are damaged behind their check sums.
-#![allow(clippy::unwrap_used)] // what is found is told with its number
+#![allow(clippy::unwrap_used)] // what is found is reported with its number
 
 mod damage;
 mod targets;
@@ -35,7 +35,7 @@ fn main() {
         targets.iter().for_each(|target| write(target, &Path::new(&folder).join(target.name)));
         return;
     }
-    // Of one input alone the panic tells its place.
+    // Of one input alone the panic reports its place.
     if count > 1 {
         std::panic::set_hook(Box::new(|_| {}));
     }

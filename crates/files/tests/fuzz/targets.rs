@@ -6,7 +6,7 @@
 use embate_files::checkpoint::{self, Checkpoint};
 use embate_files::results::{Recorder, ResultFolder};
 use embate_files::threads::Threads;
-use embate_files::view::{ResultView, Wish};
+use embate_files::view::{FrameRequest, ResultView};
 use embate_files::{abaqus, gmsh, model_file};
 use embate_solver::archive::Section;
 use embate_solver::model::Model;
@@ -89,7 +89,8 @@ output.pictures = false
 
 /// The meeting after some steps.
 fn met() -> (Model, Simulation) {
-    let model: Model = model_file::load_text("model.toml", MEETING, Path::new("."), &[]).unwrap_or_else(|told| panic!("{}", told.rendered));
+    let model: Model =
+        model_file::load_text("model.toml", MEETING, Path::new("."), &[]).unwrap_or_else(|reported| panic!("{}", reported.rendered));
     let mut simulation = Simulation::new(&model, &ALONE).unwrap();
     simulation.advance(f64::INFINITY, 30).unwrap();
     (model, simulation)
@@ -97,7 +98,7 @@ fn met() -> (Model, Simulation) {
 
 const ALONE: Options = Options { threads: 1, simd: None };
 
-/// Files of checkpoints. Who damages one may make its check sums anew: they are set right where the reader
+/// Files of checkpoints. Who damages one may make its check sums again: they are set right where the reader
 /// looks for them.
 pub fn checkpoint() -> Target {
     let (model, mut simulation) = met();
@@ -174,13 +175,13 @@ pub fn fields() -> Target {
     let sound = fs::read(&files[0]).unwrap();
     let seeds = vec![sound.clone()];
     let read = move |bytes: &[u8]| {
-        // Damaged is the first frame, which tells the mesh, or a later one.
+        // Damaged is the first frame, which reports the mesh, or a later one.
         for damaged in 0..2 {
             fs::write(&files[damaged], bytes).unwrap();
             fs::write(&files[1 - damaged], &sound).unwrap();
             let Ok(view) = ResultView::open(folder.path()) else { continue };
             for scalar in ["velocity", "stress.xy"] {
-                let _ = [0, 1].map(|number| view.frame(number, &Wish { scalar: Some(scalar.into()), arrows: true }));
+                let _ = [0, 1].map(|number| view.frame(number, &FrameRequest { scalar: Some(scalar.into()), arrows: true }));
                 let _ = (view.probe(scalar, 3), view.range(scalar));
             }
             let _ = view.description();

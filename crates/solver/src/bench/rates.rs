@@ -116,7 +116,7 @@ pub fn step(element: &str, law: &str, n: usize, size: Size, options: &Options, s
     Ok(best)
 }
 
-/// Element-steps per second of a simulation that goes on, by rounds of a step.
+/// Element-steps per second of a simulation that continues, by rounds of a step.
 ///
 /// # Errors
 /// A step that fails.
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn every_element_of_space_can_be_measured_in_a_kernel() {
+    fn every_element_of_3d_can_be_measured_in_a_kernel() {
         for kind in crate::element::ELEMENTS_OF_SPACE {
             let patch = Patch::solid(kind.cell, 3);
             let rate = kernel(kind.name, "j2", &patch, Level::best(), 0.0).unwrap();
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_is_told() {
+    fn what_is_not_there_is_reported() {
         assert!(kernel("quad5", "j2", &Patch::new(2), Level::SCALAR, 0.0).is_err());
         assert!(step("quad4", "j3", 2, Size::Small, &Options::default(), 0.0).is_err());
     }

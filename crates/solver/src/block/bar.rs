@@ -1,4 +1,4 @@
-//! Bars between two nodes, in the plane and in space: trusses and cables.
+//! Bars between two nodes, in 2D and 3D: trusses and cables.
 //!
 //! A bar bears a force N = σ A along the line between its nodes; σ is the Cauchy stress of its law under
 //! uniaxial stress, in axes that go with the bar, so a rotation is no strain, whatever its size. The strain
@@ -14,15 +14,15 @@ use super::damping;
 use super::initial::{self, Initial, Wrong};
 use super::make::BlockInput;
 use super::{Block, ElementState, Motion, NodalForces, Report};
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::failure::{Criterion, Seen, failing};
-use crate::material::points::{self, PointLaw, Points, RESPONSE, Room};
+use crate::material::points::{self, PointLaw, Points, RESPONSE, Scratch};
 use crate::material::{Family, Parameters, Variable};
 use crate::tensor::{Dim, Plane, Space, SymmetricTensor, Turn};
 use crate::vector::{dot, minus};
 use embate_lanes::{BATCH, Batch, Level, Team};
 
-/// Components of a tensor of the plane: xx is along the bar.
+/// Components of a tensor in 2D: xx is along the bar.
 const PLANE: usize = 4;
 
 /// One bar.
@@ -47,14 +47,14 @@ struct Bar<const D: usize> {
     is_gone: bool,
 }
 
-impl<const D: usize> Keep for Bar<D> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<const D: usize> Persist for Bar<D> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
             nodes: _, initial: _, mass: _,
             length_old, length, direction, stored, dissipated, damped, damping, time_step_squared, is_gone,
         } = self;
-        keep_each!(archive; length_old, length, direction, stored, dissipated, damped, damping, time_step_squared, is_gone);
+        persist_each!(archive; length_old, length, direction, stored, dissipated, damped, damping, time_step_squared, is_gone);
         Ok(())
     }
 }
@@ -86,7 +86,7 @@ pub(super) struct Bars<const D: usize> {
     /// No rotation, at every point.
     rotation: Vec<Batch>,
     response: Vec<Batch>,
-    room: Room,
+    scratch: Scratch,
 }
 
 /// Length of a bar and its direction; none where the nodes coincide.
@@ -122,12 +122,12 @@ impl<const D: usize> Bars<D> {
         };
         let bars: Vec<Bar<D>> = input.connectivity.as_chunks::<2>().0.iter().map(bar).collect();
         let batches = bars.len().div_ceil(BATCH);
-        let room = |width: usize| vec![Batch::default(); batches * width];
-        let mut history = room(law.state_width());
+        let scratch = |width: usize| vec![Batch::default(); batches * width];
+        let mut history = scratch(law.state_width());
         history.chunks_exact_mut(law.state_width()).for_each(|point| law.start(point));
-        let mut rotation = room(ROTATION);
+        let mut rotation = scratch(ROTATION);
         rotation.chunks_exact_mut(ROTATION).for_each(unturned);
-        let (stress, strain, ratio, heat, response) = (room(PLANE), room(PLANE), room(1), room(1), room(RESPONSE));
+        let (stress, strain, ratio, heat, response) = (scratch(PLANE), scratch(PLANE), scratch(1), scratch(1), scratch(RESPONSE));
         Some(Self {
             law,
             area: input.area,
@@ -141,7 +141,7 @@ impl<const D: usize> Bars<D> {
             heat,
             rotation,
             response,
-            room: Room::default(),
+            scratch: Scratch::default(),
         })
     }
 
@@ -244,7 +244,7 @@ where
                 stress: &mut self.stress,
                 state: &mut self.history,
                 response: &mut self.response,
-                room: &mut self.room,
+                scratch: &mut self.scratch,
             },
         );
         for element in 0..self.bars.len() {
@@ -373,7 +373,7 @@ where
         self.sum()
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self {
             law: _,
             area: _,
@@ -387,10 +387,10 @@ where
             heat: _,
             rotation: _,
             response: _,
-            room: _,
+            scratch: _,
         } = self;
-        bars[..].keep(archive)?;
-        stress[..].keep(archive)?;
-        history[..].keep(archive)
+        bars[..].persist(archive)?;
+        stress[..].persist(archive)?;
+        history[..].persist(archive)
     }
 }

@@ -1,6 +1,6 @@
 //! Storage of a block: batches of eight elements, each quantity of a batch side by side.
 
-use crate::archive::{Archive, Keep, Kept};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use embate_lanes::{BATCH, Batch};
 
 /// Makes a structure of batches whose lanes can be copied; every field is named once, so that none can be
@@ -15,16 +15,16 @@ macro_rules! batches {
         }
 
         impl $name {
-            /// Makes a lane a copy of lane `source` of the batch `from`, but for what tells them apart.
+            /// Makes a lane a copy of lane `source` of the batch `from`, but for what distinguishes them.
             pub(crate) fn copy_lane(&mut self, lane: usize, from: &Self, source: usize) {
                 $(self.$field.0[lane] = from.$field.0[source];)*
             }
         }
 
-        impl Keep for $name {
-            fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-                $(self.$field.keep(archive)?;)*
-                $(self.$kept.keep(archive)?;)*
+        impl Persist for $name {
+            fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+                $(self.$field.persist(archive)?;)*
+                $(self.$kept.persist(archive)?;)*
                 Ok(())
             }
         }

@@ -17,7 +17,7 @@
 
 use super::batch::{ElementBatch, Resistance};
 use super::strain::Tensor;
-use super::strip::{Parts, Strip};
+use super::strip::{Parts, StripBuffers};
 use crate::material::points::RESPONSE;
 use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
@@ -43,7 +43,7 @@ pub(super) struct Damp<'a, const D: usize> {
     /// β, s.
     pub(super) damping: f64,
     pub(super) time_step: f64,
-    pub(super) strip: &'a Strip<D>,
+    pub(super) strip: &'a StripBuffers<D>,
     /// History of the points, batches per point in it, and the place of the thickness ratio.
     pub(super) history: &'a [Batch],
     pub(super) history_width: usize,

@@ -8,7 +8,7 @@
 use super::batch::ElementBatch;
 use super::store::{CHUNK, ElementStore};
 use super::{Block, ElementState, Report};
-use crate::archive::{Kept, Misfit, keep_all};
+use crate::archive::{ArchiveError, ArchiveResult, persist_all};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::Variable;
 use crate::tensor::{Dim, Space};
@@ -27,7 +27,7 @@ pub(super) struct Eroded {
     sources: BTreeMap<usize, Option<usize>>,
 }
 
-keep_all!(Eroded { left, last, sources });
+persist_all!(Eroded { left, last, sources });
 
 impl Default for Eroded {
     fn default() -> Self {
@@ -185,13 +185,13 @@ where
 
     /// Makes all lanes of eroded elements copies again, when the state was filled from outside: of their
     /// initial geometry too.
-    pub(super) fn fill_all_up(&mut self) -> Kept {
+    pub(super) fn fill_all_up(&mut self) -> ArchiveResult {
         let is_possible = |lane: usize| {
             let live = self.elements[lane / BATCH].live.0[lane % BATCH];
             live == 0.0 || (live == 1.0 && lane < self.count)
         };
         if !(0..self.elements.len() * BATCH).all(is_possible) {
-            return Err(Misfit::new("an element is neither there nor gone, or one too many is there"));
+            return Err(ArchiveError::new("an element is neither there nor gone, or one too many is there"));
         }
         let sources = std::mem::take(&mut self.eroded.sources);
         for (&chunk, &source) in &sources {
@@ -201,7 +201,7 @@ where
             let is_possible =
                 !lanes.is_empty() && source.map_or(gone.len() == lanes.len(), |source| lanes.contains(&source) && !gone.contains(&source));
             if !is_possible {
-                return Err(Misfit::new("what stands in for eroded elements is not there"));
+                return Err(ArchiveError::new("what stands in for eroded elements is not there"));
             }
             let Some(source) = source else { continue };
             gone.into_iter().for_each(|lane| self.copy(source, lane));

@@ -16,7 +16,7 @@ use super::Report;
 use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
 use super::strain::{Tensor, averages, circumference, deformation, initial_width, matrix};
-use super::strip::{Parts, Strip};
+use super::strip::{Parts, StripBuffers};
 use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
@@ -25,7 +25,7 @@ use crate::tensor::{Dim, Space, SymmetricTensor, product, scaled};
 use embate_lanes::{Batch, Indices, Lane, math};
 use std::f64::consts::TAU;
 
-/// Elements of a strip after their law has answered. Their forces, N/m in the plane, are added to those on
+/// Elements of a strip after their law has answered. Their forces, N/m in 2D, are added to those on
 /// the nodes of the chunk.
 pub(super) struct Forces<'a, const D: usize> {
     pub(super) family: Family,
@@ -50,7 +50,7 @@ pub(super) struct Forces<'a, const D: usize> {
     pub(super) initial: &'a [Batch],
     /// What the element keeps: [`Element::HOURGLASS`] per element.
     pub(super) hourglass: &'a mut [Batch],
-    pub(super) strip: &'a mut Strip<D>,
+    pub(super) strip: &'a mut StripBuffers<D>,
     pub(super) elements: &'a mut [ElementBatch],
     /// What bulk viscosity and damping remember; empty without them.
     pub(super) resistance: &'a mut [Resistance],
@@ -164,24 +164,26 @@ where
             stored = stored * L::splat(0.5);
         }
         let live = L::load(&self.input.elements[batch].live, at);
-        // In the plane all counts as if it were dilatation; in space that thickness is for dampers, and for
+        // In 2D all counts as if it were dilatation; in 3D that thickness is for dampers, and for
         // the start.
-        let dilates = D == 2 || !self.input.is_elastic || self.input.viscosity.is_some() || E::SWINGS > 0 || self.input.time_step <= 0.0;
+        let dilates =
+            D == 2 || !self.input.is_elastic || self.input.viscosity.is_some() || E::HOURGLASS_MODES > 0 || self.input.time_step <= 0.0;
         let dilating_squared =
-            if dilates { E::thickness_squared(&geometry.x, &geometry.map, geometry.area, zero) } else { [L::splat(1.0); 2] };
-        let thickness_squared = if D == 3 && self.input.is_elastic {
-            E::thickness_squared(&geometry.x, &geometry.map, geometry.area, (shear_least + shear_least) / modulus)
+            if dilates { E::characteristic_length_squared(&geometry.x, &geometry.map, geometry.area, zero) } else { [L::splat(1.0); 2] };
+        let characteristic_length_squared = if D == 3 && self.input.is_elastic {
+            E::characteristic_length_squared(&geometry.x, &geometry.map, geometry.area, (shear_least + shear_least) / modulus)
         } else {
             dilating_squared
         };
         let mass = L::load(&self.input.elements[batch].mass_least, at);
         let (mut pressure, mut stiffening) = (zero, L::splat(1.0));
         if let Some(coefficients) = self.input.viscosity {
-            (pressure, stiffening) = self.viscous(batch, at, coefficients, &geometry, modulus, [thickness_squared, dilating_squared]);
+            (pressure, stiffening) =
+                self.viscous(batch, at, coefficients, &geometry, modulus, [characteristic_length_squared, dilating_squared]);
         }
         let mut held = Held { forces: [[zero; D]; N], flux: [[zero; D]; D], pulls: Pulls::none(), work: zero, stiffening };
         if E::HOURGLASS > 0 {
-            held = self.hold_shape(batch, at, &geometry, [modulus, shear, mass], [thickness_squared, dilating_squared]);
+            held = self.hourglass_forces(batch, at, &geometry, [modulus, shear, mass], [characteristic_length_squared, dilating_squared]);
             stiffening = if D == 2 { stiffening.max(held.stiffening) } else { stiffening * held.stiffening };
         }
         let mut nodal = self.nodal(batch, at, &geometry, pressure, &held);
@@ -193,7 +195,8 @@ where
             }
         }
         // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
-        let time_step_squared = thickness_squared[0] * mass / (thickness_squared[1] * (geometry.volume * modulus) * stiffening);
+        let time_step_squared =
+            characteristic_length_squared[0] * mass / (characteristic_length_squared[1] * (geometry.volume * modulus) * stiffening);
         let time_step_squared = step_squared(time_step_squared, self.input.damping);
         // Nearly every batch is whole.
         let is_whole = !L::any(live.less(L::splat(1.0)));
@@ -374,7 +377,7 @@ where
     /// Pressure of the bulk viscosity, and the square of the stable step without it over that with it; books
     /// its work.
     ///
-    /// Of a sheet in plane stress the pressure acts in the plane alone, and what it takes is −p t dA: so it
+    /// Of a sheet in plane stress the pressure acts in 2D alone, and what it takes is −p t dA: so it
     /// follows the rate of the area, not of the volume, and comes as p t with the mean thickness t.
     #[inline(always)]
     fn viscous<L: Lane>(
@@ -384,7 +387,7 @@ where
         [linear, quadratic]: [f64; 2],
         geometry: &Geometry<L, D, N, P>,
         modulus: L,
-        [thickness_squared, dilating_squared]: [[L; 2]; 2],
+        [characteristic_length_squared, dilating_squared]: [[L; 2]; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let is_plane_stress = self.state.of::<D>().is_plane_stress;
@@ -401,13 +404,13 @@ where
         let [linear, growing] = [L::splat(linear), L::splat(quadratic * quadratic) * length * rate / speed];
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
         let pressure = if is_plane_stress { pressure * depth } else { pressure };
-        let damping = (linear + growing + growing) * length * (thickness_squared[1] / thickness_squared[0]).sqrt();
+        let damping = (linear + growing + growing) * length * (characteristic_length_squared[1] / characteristic_length_squared[0]).sqrt();
         // ζ = (…) l h / h₀² with the thickness h₀ of what dilates alone: the damping is that of the
         // dilatation.
         let damping = if D == 2 {
             damping
         } else {
-            damping * (thickness_squared[0] * dilating_squared[1] / (thickness_squared[1] * dilating_squared[0]))
+            damping * (characteristic_length_squared[0] * dilating_squared[1] / (characteristic_length_squared[1] * dilating_squared[0]))
         };
         let damping = L::select(shrinks, damping, zero);
         let stiffening = (one + damping * damping).sqrt() + damping;
@@ -420,31 +423,31 @@ where
         (pressure, stiffening * stiffening)
     }
 
-    /// Forces of hourglass control, whose work is booked.
+    /// Forces of hourglass control, whose work is entered.
     #[inline(always)]
-    fn hold_shape<L: Lane>(
+    fn hourglass_forces<L: Lane>(
         &mut self,
         batch: usize,
         at: usize,
         geometry: &Geometry<L, D, N, P>,
         [modulus, shear, mass]: [L; 3],
-        [thickness_squared, dilating_squared]: [[L; 2]; 2],
+        [characteristic_length_squared, dilating_squared]: [[L; 2]; 2],
     ) -> Held<L, D, N> {
         let is_plane_stress = self.state.of::<D>().is_plane_stress;
         let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
-        let (changes, keep) = (&self.input.strip.swing[own.clone()], &mut self.input.hourglass[own]);
-        let mut swing = [[L::splat(0.0); D]; PATTERNS];
-        for pattern in 0..E::SWINGS {
+        let (changes, keep) = (&self.input.strip.hourglass_rates[own.clone()], &mut self.input.hourglass[own]);
+        let mut hourglass_rates = [[L::splat(0.0); D]; PATTERNS];
+        for pattern in 0..E::HOURGLASS_MODES {
             for i in 0..D {
-                swing[pattern][i] = L::load(&changes[pattern * D + i], at);
+                hourglass_rates[pattern][i] = L::load(&changes[pattern * D + i], at);
             }
         }
         // Nothing else holds the shape of a fluid; of a solid that can't change its volume, K would lock it.
         let shape_modulus = if self.input.is_solid { modulus.min(L::splat(4.0) * shear) } else { modulus };
         let corners = Corners {
             x: geometry.x,
-            swing,
-            thickness_squared,
+            hourglass_rates,
+            characteristic_length_squared,
             dilating_squared,
             area: geometry.area,
             volume: geometry.volume,
@@ -456,9 +459,9 @@ where
             is_start: self.input.time_step <= 0.0,
             is_plane_stress,
         };
-        let held = self.element.hold_shape(&corners, keep, at);
+        let held = self.element.hourglass_forces(&corners, keep, at);
         let element = &mut self.input.elements[batch];
-        let booked = if E::SWINGS > 0 { L::load(&element.hourglass, at) + held.work } else { held.work };
+        let booked = if E::HOURGLASS_MODES > 0 { L::load(&element.hourglass, at) + held.work } else { held.work };
         booked.store(&mut element.hourglass, at);
         held
     }

@@ -2,13 +2,13 @@
 //!
 //! Values come from the part of the model; a stress is asked of the law before it is kept: strained by
 //! nothing, the law must leave it as it is (a stress beyond the yield surface would be gone before the first
-//! step). The elastic energy ½ σ:C⁻¹:σ of what is kept is in the books from the start.
+//! step). The elastic energy ½ σ:C⁻¹:σ of what is kept is in the ledger from the start.
 
 use super::kernel::{ElementGeometry, Facts};
 use super::store::ElementStore;
 use super::strain::Tensor;
 use crate::material::Family;
-use crate::material::points::{PointLaw, Points, RESPONSE, Room};
+use crate::material::points::{PointLaw, Points, RESPONSE, Scratch};
 use crate::material::variable::TEMPERATURE;
 use crate::model::InitialStress;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
@@ -79,7 +79,7 @@ pub(super) fn released(law: &dyn PointLaw, stress: &[Batch], history: &[Batch], 
             stress: &mut after,
             state: &mut history.to_vec(),
             response: &mut [Batch::default(); RESPONSE],
-            room: &mut Room::default(),
+            scratch: &mut Scratch::default(),
         },
     );
     let of = |all: &[Batch], lane: usize| -> [f64; 6] { std::array::from_fn(|c| all.get(c).map_or(0.0, |batch| batch.0[lane])) };
@@ -95,7 +95,8 @@ pub(super) fn cannot_hold([x, y]: [f64; 2], [before, after]: [[f64; 6]; 2]) -> W
     let words = |[xx, yy, zz, xy, ..]: [f64; 6]| format!("xx {xx:.4e}, yy {yy:.4e}, zz {zz:.4e}, xy {xy:.4e} Pa");
     Wrong::stress(
         format!("its law can't hold the stress at ({x:.4e}, {y:.4e}) m: of {} it leaves {} at once", words(before), words(after)),
-        "keep it within the yield surface; with an equation of state its mean must be minus the pressure of the equation at the start, in plane stress it has no zz",
+        "keep it within the yield surface; with an equation of state its mean must be minus the pressure of the \
+            equation at the start, in plane stress it has no zz",
     )
 }
 

@@ -7,7 +7,7 @@
 
 use super::forces::{Forces, ForcesKernel};
 use super::strain::{Strain, StrainKernel, Tensor, initial_width, point_volume, radius};
-use super::strip::{Every, Strip};
+use super::strip::{ForEachBatch, StripBuffers};
 use crate::element::{Element, ElementOptions, map_of};
 use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
@@ -63,7 +63,7 @@ pub(super) trait ElementKernel<const D: usize>: Send + Sync {
     fn forces(&self, level: Level, forces: Forces<'_, D>);
     /// Volumes, m² (m³), of the elements of a strip at the end of the step; for elements with one point that
     /// average at nodes.
-    fn volumes(&self, strip: &Strip<D>, volumes: &mut [Batch]);
+    fn volumes(&self, strip: &StripBuffers<D>, volumes: &mut [Batch]);
 }
 
 /// An element, compiled, in a stress state.
@@ -143,14 +143,14 @@ where
     }
 
     fn strain(&self, level: Level, input: Strain<'_, D>) {
-        level.run(Every(StrainKernel::<E, D, N, P> { input, state: self.facts.state, kind: PhantomData }));
+        level.run(ForEachBatch(StrainKernel::<E, D, N, P> { input, state: self.facts.state, kind: PhantomData }));
     }
 
     fn forces(&self, level: Level, input: Forces<'_, D>) {
-        level.run(Every(ForcesKernel::<E, D, N, P> { element: &self.element, input, state: self.facts.state }));
+        level.run(ForEachBatch(ForcesKernel::<E, D, N, P> { element: &self.element, input, state: self.facts.state }));
     }
 
-    fn volumes(&self, strip: &Strip<D>, volumes: &mut [Batch]) {
+    fn volumes(&self, strip: &StripBuffers<D>, volumes: &mut [Batch]) {
         if !self.facts.averages_at_nodes {
             return;
         }

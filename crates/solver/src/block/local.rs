@@ -1,8 +1,8 @@
 //! Nodes as the chunks of a block see them: each chunk copies the motion of its own nodes side by side, reads
 //! it from there corner by corner, and sums the forces of its elements on them before anyone else does.
 //!
-//! The copy and the sums of a chunk stay in a near cache, and a corner of the plane needs one load for
-//! position and velocity, one of space two. A node has a slot in every chunk that has it; [`crate::assembly`]
+//! The copy and the sums of a chunk stay in a near cache, and a corner in 2D needs one load for
+//! position and velocity, one in 3D two. A node has a slot in every chunk that has it; [`crate::assembly`]
 //! adds the slots of a node.
 
 use super::batch::element_of;

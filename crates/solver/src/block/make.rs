@@ -20,7 +20,7 @@ pub struct BlockInput<'a, const D: usize = 2> {
     pub area: f64,
     /// Its options.
     pub options: ElementOptions,
-    /// Name in the registry of stress states of the plane, empty: plane strain; in space always empty.
+    /// Name in the registry of stress states in 2D, empty: plane strain; in 3D always empty.
     pub stress_state: &'a str,
     /// Law and parameters.
     pub material: &'a Material,
@@ -35,7 +35,7 @@ pub struct BlockInput<'a, const D: usize = 2> {
 }
 
 impl<'a, const D: usize> BlockInput<'a, D> {
-    /// In plane strain or in space, without options.
+    /// In plane strain or in 3D, without options.
     #[must_use]
     pub fn new(element: &'a str, material: &'a Material, connectivity: &'a [u32], positions: &'a [[f64; D]]) -> Self {
         Self {

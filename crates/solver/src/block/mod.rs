@@ -30,7 +30,7 @@ pub use local::LocalNodes;
 pub use make::{BlockInput, Blocks, make};
 pub use store::CHUNK;
 
-use crate::archive::{Archive, Kept, keep_all};
+use crate::archive::{Archive, ArchiveResult, persist_all};
 use crate::failure::Criterion;
 use crate::material::points::PointLaw;
 use crate::material::{VARIABLES_MOST, Variable};
@@ -78,7 +78,7 @@ impl<'a, const D: usize> NodalForces<'a, D> {
     }
 }
 
-/// What a block (or a chunk of it) tells after a step.
+/// What a block (or a chunk of it) reports after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Smallest square of an element's stable step, s².
@@ -97,7 +97,7 @@ pub struct Report {
     pub damping: f64,
 }
 
-keep_all!(Report { time_step_squared, determinant, stored, dissipated, hourglass, viscous, damping });
+persist_all!(Report { time_step_squared, determinant, stored, dissipated, hourglass, viscous, damping });
 
 impl Report {
     /// Of no element.
@@ -138,7 +138,7 @@ pub struct ElementState {
     pub energy_density: f64,
 }
 
-keep_all!(ElementState { stress, variables, energy_density });
+persist_all!(ElementState { stress, variables, energy_density });
 
 /// What a block reports at the start, at rest; its state is that of the first [`Block::advance`].
 pub fn evaluate_at_rest<const D: usize>(block: &mut dyn Block<D>, positions: &[[f64; D]], level: Level) -> Report {
@@ -175,12 +175,12 @@ pub trait Block<const D: usize>: Send + Sync {
     /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail. Lines
     /// have slots of their own, and keep nothing besides.
     fn keep_forces(&mut self) {}
-    /// Force of an element on the node at a corner, N/m in the plane, as of the last [`Block::advance`] with
+    /// Force of an element on the node at a corner, N/m in 2D, as of the last [`Block::advance`] with
     /// these slots; zero if it was not kept.
     fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D];
-    /// Mass of an element, kg/m in the plane.
+    /// Mass of an element, kg/m in 2D.
     fn mass(&self, element: usize) -> f64;
-    /// Share of corner `corner` in the mass of `element` (row sum of the consistent mass), kg/m in the plane.
+    /// Share of corner `corner` in the mass of `element` (row sum of the consistent mass), kg/m in 2D.
     fn corner_mass(&self, element: usize, corner: usize) -> f64;
     /// Frees the memory of the corner masses, once nodes have theirs: what is left of them, as of
     /// [`Block::mass`], may be not a number.
@@ -244,11 +244,11 @@ pub trait Block<const D: usize>: Send + Sync {
     /// mass. What they dissipated stays in the reports. Returns the elastic energy that each had stored, J/m;
     /// their forces are gone from the slots.
     fn erode(&mut self, elements: &[u32], pulls: NodalForces<'_, D>) -> Vec<f64>;
-    /// What the last [`Block::advance`] told, without the elements that were eroded since.
+    /// What the last [`Block::advance`] reported, without the elements that were eroded since.
     fn report(&self, positions: &[[f64; D]]) -> Report;
-    /// Keeps what changes with time and is not worked out anew in [`Block::advance`].
+    /// Keeps what changes with time and is not worked out again in [`Block::advance`].
     ///
     /// # Errors
     /// What is read is of another block.
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult;
 }

@@ -13,7 +13,7 @@ use super::forces::{Forces, Sums};
 use super::kernel::Facts;
 use super::store::{CHUNK, ElementStore, chunk};
 use super::strain::{Measures, Strain, Tensor};
-use super::strip::{Every, Strip};
+use super::strip::{ForEachBatch, StripBuffers};
 use super::{Motion, Report};
 use crate::material::Family;
 use crate::material::points::{Points, RESPONSE};
@@ -32,7 +32,7 @@ pub(super) struct Nodal<const D: usize> {
     /// Elements of each node.
     elements: Rows<u32>,
     /// Room for each chunk.
-    strips: Vec<Strip<D>>,
+    strips: Vec<StripBuffers<D>>,
     /// Stresses with the averaged pressure, Pa.
     stress: Vec<Batch>,
     /// By lane: weight, weight times the value, and the value averaged.
@@ -47,7 +47,7 @@ pub(super) struct Nodal<const D: usize> {
 
 impl<const D: usize> Nodal<D> {
     /// For `count` elements with so many `corners`, in lanes of `batches`; `strip` makes the room of a chunk.
-    pub(super) fn new(connectivity: &[u32], corners: usize, components: usize, strip: impl Fn() -> Strip<D>) -> Self {
+    pub(super) fn new(connectivity: &[u32], corners: usize, components: usize, strip: impl Fn() -> StripBuffers<D>) -> Self {
         let count = connectivity.len() / corners;
         let mut nodes = connectivity.to_vec();
         nodes.sort_unstable();
@@ -57,17 +57,17 @@ impl<const D: usize> Nodal<D> {
         let elements = Rows::new(nodes.len(), (0..).zip(&cells).map(|(k, &node)| (node, (k / corners) as u32)));
         let batches = count.div_ceil(BATCH);
         cells.resize(batches * BATCH * corners, 0);
-        let room = || vec![Batch::default(); batches];
+        let scratch = || vec![Batch::default(); batches];
         Self {
             cells,
             corners,
             elements,
             strips: (0..batches.div_ceil(CHUNK)).map(|_| strip()).collect(),
             stress: vec![Batch::default(); batches * components],
-            weight: room(),
-            moment: room(),
-            mean: room(),
-            spare: room(),
+            weight: scratch(),
+            moment: scratch(),
+            mean: scratch(),
+            spare: scratch(),
             at_nodes: vec![0.0; nodes.len()],
         }
     }
@@ -227,11 +227,11 @@ where
                     stress,
                     state: &mut history[..count * width],
                     response: &mut strip.response[..count * RESPONSE],
-                    room: &mut strip.law,
+                    scratch: &mut strip.law,
                 },
             );
             if damping > 0.0 {
-                level.run(Every(Damp {
+                level.run(ForEachBatch(Damp {
                     points,
                     state,
                     damping,
@@ -349,7 +349,7 @@ where
 }
 
 /// Gives an element its averaged dilatation θ̄ or volume ratio J̄ (F̄ = (J̄/J)^{1/3} F).
-fn impose<const D: usize>(strip: &mut Strip<D>, batch: usize, lane: usize, mean: f64, family: Family)
+fn impose<const D: usize>(strip: &mut StripBuffers<D>, batch: usize, lane: usize, mean: f64, family: Family)
 where
     Dim<D>: Space<D>,
 {

@@ -10,7 +10,7 @@
 //! elements.
 
 use super::{Block, ElementState, Initial, Motion, NodalForces, Report, Wrong};
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::failure::Criterion;
 use crate::load::curve::table::Table;
 use crate::material::points::PointLaw;
@@ -37,10 +37,10 @@ struct Pair {
     time_step_squared: f64,
 }
 
-impl Keep for Pair {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for Pair {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { nodes: _, law: _, rest: _, time_step_squared: _, length, forces, stored, dissipated, is_whole } = self;
-        keep_each!(archive; length, forces, stored, dissipated, is_whole);
+        persist_each!(archive; length, forces, stored, dissipated, is_whole);
         Ok(())
     }
 }
@@ -82,7 +82,7 @@ pub(crate) struct SpringBlock {
     /// Their nodes, two by two: the slots of the forces.
     slots: Vec<u32>,
     laws: Vec<Law>,
-    /// What the last step told.
+    /// What the last step reported.
     report: Report,
 }
 
@@ -247,9 +247,9 @@ where
         self.report
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { pairs, slots: _, laws: _, report } = self;
-        pairs[..].keep(archive)?;
-        report.keep(archive)
+        pairs[..].persist(archive)?;
+        report.persist(archive)
     }
 }

@@ -14,9 +14,9 @@ use super::local::LocalNodes;
 use super::make::BlockInput;
 use super::nodal::Nodal;
 use super::strain::{Measures, Strain};
-use super::strip::{Every, STRIP, Strip};
+use super::strip::{ForEachBatch, STRIP, StripBuffers};
 use super::{Block, ElementState, Initial, Motion, NodalForces, Report, Wrong};
-use crate::archive::{Archive, Keep, Kept};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::failure::Criterion;
 use crate::material::Family;
 use crate::material::points::{PointLaw, Points, RESPONSE};
@@ -60,7 +60,7 @@ pub(super) struct ElementStore<const D: usize> {
     pub(super) volume_initial: Vec<Batch>,
     pub(super) reports: Vec<Report>,
     /// Room for each thread.
-    strips: Vec<Mutex<Strip<D>>>,
+    strips: Vec<Mutex<StripBuffers<D>>>,
     /// Averages over the nodes, for elements that want them.
     nodal: Option<Box<Nodal<D>>>,
     pub(super) eroded: Eroded,
@@ -119,23 +119,23 @@ where
         let Facts { nodes, points, components, hourglass, averages_at_nodes, .. } = *kernel.facts();
         let count = connectivity.len() / nodes;
         let batches = count.div_ceil(BATCH);
-        let room = |width: usize| vec![Batch::default(); length(batches, width)];
-        let of_task = |batches: usize| Strip::new(kernel.facts(), law.as_ref(), damping > 0.0, batches);
+        let scratch = |width: usize| vec![Batch::default(); length(batches, width)];
+        let of_task = |batches: usize| StripBuffers::new(kernel.facts(), law.as_ref(), damping > 0.0, batches);
         let nodal = averages_at_nodes.then(|| Box::new(Nodal::new(connectivity, nodes, components, || of_task(CHUNK))));
         let mut block = Self {
             strips: vec![Mutex::new(of_task(STRIP))],
             viscosity: input.viscosity,
             damping,
-            damped: room(if damping > 0.0 { points * components } else { 0 }),
+            damped: scratch(if damping > 0.0 { points * components } else { 0 }),
             count,
             nodes: LocalNodes::new(connectivity, nodes),
-            stress: room(points * components),
-            history: room(points * law.state_width()),
+            stress: scratch(points * components),
+            history: scratch(points * law.state_width()),
             initial: Vec::new(),
             elements: vec![ElementBatch::default(); batches],
             resistance: Vec::new(),
-            hourglass: room(hourglass),
-            kept: room(0),
+            hourglass: scratch(hourglass),
+            kept: scratch(0),
             keeps_forces: false,
             corner_mass: vec![Batch::default(); batches * nodes],
             volume_initial: vec![Batch::default(); batches],
@@ -236,7 +236,7 @@ where
     }
 
     /// Advances a chunk, strip by strip.
-    fn advance_chunk(common: &Common<'_, D>, chunk: Chunk<'_, D>, strip: &mut Strip<D>) -> Report {
+    fn advance_chunk(common: &Common<'_, D>, chunk: Chunk<'_, D>, strip: &mut StripBuffers<D>) -> Report {
         let Common { measures, history_width, level, .. } = *common;
         let Facts { nodes, points: of_element, components, state, .. } = *common.kernel.facts();
         let [stress_width, history_of_batch, initial_of_batch, hourglass] = common.widths;
@@ -276,13 +276,13 @@ where
                     stress,
                     state: history,
                     response: &mut strip.response[..points * RESPONSE],
-                    room: &mut strip.law,
+                    scratch: &mut strip.law,
                 },
             );
             // Without damping there is one batch, which stands for nothing.
             let damped = if common.damping > 0.0 { &mut chunk.damped[from * stress_width..to * stress_width] } else { &mut [][..] };
             if common.damping > 0.0 {
-                level.run(Every(Damp {
+                level.run(ForEachBatch(Damp {
                     points: of_element,
                     state,
                     damping: common.damping,
@@ -350,7 +350,7 @@ where
             return report;
         }
         while self.strips.len() < team.threads() {
-            self.strips.push(Mutex::new(Strip::new(self.kernel.facts(), self.law.as_ref(), self.damping > 0.0, STRIP)));
+            self.strips.push(Mutex::new(StripBuffers::new(self.kernel.facts(), self.law.as_ref(), self.damping > 0.0, STRIP)));
         }
         let (widths, damped_width) = (self.widths(), self.damped_width());
         let (kept_width, resistance_width) = (self.kept_width(), self.resistance_width());
@@ -478,8 +478,8 @@ where
         self.of_the_living(positions)
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        // Of the model, or worked out anew in each step.
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        // Of the model, or worked out again in each step.
         #[rustfmt::skip]
         let Self {
             kernel: _, law: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
@@ -487,11 +487,11 @@ where
             stress, damped, history, elements, resistance, hourglass, eroded,
         } = self;
         for list in [stress, damped, history, hourglass] {
-            list[..].keep(archive)?;
+            list[..].persist(archive)?;
         }
-        elements[..].keep(archive)?;
-        resistance[..].keep(archive)?;
-        eroded.keep(archive)?;
+        elements[..].persist(archive)?;
+        resistance[..].persist(archive)?;
+        eroded.persist(archive)?;
         if archive.reads() { self.fill_all_up() } else { Ok(()) }
     }
 }

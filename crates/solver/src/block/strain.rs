@@ -7,7 +7,7 @@
 //! mean dilatation (B-bar) the volumetric part of the strain is averaged over the element.
 
 use super::batch::Resistance;
-use super::strip::{Parts, Strip};
+use super::strip::{Parts, StripBuffers};
 use crate::element::{Element, PATTERNS, map, map_at};
 use crate::material::Family;
 use crate::stress_state::StressState;
@@ -140,7 +140,7 @@ pub(super) struct Strain<'a, const D: usize> {
     pub(super) stress: &'a mut [Batch],
     /// What hourglass control keeps, turned in place: [`Element::HOURGLASS`] per element.
     pub(super) hourglass: &'a mut [Batch],
-    pub(super) strip: &'a mut Strip<D>,
+    pub(super) strip: &'a mut StripBuffers<D>,
 }
 
 /// [`Strain`] by an element.
@@ -164,7 +164,7 @@ where
         let row = (self.input.first + batch) * N;
         let (mut x, mut v) = ([[L::splat(0.0); D]; N], [[L::splat(0.0); D]; N]);
         if D == 2 {
-            // Position and velocity of a node of the plane are one load.
+            // Position and velocity of a node in 2D are one load.
             for a in 0..N {
                 [x[a], v[a]] = L::gather(&self.input.strip.moving, self.input.places, row + a, at);
             }
@@ -236,8 +236,8 @@ where
                 }
             }
             let (gradient, turns) = Dim::<D>::increment(&natural, determinant);
-            if E::SWINGS > 0 {
-                self.swing(batch, at, &E::swing(x, &step, &gradient), &turns);
+            if E::HOURGLASS_MODES > 0 {
+                self.hourglass_rates(batch, at, &E::hourglass_rates(x, &step, &gradient), &turns);
             }
             let mut strain = Dim::<D>::symmetric(&gradient);
             if self.state.of::<D>().is_axisymmetric {
@@ -275,16 +275,16 @@ where
     /// turns what is kept of them there. A vector in mid-step directions at the end: the mean of itself and
     /// of the turned one, which is shorter by the square of the step's angle.
     #[inline(always)]
-    fn swing<L: Lane>(&mut self, batch: usize, at: usize, changes: &[[L; D]; PATTERNS], turns: &Turns<Tensor<D, L>, L>) {
+    fn hourglass_rates<L: Lane>(&mut self, batch: usize, at: usize, changes: &[[L; D]; PATTERNS], turns: &Turns<Tensor<D, L>, L>) {
         let half = L::splat(0.5);
-        for pattern in 0..E::SWINGS {
+        for pattern in 0..E::HOURGLASS_MODES {
             let change = changes[pattern];
             let all = Dim::<D>::turned(change, turns);
             let place = batch * E::HOURGLASS + pattern * D;
             let kept = &mut self.input.hourglass[place..place + D];
             let mut old = change;
             for i in 0..D {
-                ((change[i] + all[i]) * half).store(&mut self.input.strip.swing[place + i], at);
+                ((change[i] + all[i]) * half).store(&mut self.input.strip.hourglass_rates[place + i], at);
                 old[i] = L::load(&kept[i], at);
             }
             let turned = Dim::<D>::turned(old, turns);
@@ -334,7 +334,7 @@ where
             volume_initial += own_initial;
         }
         let ratio_mean = volume / volume_initial;
-        if E::SWINGS > 0 {
+        if E::HOURGLASS_MODES > 0 {
             let (dt, half) = (L::splat(self.input.time_step), L::splat(0.5));
             let mut step = *v;
             for a in 0..E::PARTS {
@@ -350,7 +350,7 @@ where
                 }
             }
             let (gradient, turns) = Dim::<D>::displaced(&increment, &Dim::<D>::adjugate(&middle), Dim::<D>::determinant(&middle));
-            self.swing(batch, at, &E::swing(x, &step, &gradient), &turns);
+            self.hourglass_rates(batch, at, &E::hourglass_rates(x, &step, &gradient), &turns);
         }
         for p in 0..P {
             let point = batch * P + p;

@@ -5,7 +5,7 @@
 //! the forces follow ([`super::forces`]).
 
 use super::kernel::Facts;
-use crate::material::points::{PointLaw, RESPONSE, Room};
+use crate::material::points::{PointLaw, RESPONSE, Scratch};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Moving, VectorSums};
 
 /// Batches of elements in a strip.
@@ -13,7 +13,7 @@ pub(super) const STRIP: usize = 8;
 
 /// The room of one task. All lists but the first are in the order of batches, then points.
 #[derive(Debug, Default)]
-pub(super) struct Strip<const D: usize> {
+pub(super) struct StripBuffers<const D: usize> {
     /// Positions and velocities of the nodes of a chunk.
     pub(super) moving: Moving<D>,
     /// Forces on them.
@@ -22,7 +22,7 @@ pub(super) struct Strip<const D: usize> {
     /// × dimensions.
     pub(super) parts: Vec<Batch>,
     /// Changes of the amplitudes of hourglass patterns, in directions of the end of the step.
-    pub(super) swing: Vec<Batch>,
+    pub(super) hourglass_rates: Vec<Batch>,
     /// Strain increment, or b.
     pub(super) strain: Vec<Batch>,
     /// Rotation over the step, for laws and damping that want it.
@@ -38,27 +38,27 @@ pub(super) struct Strip<const D: usize> {
     /// What the law answered.
     pub(super) response: Vec<Batch>,
     /// Room of the law.
-    pub(super) law: Room,
+    pub(super) law: Scratch,
 }
 
-impl<const D: usize> Strip<D> {
+impl<const D: usize> StripBuffers<D> {
     /// Room for so many batches of elements; `turns`: someone besides the law wants the rotations.
     pub(super) fn new(facts: &Facts, law: &dyn PointLaw, turns: bool, batches: usize) -> Self {
-        let room = |values: usize| vec![Batch::default(); batches * values];
+        let scratch = |values: usize| vec![Batch::default(); batches * values];
         let Facts { parts, points, components, turn, hourglass, .. } = *facts;
         Self {
             moving: Moving::default(),
             pulls: VectorSums::default(),
-            parts: room(parts * D),
-            swing: room(hourglass),
-            strain: room(points * components),
-            rotation: room(if law.needs_rotation() || turns { points * turn } else { 0 }),
-            volume_ratio: room(points),
-            viscous_heat: room(points),
-            volume: room(points),
-            weight: room(points),
-            response: room(points * RESPONSE),
-            law: Room::default(),
+            parts: scratch(parts * D),
+            hourglass_rates: scratch(hourglass),
+            strain: scratch(points * components),
+            rotation: scratch(if law.needs_rotation() || turns { points * turn } else { 0 }),
+            volume_ratio: scratch(points),
+            viscous_heat: scratch(points),
+            volume: scratch(points),
+            weight: scratch(points),
+            response: scratch(points * RESPONSE),
+            law: Scratch::default(),
         }
     }
 }
@@ -73,9 +73,9 @@ pub(super) trait Parts {
 }
 
 /// A part for all its batches.
-pub(super) struct Every<K>(pub(super) K);
+pub(super) struct ForEachBatch<K>(pub(super) K);
 
-impl<K: Parts> Kernel for Every<K> {
+impl<K: Parts> Kernel for ForEachBatch<K> {
     type Output = ();
 
     #[inline(always)]

@@ -16,7 +16,7 @@ pub(super) struct Bulk<const D: usize> {
     pub centre: [f64; D],
     /// Mass, kg/m.
     pub mass: f64,
-    /// In the plane the moment of inertia about the centre, kg m.
+    /// In 2D the moment of inertia about the centre, kg m.
     pub inertia: f64,
 }
 
@@ -135,7 +135,7 @@ impl Builder<'_, 2> {
         }
     }
 
-    /// What prescribes the velocities of a body. A body of revolution moves along its axis only.
+    /// What prescribes the velocities of a body. A axisymmetric body moves along its axis only.
     pub(super) fn drives(&self, motion: &Motion) -> [Option<Speed>; 3] {
         let [x, y, _] = &motion.velocity;
         let [x, y, spin] = [x, y, &motion.spin].map(|drive| drive.as_ref().and_then(|drive| self.curves.speed(drive)));

@@ -20,7 +20,7 @@ pub trait Builds<const D: usize>: Dimension<D> {
         Dim<D>: Builds<D>;
     /// Notes penetrations at the start as faults, or gives lines for the overview; those that shall be pushed
     /// out are, in the mesh.
-    fn part_at_start(builder: &mut Builder<'_, D>) -> Vec<String>
+    fn resolve_initial_penetration(builder: &mut Builder<'_, D>) -> Vec<String>
     where
         Dim<D>: Builds<D>;
     /// The body of a rigid part with its mass on its nodes, kg/m (kg).
@@ -45,8 +45,8 @@ impl Builds<2> for Dim<2> {
     fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
         plane::with_axis(model, mesh)
     }
-    fn part_at_start(builder: &mut Builder<'_, 2>) -> Vec<String> {
-        builder.part_at_start()
+    fn resolve_initial_penetration(builder: &mut Builder<'_, 2>) -> Vec<String> {
+        builder.resolve_initial_penetration()
     }
     fn rigid_part(builder: &Builder<'_, 2>, index: usize, motion: &model::Motion, own: &[(u32, f64)]) -> Body<2> {
         builder.rigid_part(index, motion, own)
@@ -66,19 +66,19 @@ impl Builds<3> for Dim<3> {
     fn with_axis(_: &Model, _: &Mesh<3>) -> Result<Option<Model>, Vec<Fault>> {
         Ok(None)
     }
-    fn part_at_start(builder: &mut Builder<'_, 3>) -> Vec<String> {
-        builder.part_at_start_in_space()
+    fn resolve_initial_penetration(builder: &mut Builder<'_, 3>) -> Vec<String> {
+        builder.resolve_initial_penetration_in_3d()
     }
     fn rigid_part(builder: &Builder<'_, 3>, index: usize, motion: &model::Motion, own: &[(u32, f64)]) -> Body<3> {
-        builder.rigid_part_in_space(index, motion, own)
+        builder.rigid_part_in_3d(index, motion, own)
     }
     fn contacts(builder: &mut Builder<'_, 3>) -> Vec<Contact<3>> {
-        builder.contacts_in_space()
+        builder.contacts_in_3d()
     }
     fn obstacles(builder: &mut Builder<'_, 3>) -> Vec<Contact<3>> {
-        builder.obstacles_in_space()
+        builder.obstacles_in_3d()
     }
     fn renew(builder: &mut Builder<'_, 3>, contacts: &mut [Contact<3>]) {
-        builder.renew_in_space(contacts);
+        builder.renew_in_3d(contacts);
     }
 }

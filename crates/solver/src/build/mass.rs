@@ -48,7 +48,8 @@ where
             && wanted_adds > scaling.limit * before
         {
             let message = format!(
-                "a step of {:.3e} s needs {wanted_adds:.4e} kg/m more mass, {:.3} % of what the deformable parts have; the limit is {:.3} %",
+                "a step of {:.3e} s needs {wanted_adds:.4e} kg/m more mass, {:.3} % of what the deformable parts \
+                    have; the limit is {:.3} %",
                 scaling.time_step,
                 100.0 * wanted_adds / before,
                 100.0 * scaling.limit
@@ -57,7 +58,7 @@ where
                 &MASS_SCALING,
                 "run.mass_scaling.time_step",
                 message,
-                "take a smaller step, mend the smallest elements, or raise `limit`",
+                "take a smaller step, fix the smallest elements, or raise `limit`",
             ));
         }
         [after - before, before]

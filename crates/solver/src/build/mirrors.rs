@@ -1,4 +1,4 @@
-//! Symmetry lines, in space planes, as what bodies meet that are in contact with themselves: which nodes, and
+//! Symmetry lines, in 3D planes, as what bodies meet that are in contact with themselves: which nodes, and
 //! how stiff.
 
 use super::{Builder, Builds, law_of, stiffness_of};

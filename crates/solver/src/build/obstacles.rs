@@ -112,7 +112,7 @@ impl Builder<'_, 2> {
             ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, first(*centre), *radius, *hollow),
             ObstacleShape::Polyline { points } => Ok(self.polyline(obstacle, met, points)),
             ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } | ObstacleShape::Triangles(_) => {
-                Err(Fault::new(&OBSTACLE, "", "this obstacle is one of space", "take `circle` in the plane"))
+                Err(Fault::new(&OBSTACLE, "", "this obstacle is a 3D one", "take `circle` in 2D"))
             }
         }
     }

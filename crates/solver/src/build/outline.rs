@@ -1,4 +1,4 @@
-//! Outlines of obstacles of space for pictures and files: points and facets, outward by the right-hand rule.
+//! Outlines of obstacles in 3D for pictures and files: points and facets, outward by the right-hand rule.
 
 use crate::angle::cos_sin;
 use crate::tensor::cross;

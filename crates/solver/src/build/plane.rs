@@ -1,7 +1,7 @@
-//! What is built in the plane in a way of its own: the axis of a body of revolution, surfaces as chains of
+//! What is built in 2D in a way of its own: the axis of an axisymmetric body, surfaces as chains of
 //! segments, and the contacts between them.
 
-use super::fans::Under;
+use super::node_elements::Under;
 use super::{Builder, law_of, search_by_name, source_of, terms_of, terms_of_ties};
 use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::messages::ON_SYMMETRY;
@@ -99,7 +99,7 @@ impl Builder<'_, 2> {
         if self.model.contacts.is_empty() && self.model.obstacles.is_empty() {
             return Outlines::default();
         }
-        // Elements that overlap are told elsewhere.
+        // Elements that overlap are reported elsewhere.
         let outside = self.mesh.outside(&[]).map(|surface| surface.segments).unwrap_or_default();
         Outlines::new(&outside, |segment| self.constraints.is_mirror(segment), &self.body_of_node, &self.mesh.positions)
     }
@@ -134,7 +134,7 @@ impl Builder<'_, 2> {
             tie_terms,
             outlines,
             search: &|| (search.make)(),
-            again: self.again,
+            rebuild: self.rebuild,
         };
         let made = (kind.make)(setup).map_err(|fault| vec![fault])?;
         Ok((self.with_images(made, mirrors, contact), terms))
@@ -183,7 +183,7 @@ impl Builder<'_, 2> {
         Ok(Outlined { target: self.with_mirrors(surface), lids: lids.into_inner() })
     }
 
-    /// A surface as a target that goes on beyond symmetry lines.
+    /// A surface as a target that continues beyond symmetry lines.
     fn with_mirrors(&self, surface: Surface) -> Target {
         let starts =
             surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);

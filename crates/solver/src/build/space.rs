@@ -1,4 +1,4 @@
-//! What is built in space in a way of its own: rigid parts that turn about any axis.
+//! What is built in 3D in a way of its own: rigid parts that turn about any axis.
 
 use super::Builder;
 use super::bodies::Bulk;
@@ -8,12 +8,12 @@ use crate::rigid::{Body, Drive, Member};
 
 impl Builder<'_, 3> {
     /// See [`crate::build::Builds::rigid_part`].
-    pub(crate) fn rigid_part_in_space(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<3> {
+    pub(crate) fn rigid_part_in_3d(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<3> {
         let (part, positions) = (&self.model.parts[index], &self.mesh.positions);
         // The whole mass of the nodes: that of other parts at common nodes belongs to the body.
         let whole: Vec<(u32, f64)> = own.iter().map(|&(node, _)| (node, self.mass[node as usize])).collect();
         let bulk = Bulk::of(&whole, positions);
-        let drives = self.drives_in_space(motion);
+        let drives = self.drives_in_3d(motion);
         let [u, v, w] = Bulk::of(own, positions).velocity(part, bulk.centre);
         Body {
             centre: bulk.centre,
@@ -30,8 +30,8 @@ impl Builder<'_, 3> {
 
     /// The rigid body of an obstacle with its reference point, m. The one rotation that a model names is that
     /// about z.
-    pub(super) fn obstacle_body_in_space(&self, obstacle: &Obstacle, reference: [f64; 3]) -> Body<3> {
-        let drives = self.drives_in_space(&obstacle.motion);
+    pub(super) fn obstacle_body_in_3d(&self, obstacle: &Obstacle, reference: [f64; 3]) -> Body<3> {
+        let drives = self.drives_in_3d(&obstacle.motion);
         let (mass, inertia) = (obstacle.mass.unwrap_or(0.0), obstacle.inertia.unwrap_or(0.0));
         let [u, v, w] = obstacle.velocity;
         Body {
@@ -47,7 +47,7 @@ impl Builder<'_, 3> {
 
     /// What prescribes the velocities of a body. The one rotation that a model names is that about z; with it
     /// those about the other axes are none.
-    fn drives_in_space(&self, motion: &Motion) -> [Drive; 6] {
+    fn drives_in_3d(&self, motion: &Motion) -> [Drive; 6] {
         let drive = |drive: &Option<crate::model::Drive>| drive.as_ref().and_then(|drive| self.curves.speed(drive));
         let around = |axis: usize| if axis == 2 { drive(&motion.spin) } else { motion.spin.as_ref().map(|_| Default::default()) };
         let [x, y, z] = motion.velocity.each_ref().map(drive);

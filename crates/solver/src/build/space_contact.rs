@@ -1,21 +1,21 @@
-//! Contacts between surfaces in space: nodes against facets, made from the surfaces that a contact names and
+//! Contacts between surfaces in 3D: nodes against facets, made from the surfaces that a contact names and
 //! from the stiffness of the elements behind them.
 
 use super::outline::{self, Outline};
 use super::space_start::Meeting;
 use super::{Builder, law_of, manner, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
+use crate::contact::checked::Checked;
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial;
-use crate::contact::judged::Judged;
 use crate::contact::law::{self, Node};
 use crate::contact::messages::{ON_SYMMETRY, TIE};
-use crate::contact::node_facet::tied::{TiedFacet, Unborn};
+use crate::contact::missed_contacts::MissedContactCheck;
+use crate::contact::node_facet::tied::{PendingTies, TiedFacet};
 use crate::contact::node_facet::tracker::Tracker;
 use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::obstacle::space::{NodeSolid, Outside, Solid, Vector};
-use crate::contact::overlap::{Bodies, Judge, Walls};
-use crate::contact::proof::Proof;
+use crate::contact::overlap::{Bodies, OverlapCheck, Walls};
 use crate::contact::search::{Search, registry};
 use crate::contact::{Contact, ContactKind, Formulation, Tributary};
 use crate::error::Fault;
@@ -26,7 +26,7 @@ use crate::model::{self, InitialPenetration, Interface, Obstacle, ObstacleShape,
 use crate::vector::{dot, minus, plus, times, unit};
 use std::collections::BTreeMap;
 
-/// What a contact of the plane may do and one of space may not (yet).
+/// What a contact in 2D may do and one in 3D may not (yet).
 fn refused(contact: &model::Contact) -> Option<(&'static str, &'static str, &'static str)> {
     let name = contact.formulation.name();
     if !["double_pass", "single_pass", "pinball"].contains(&name) {
@@ -42,7 +42,7 @@ pub(super) fn meets_edges(contact: &model::Contact, passes: Passes) -> bool {
 
 impl Builder<'_, 3> {
     /// See [`crate::build::Builds::contacts`].
-    pub(crate) fn contacts_in_space(&mut self) -> Vec<Contact<3>> {
+    pub(crate) fn contacts_in_3d(&mut self) -> Vec<Contact<3>> {
         let mut contacts = Vec::new();
         let mut tied = BTreeMap::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
@@ -61,7 +61,7 @@ impl Builder<'_, 3> {
     }
 
     /// See [`crate::build::Builds::renew`].
-    pub(crate) fn renew_in_space(&mut self, contacts: &mut [Contact<3>]) {
+    pub(crate) fn renew_in_3d(&mut self, contacts: &mut [Contact<3>]) {
         // Contacts come first, then obstacles, both in model order.
         let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());
         for (model, contact) in self.model.contacts.iter().zip(between) {
@@ -71,7 +71,7 @@ impl Builder<'_, 3> {
             }
         }
         for (model, contact) in self.model.obstacles.iter().zip(obstacles) {
-            match self.obstacle_in_space(model) {
+            match self.obstacle_in_3d(model) {
                 Ok((_, formulation)) => contact.renew(formulation),
                 Err(_) => contact.end(),
             }
@@ -79,10 +79,10 @@ impl Builder<'_, 3> {
     }
 
     /// See [`crate::build::Builds::obstacles`].
-    pub(crate) fn obstacles_in_space(&mut self) -> Vec<Contact<3>> {
+    pub(crate) fn obstacles_in_3d(&mut self) -> Vec<Contact<3>> {
         let mut contacts = Vec::new();
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            match self.obstacle_in_space(obstacle) {
+            match self.obstacle_in_3d(obstacle) {
                 Ok((body, formulation)) => {
                     let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
                     contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
@@ -94,7 +94,7 @@ impl Builder<'_, 3> {
     }
 
     /// The body of an obstacle, and what makes springs at it. Faults have paths relative to the obstacle.
-    fn obstacle_in_space(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
+    fn obstacle_in_3d(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
         let outside = self.outside_met(obstacle)?;
         match &obstacle.shape {
             ObstacleShape::Triangles(surface) => self.triangles(obstacle, surface, outside),
@@ -130,7 +130,7 @@ impl Builder<'_, 3> {
         let body = match self.made.get(&obstacle.name) {
             Some(&body) => body,
             None => {
-                let body = self.bodies.add(self.obstacle_body_in_space(obstacle, reference));
+                let body = self.bodies.add(self.obstacle_body_in_3d(obstacle, reference));
                 self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets });
                 body
             }
@@ -150,7 +150,7 @@ impl Builder<'_, 3> {
         let no_direction = |key: &'static str| Fault::new(&NO_DIRECTION, key, "it has no direction", "give a vector such as [0, 0, 1]");
         match obstacle.shape {
             ObstacleShape::Plane { length: Some(_), .. } => {
-                Err(Fault::new(&NOT_IN_SPACE, "plane.length", "a plane of space has no end", "leave `length` out"))
+                Err(Fault::new(&NOT_IN_SPACE, "plane.length", "a plane in 3D has no end", "leave `length` out"))
             }
             ObstacleShape::Plane { point, normal, .. } => {
                 let normal = unit(normal).ok_or_else(|| no_direction("plane.normal"))?;
@@ -173,26 +173,26 @@ impl Builder<'_, 3> {
                 Ok((reference, cylinder, outline::cylinder(at, axis, radius, hollow, initial::size(&self.mesh.positions))))
             }
             ObstacleShape::Circle { .. } => {
-                Err(Fault::new(&NOT_IN_SPACE, "circle", "there are no circles in space", "take `sphere` or `cylinder`"))
+                Err(Fault::new(&NOT_IN_SPACE, "circle", "there are no circles in 3D", "take `sphere` or `cylinder`"))
             }
             // Made of facets.
             ObstacleShape::Polyline { .. } | ObstacleShape::Triangles(_) => Err(Fault::new(
                 &NOT_IN_SPACE,
                 "polyline",
-                "there are no polylines in space",
+                "there are no polylines in 3D",
                 "take `plane`, `sphere`, `cylinder` or `stl`, or a rigid part",
             )),
         }
     }
 
-    /// See [`crate::build::Builds::part_at_start`].
-    pub(crate) fn part_at_start_in_space(&mut self) -> Vec<String> {
+    /// See [`crate::build::Builds::resolve_initial_penetration`].
+    pub(crate) fn resolve_initial_penetration_in_3d(&mut self) -> Vec<String> {
         let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let (mut lines, mut pushed) = (Vec::new(), Vec::new());
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let Interface { initial_penetration, active, .. } = contact.interface;
-            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are
-            // made.
+            // Ties hold what is there; who begins later can't know. Wrong surfaces are reported when contacts
+            // are made.
             if refused(contact).is_some() || contact.tied.is_some() || active[0] > 0.0 {
                 continue;
             }
@@ -206,10 +206,10 @@ impl Builder<'_, 3> {
                 }
             }
         }
-        let (told, met) = self.obstacles_at_start(tolerance);
-        lines.extend(told);
+        let (reported, met) = self.obstacles_at_start(tolerance);
+        lines.extend(reported);
         pushed.extend(met);
-        self.push_out_in_space(&pushed, tolerance);
+        self.push_out_in_3d(&pushed, tolerance);
         lines.extend(self.inside_triangles(tolerance));
         lines
     }
@@ -218,13 +218,13 @@ impl Builder<'_, 3> {
     /// relative to the contact.
     fn node_facet(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
         if let Some((key, message, help)) = refused(contact) {
-            return Err(vec![Fault::new(&NOT_IN_SPACE, key, format!("in space {message}"), help)]);
+            return Err(vec![Fault::new(&NOT_IN_SPACE, key, format!("in 3D {message}"), help)]);
         }
         if contact.formulation == model::Formulation::Pinball {
-            return self.pinball_in_space(contact);
+            return self.pinball_in_3d(contact);
         }
         let terms = self.add_terms(terms_of(&contact.interface));
-        let (tracker, passes) = self.tracker_in_space(contact)?;
+        let (tracker, passes) = self.tracker_in_3d(contact)?;
         let sides: Vec<Sided> = tracker.surfaces().iter().map(|surface| self.sided(surface, &contact.interface)).collect();
         let own = if meets_edges(contact, passes) { 2 } else { 1 };
         let inputs: Vec<PassInput> =
@@ -237,20 +237,28 @@ impl Builder<'_, 3> {
         let mirrors = self.mirrors_of(contact, &tracker.surfaces()[0].nodes, &sides[0].nodes);
         let reach = law_of(&contact.interface).reach();
         let with_edges = contact.tied.is_none() && meets_edges(contact, passes);
-        let proof = Proof::new(tracker.surfaces(), passes, &self.body_of_node, &self.mesh.positions, with_edges, registry::<3>()[0].make);
-        let judge = self.judge(tracker.surfaces(), contact)?;
-        let inputs = with_thickness(inputs, &judge, tracker.surfaces(), passes);
-        let judge = if with_edges { moduli(judge, tracker.surfaces(), passes, &inputs) } else { judge.without_nets() };
+        let proof = MissedContactCheck::new(
+            tracker.surfaces(),
+            passes,
+            &self.body_of_node,
+            &self.mesh.positions,
+            with_edges,
+            registry::<3>()[0].make,
+        );
+        let overlap_check = self.overlap_check(tracker.surfaces(), contact)?;
+        let inputs = with_thickness(inputs, &overlap_check, tracker.surfaces(), passes);
+        let overlap_check =
+            if with_edges { moduli(overlap_check, tracker.surfaces(), passes, &inputs) } else { overlap_check.without_nets() };
         let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof);
         let Some((strength, input)) = tied else {
-            let made = made.with_judge(judge);
-            let made = if with_edges { made.with_edges(Self::search_in_space(contact)?) } else { made };
+            let made = made.with_check(overlap_check);
+            let made = if with_edges { made.with_edges(Self::search_in_3d(contact)?) } else { made };
             return Ok((self.with_images(Box::new(made), mirrors, contact), terms));
         };
-        let unborn = Unborn { search: Self::search_in_space(contact)?, input, thickness: contact.interface.thickness };
+        let unborn = PendingTies { search: Self::search_in_3d(contact)?, input, thickness: contact.interface.thickness };
         let tie_terms = self.add_terms(terms_of_ties(&contact.interface));
         let mut made = TiedFacet::new(made, unborn, strength, tie_terms);
-        if contact.interface.active[0] <= 0.0 && !self.again {
+        if contact.interface.active[0] <= 0.0 && !self.rebuild {
             made.bind(&self.mesh.positions);
             if made.ties().is_none_or(|ties| ties.nodes.is_empty()) {
                 let (first, second) = if passes[0].0 == 0 { ("first", "second") } else { ("second", "first") };
@@ -259,11 +267,11 @@ impl Builder<'_, 3> {
             }
         }
         // What weighs forces has to see those of the ties.
-        Ok((Box::new(Judged::new(Box::new(made), judge)), terms))
+        Ok((Box::new(Checked::new(Box::new(made), overlap_check)), terms))
     }
 
     /// What looks at the overlaps of the bodies whose surfaces meet.
-    pub(super) fn judge(&self, surfaces: &[SpaceSurface], contact: &model::Contact) -> Result<Judge, Vec<Fault>> {
+    pub(super) fn overlap_check(&self, surfaces: &[SpaceSurface], contact: &model::Contact) -> Result<OverlapCheck, Vec<Fault>> {
         let sides: Vec<Vec<u32>> = surfaces.iter().map(|surface| self.bodies_of(surface)).collect();
         let mut all = sides.concat();
         all.sort_unstable();
@@ -272,7 +280,7 @@ impl Builder<'_, 3> {
         let are_two = sides.len() == 2 && !sides[0].iter().any(|body| sides[1].binary_search(body).is_ok());
         let side_of = |body: u32| u32::from(sides[sides.len() - 1].binary_search(&body).is_ok());
         let ignores_start = initial::is_ignored(&contact.interface) || contact.tied.is_some();
-        let make = |bodies: &Bodies<'_>| Judge::new(bodies, &self.mesh.positions, ignores_start);
+        let make = |bodies: &Bodies<'_>| OverlapCheck::new(bodies, &self.mesh.positions, ignores_start);
         self.of_bodies(&all, make, if are_two { Some(&side_of) } else { None }).map_err(|fault| vec![fault])
     }
 
@@ -301,19 +309,19 @@ impl Builder<'_, 3> {
     }
 
     /// What follows the nodes of a contact, and its passes.
-    pub(super) fn tracker_in_space(&self, contact: &model::Contact) -> Result<(Tracker, Passes), Vec<Fault>> {
-        let search = Self::search_in_space(contact)?;
+    pub(super) fn tracker_in_3d(&self, contact: &model::Contact) -> Result<(Tracker, Passes), Vec<Fault>> {
+        let search = Self::search_in_3d(contact)?;
         let Some(kind) = formulation::kind_of(contact) else {
             let message = format!("there is no formulation \"{}\"", contact.formulation.name());
             return Err(vec![Fault::new(&UNKNOWN_NAME, "formulation", message, "see `embate list formulations`")]);
         };
         let passes = (kind.passes)(contact);
-        let surfaces = self.surfaces_in_space(contact)?;
+        let surfaces = self.surfaces_in_3d(contact)?;
         Ok((Tracker::new(surfaces, passes, &self.body_of_node, search, &self.mesh.positions), passes))
     }
 
     /// The search that a contact names.
-    pub(super) fn search_in_space(contact: &model::Contact) -> Result<Box<dyn Search<3>>, Vec<Fault>> {
+    pub(super) fn search_in_3d(contact: &model::Contact) -> Result<Box<dyn Search<3>>, Vec<Fault>> {
         let Some(found) = search_by_name::<3>(&contact.search) else {
             let message = format!("there is no search \"{}\"", contact.search);
             return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
@@ -322,7 +330,7 @@ impl Builder<'_, 3> {
     }
 
     /// The surfaces of a contact: two, or one that meets itself.
-    pub(super) fn surfaces_in_space(&self, contact: &model::Contact) -> Result<Vec<SpaceSurface>, Vec<Fault>> {
+    pub(super) fn surfaces_in_3d(&self, contact: &model::Contact) -> Result<Vec<SpaceSurface>, Vec<Fault>> {
         let is_mirror = |facet: [u32; 4]| self.constraints.is_mirror(facet);
         let whole = |surface: Result<SpaceSurface, Fault>, path: String, what: String| match surface {
             Ok(surface) if surface.facets.is_empty() => {
@@ -388,9 +396,14 @@ impl Builder<'_, 3> {
     }
 }
 
-/// The same with the local thickness of the bodies that a judge looks at.
-pub(super) fn with_thickness(mut inputs: Vec<PassInput>, judge: &Judge, surfaces: &[SpaceSurface], passes: Passes) -> Vec<PassInput> {
-    let thickness: Vec<Vec<f64>> = surfaces.iter().map(|surface| judge.thickness_at(&surface.nodes)).collect();
+/// The same with the local thickness of the bodies that an overlap check looks at.
+pub(super) fn with_thickness(
+    mut inputs: Vec<PassInput>,
+    overlap_check: &OverlapCheck,
+    surfaces: &[SpaceSurface],
+    passes: Passes,
+) -> Vec<PassInput> {
+    let thickness: Vec<Vec<f64>> = surfaces.iter().map(|surface| overlap_check.thickness_at(&surface.nodes)).collect();
     for (input, &(slave, target)) in inputs.iter_mut().zip(passes) {
         let surface = &surfaces[target];
         let at = |node: &u32| surface.nodes.binary_search(node).map_or(f64::INFINITY, |rank| thickness[target][rank]);
@@ -400,15 +413,15 @@ pub(super) fn with_thickness(mut inputs: Vec<PassInput>, judge: &Judge, surfaces
     inputs
 }
 
-/// The same judge with the pressure stiffness of slaves, Pa/m.
-pub(super) fn moduli(mut judge: Judge, surfaces: &[SpaceSurface], passes: Passes, inputs: &[PassInput]) -> Judge {
+/// The same overlap check with the pressure stiffness of slaves, Pa/m.
+pub(super) fn moduli(mut overlap_check: OverlapCheck, surfaces: &[SpaceSurface], passes: Passes, inputs: &[PassInput]) -> OverlapCheck {
     for (&(slave, _), input) in passes.iter().zip(inputs) {
         for (&node, own) in surfaces[slave].nodes.iter().zip(&input.slaves) {
             let [stiffness, of_mass] = [own.stiffness, own.of_mass].map(|sum| if own.area > 0.0 { sum / own.area } else { 0.0 });
-            judge.set_modulus(node, stiffness, of_mass);
+            overlap_check.set_modulus(node, stiffness, of_mass);
         }
     }
-    judge
+    overlap_check
 }
 
 /// A surface, and what contact needs of the elements behind it.

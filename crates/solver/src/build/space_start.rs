@@ -15,16 +15,16 @@ use crate::vector::minus;
 
 impl<'m> Builder<'m, 3> {
     /// Does something with the first look of a contact at its surfaces. Wrong surfaces see nothing: they are
-    /// told when contacts are made.
+    /// reported when contacts are made.
     pub(super) fn look<T>(&self, contact: &model::Contact, act: impl FnOnce(&Look<'_>) -> T) -> T {
-        let tracker = || self.tracker_in_space(contact).ok().map(|(tracker, _)| tracker);
-        let search = || -> Option<Box<dyn Search<3>>> { Self::search_in_space(contact).ok() };
+        let tracker = || self.tracker_in_3d(contact).ok().map(|(tracker, _)| tracker);
+        let search = || -> Option<Box<dyn Search<3>>> { Self::search_in_3d(contact).ok() };
         let with_edges = formulation::kind_of(contact).is_some_and(|kind| meets_edges(contact, (kind.passes)(contact)));
         act(&Look { tracker: &tracker, edges: if with_edges { Some(&search) } else { None }, thickness: contact.interface.thickness })
     }
 
     /// What obstacles do to nodes that are inside of them at the start: lines for the overview, and those out
-    /// of which nodes are pushed. Faults are told when all springs are known.
+    /// of which nodes are pushed. Faults are reported when all springs are known.
     pub(super) fn obstacles_at_start(&self, tolerance: f64) -> (Vec<String>, Vec<Meeting<'m>>) {
         let (model, mut lines, mut pushed) = (self.model, Vec::new(), Vec::new());
         for obstacle in model.obstacles.iter().filter(|it| it.interface.active[0] <= 0.0) {
@@ -33,7 +33,7 @@ impl<'m> Builder<'m, 3> {
                 InitialPenetration::Ignore => IGNORED,
                 InitialPenetration::PushOut => PUSHED,
             };
-            // Wrong parts and shapes are told when obstacles are made.
+            // Wrong parts and shapes are reported when obstacles are made.
             let Ok(outside) = self.outside_met(obstacle) else { continue };
             if let ObstacleShape::Triangles(surface) = &obstacle.shape {
                 let thickness = obstacle.interface.thickness;
@@ -60,8 +60,8 @@ impl<'m> Builder<'m, 3> {
     }
 
     /// Pushes nodes out of each other's bodies and out of obstacles, in the mesh. What is left behind
-    /// obstacles is told when all springs are known.
-    pub(super) fn push_out_in_space(&mut self, meetings: &[Meeting<'_>], tolerance: f64) {
+    /// obstacles is reported when all springs are known.
+    pub(super) fn push_out_in_3d(&mut self, meetings: &[Meeting<'_>], tolerance: f64) {
         if meetings.is_empty() {
             return;
         }

@@ -7,9 +7,9 @@
 //! 3. [`Builder::conditions`]: springs, loads, contacts, obstacles, failure;
 //! 4. [`Builder::assembled`]: the system.
 
-use super::again::Origin;
-use super::fans::Fans;
 use super::mass::part_masses;
+use super::node_elements::NodeElements;
+use super::rebuild::RebuildSource;
 use super::{Builder, Builds, SERIAL, limits, source_of};
 use crate::assembly::Assembly;
 use crate::block::{Block, BlockInput, Initial, Report, Wrong, evaluate_at_rest, make};
@@ -96,7 +96,7 @@ where
         !(self.model.contacts.is_empty() && self.model.obstacles.is_empty())
     }
 
-    /// The outside of all bodies. Made only to be told of elements that overlap where nothing `touches`. A
+    /// The outside of all bodies. Made only to report elements that overlap where nothing `touches`. A
     /// symmetry line is no surface: pressures count the length on the model's side.
     fn outside(&self, touches: bool) -> Result<Surface<D>, Fault> {
         self.mesh.outside_without(&[], |segment| !touches || self.constraints.is_mirror(segment))
@@ -111,7 +111,7 @@ where
     /// Penetrations at the start are resolved, in the mesh, or faults.
     pub(super) fn start(&mut self) -> Result<Start<D>, Vec<Fault>> {
         let outside = self.outside(self.touches());
-        let penetrations = <Dim<D>>::part_at_start(self);
+        let penetrations = <Dim<D>>::resolve_initial_penetration(self);
         self.sound(Start { outside, penetrations })
     }
 
@@ -181,7 +181,15 @@ where
             model, mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, moduli, time_step, ..
         } = self;
         blocks.iter_mut().zip(&criteria).filter(|(_, criteria)| !criteria.is_empty()).for_each(|(block, _)| block.keep_forces());
-        let origin = || Box::new(Origin { model: model.clone(), fans: Fans::of(&mesh), moduli, time_step, positions: positions.clone() });
+        let origin = || {
+            Box::new(RebuildSource {
+                model: model.clone(),
+                node_elements: NodeElements::of(&mesh),
+                moduli,
+                time_step,
+                positions: positions.clone(),
+            })
+        };
         let erosion = criteria.iter().any(|criteria| !criteria.is_empty()).then(|| Box::new(Erosion::new(criteria, origin())));
         let count: usize = blocks.iter().map(|block| block.elements()).sum();
         let has_springs = springs.is_some();
@@ -329,14 +337,14 @@ where
         };
         let boundary = NonReflecting::new(self.model, &self.mesh, |facet| self.constraints.is_mirror(facet), behind);
         let mut faults = Vec::new();
-        let made = (told(forces, &mut faults), told(boundary, &mut faults));
+        let made = (reported(forces, &mut faults), reported(boundary, &mut faults));
         self.faults.extend(faults);
         made
     }
 }
 
 /// What was made, or its faults noted and what stands in for it.
-fn told<T: Default>(made: Result<T, Vec<Fault>>, faults: &mut Vec<Fault>) -> T {
+fn reported<T: Default>(made: Result<T, Vec<Fault>>, faults: &mut Vec<Fault>) -> T {
     made.unwrap_or_else(|wrong| {
         faults.extend(wrong);
         T::default()

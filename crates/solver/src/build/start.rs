@@ -5,7 +5,7 @@ use super::plane::Outlined;
 use super::{Builder, search_by_name};
 use crate::contact::formulation::{self, Passes};
 use crate::contact::initial::{self, Inside, Movable, Penetration};
-use crate::contact::obstacle::{Memory, Shape, Way};
+use crate::contact::obstacle::{ContactHistory, Shape, Way};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search::Search;
 use crate::contact::tracker::Tracker;
@@ -32,14 +32,14 @@ struct Meeting {
 impl Builder<'_, 2> {
     /// Penetrations at the start: faults, or lines for the overview. Those that shall be pushed out are, in
     /// the mesh.
-    pub(crate) fn part_at_start(&mut self) -> Vec<String> {
+    pub(crate) fn resolve_initial_penetration(&mut self) -> Vec<String> {
         let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let mut lines = Vec::new();
         let mut pushed = Vec::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let Interface { initial_penetration, thickness, active, .. } = contact.interface;
-            // Ties hold what is there; who begins later can't know. Wrong surfaces are told when contacts are
-            // made.
+            // Ties hold what is there; who begins later can't know. Wrong surfaces are reported when contacts
+            // are made.
             if contact.tied.is_some() || active[0] > 0.0 {
                 continue;
             }
@@ -61,13 +61,13 @@ impl Builder<'_, 2> {
         }
         let mut pushing = Vec::new();
         for obstacle in self.model.obstacles.iter().filter(|it| it.interface.active[0] <= 0.0) {
-            // Faults are told when all springs are known: nothing can be seen better.
+            // Faults are reported when all springs are known: nothing can be seen better.
             let what = match obstacle.interface.initial_penetration {
                 InitialPenetration::Error => continue,
                 InitialPenetration::Ignore => IGNORED,
                 InitialPenetration::PushOut => PUSHED,
             };
-            // Wrong parts and shapes are told when obstacles are made.
+            // Wrong parts and shapes are reported when obstacles are made.
             let Ok(outline) = self.outline_met(obstacle) else { continue };
             let Some(behind) = behind(obstacle, &outline.target.surface, &self.mesh.positions) else { continue };
             let nodes = self.nodes_met(obstacle, &outline.target.surface);
@@ -109,7 +109,7 @@ impl Builder<'_, 2> {
             }
         }
         for meeting in meetings {
-            // What is left behind obstacles is told when all springs are known.
+            // What is left behind obstacles is reported when all springs are known.
             let Some(i) = meeting.contact else { continue };
             let left = initial::penetrations(&mut meeting.tracker, meeting.thickness, &self.mesh.positions, tolerance);
             let faults = initial::faults(&format!("contact[{i}]"), &self.model.contacts[i].name, &left);
@@ -186,7 +186,7 @@ fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Optio
             return Some(Box::new(move |x| target.nearest(x, &all, &points).map(|nearest| (nearest.gap - thickness, nearest.normal))));
         }
     };
-    Some(Box::new(move |x| shape.meet(Way { from: x, to: x }, &mut Memory::default())))
+    Some(Box::new(move |x| shape.meet(Way { from: x, to: x }, &mut ContactHistory::default())))
 }
 
 fn penetrations(nodes: &[u32], positions: &[Vector], behind: &Behind, tolerance: f64) -> Vec<Penetration> {

@@ -13,10 +13,10 @@ use super::{Builder, manner, search_by_name};
 use crate::contact::edge_edge::EdgeTouch;
 use crate::contact::initial::space::Look;
 use crate::contact::initial::{self, Inside, Penetration};
-use crate::contact::node_facet::tracker::{Touch, Tracker};
+use crate::contact::node_facet::tracker::{ContactPoint, Tracker};
 use crate::contact::node_facet::{NodeFacet, PassInput, edges_at_start};
 use crate::contact::obstacle::{Manner, OutlineShape};
-use crate::contact::overlap::{Bodies, Judge};
+use crate::contact::overlap::{Bodies, OverlapCheck};
 use crate::contact::projection::edge_edge::point;
 use crate::contact::projection::node_facet::Placed;
 use crate::contact::search::Search;
@@ -57,17 +57,17 @@ impl Builder<'_, 3> {
         let Manner { reach, factor, ignores_start } = manner(interface, 0.0);
         let of_obstacle = |input: PassInput| PassInput { at_obstacle: Some(factor), ..input };
         let inputs = [parts.against(&rigid, interface, passes), rigid.against(&parts, interface, passes)].map(of_obstacle).into();
-        let judge = self.judge_of_triangles(&outside, &own, ignores_start)?;
+        let overlap_check = self.check_of_triangles(&outside, &own, ignores_start)?;
         let surfaces = vec![outside, own];
-        let inputs = with_thickness(inputs, &judge, &surfaces, PASSES);
-        let judge = moduli(judge, &surfaces, PASSES, &inputs);
+        let inputs = with_thickness(inputs, &overlap_check, &surfaces, PASSES);
+        let overlap_check = moduli(overlap_check, &surfaces, PASSES, &inputs);
         let tracker = Tracker::new(surfaces, PASSES, &self.body_of_node, search(), &self.positions).measured_by(0, &self.positions);
         let made = NodeFacet::new(tracker, inputs, interface, reach, &self.positions).with_edges(search());
-        Ok((body, Box::new(made.with_judge(judge))))
+        Ok((body, Box::new(made.with_check(overlap_check))))
     }
 
     /// What looks at the overlaps of the obstacle with the bodies that it meets.
-    fn judge_of_triangles(&self, met: &SpaceSurface, own: &SpaceSurface, ignores_start: bool) -> Result<Judge, Fault> {
+    fn check_of_triangles(&self, met: &SpaceSurface, own: &SpaceSurface, ignores_start: bool) -> Result<OverlapCheck, Fault> {
         let first = own.nodes.first().copied().unwrap_or(OBSTACLE);
         let make = |bodies: &Bodies<'_>| {
             let outside = bodies.outside.joined(own);
@@ -77,7 +77,7 @@ impl Builder<'_, 3> {
                 body_of: &|node| if node < first { (bodies.body_of)(node) } else { OBSTACLE },
                 side_of: Some(&|body| u32::from(body == OBSTACLE)),
             };
-            Judge::new(&bodies, &self.positions, ignores_start)
+            OverlapCheck::new(&bodies, &self.positions, ignores_start)
         };
         self.of_bodies(&self.bodies_of(met), make, None)
     }
@@ -92,7 +92,7 @@ impl Builder<'_, 3> {
         let first = self.positions.len() as u32;
         self.positions.extend(&surface.positions);
         self.mass.resize(self.positions.len(), 1.0);
-        let mut rigid = self.obstacle_body_in_space(obstacle, reference);
+        let mut rigid = self.obstacle_body_in_3d(obstacle, reference);
         rigid.members = (first..).zip(&surface.positions).map(|(node, &x)| Member { node, arm: minus(x, reference) }).collect();
         let points = rigid.members.iter().map(|member| member.arm).collect();
         let body = self.bodies.add_with_nodes(rigid, self.positions.len());
@@ -144,7 +144,7 @@ impl Builder<'_, 3> {
         for (i, obstacle) in self.model.obstacles.iter().enumerate() {
             let ObstacleShape::Triangles(surface) = &obstacle.shape else { continue };
             let outside = self.mesh.outside_without(&obstacle.parts, |facet| self.constraints.is_mirror(facet));
-            // Wrong parts are told when obstacles are made; who begins later can't know.
+            // Wrong parts are reported when obstacles are made; who begins later can't know.
             let (Ok(outside), true) = (outside, obstacle.interface.active[0] <= 0.0) else { continue };
             let found = self.penetrations_of_triangles(surface, outside, obstacle.interface.thickness, tolerance);
             match obstacle.interface.initial_penetration {
@@ -188,7 +188,7 @@ impl Builder<'_, 3> {
         let own = SpaceSurface::of_triangles(surface, self.mesh.positions.len() as u32);
         let mut tracker = Tracker::new(vec![outside, own], PASSES, &self.body_of_node, search(), &positions).measured_by(0, &positions);
         let touches = tracker.track(Sweep::between(&positions, &positions), thickness).iter();
-        let of = |touch: &Touch| {
+        let of = |touch: &ContactPoint| {
             let place = positions[touch.node as usize];
             Penetration { what: Inside::Node, place, depth: thickness - touch.projection.gap }
         };

@@ -1,5 +1,5 @@
-//! Axis-aligned bounding boxes: by them the judges find what of the bodies is near what. They share nothing
-//! with the boxes of the search.
+//! Axis-aligned bounding boxes: by them the overlap checks find what of the bodies is near what. They share
+//! nothing with the boxes of the search.
 
 /// A closed box, low and high corner, m.
 pub(super) type Aabb<const D: usize> = [[f64; D]; 2];

@@ -1,7 +1,7 @@
 //! Energy of the springs of a contact, to know what those had that are not found again because their node or
 //! segment has left the surface.
 
-use crate::archive::keep_all;
+use crate::archive::persist_all;
 
 /// How many springs are closed, and their energy, J/m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -10,7 +10,7 @@ pub(super) struct Closed {
     energy: f64,
 }
 
-keep_all!(Closed { count, energy });
+persist_all!(Closed { count, energy });
 
 impl Closed {
     /// Adds a spring.

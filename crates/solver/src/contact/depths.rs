@@ -1,22 +1,22 @@
-//! How deep bodies in the plane are in each other against their local thickness: by the springs of each step,
-//! and by a judge that looks at the bodies as they are.
+//! How deep bodies in 2D are in each other against their local thickness: by the springs of each step,
+//! and by an overlap check that looks at the bodies as they are.
 //!
-//! The judge shares nothing with the search and what it remembers. Nodes of an outline that are inside
-//! another one by their winding number, and three places on each part of a segment that is inside, are as
-//! deep as the other surface is far away. It looks when things may have gone a quarter of the least
+//! The overlap check shares nothing with the search and what it remembers. Nodes of an outline that are
+//! inside another one by their winding number, and three places on each part of a segment that is inside, are
+//! as deep as the other surface is far away. It looks when things may have gone a quarter of the least
 //! thickness, both bodies together, and at least every thirty-second step; where many segments are near each
 //! other less often, so that it goes through 16 of them a step in the mean. Where a body may meet itself, it
-//! is judged against itself, too ([`super::outline`]).
+//! is checked against itself, too ([`super::outline`]).
 
 use super::boxes::{Aabb, do_meet};
+use super::checked::Look;
 use super::findings::{DEEPEST_IN_PLANE, Findings, Overlap, SEEN, way_until_next};
-use super::judged::Look;
 use super::outline::{Opposite, Outline, Side};
-use super::tracker::{Touch, Tracker};
+use super::tracker::{ContactPoint, Tracker};
 use super::{Scene, Vector};
-use crate::archive::{Archive, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_each};
 
-/// Depths of a contact in the plane against the local thickness, the lesser of both bodies'.
+/// Depths of a contact in 2D against the local thickness, the lesser of both bodies'.
 #[derive(Debug, Default)]
 pub struct Depths {
     /// What is opposite of the segments of each surface.
@@ -27,7 +27,7 @@ pub struct Depths {
     way: f64,
     /// Whether the step before was too deep.
     was_deep: bool,
-    judge: Judge,
+    overlap_check: OverlapCheck,
 }
 
 /// Way of both bodies together between two looks, as a fraction of the least thickness, and most steps.
@@ -44,7 +44,7 @@ const CERTAIN: f64 = 0.02;
 
 /// Looks at the bodies as they are.
 #[derive(Debug, Default)]
-struct Judge {
+struct OverlapCheck {
     outlines: Vec<Outline>,
     /// On which sides of the contact each is.
     sides: Vec<u8>,
@@ -64,12 +64,12 @@ impl Depths {
         Self { surfaces, ..Self::default() }
     }
 
-    /// With a judge of these bodies, each on the first (1) or the second side (2) of the contact, or on both
-    /// (3): what meets is of different sides.
+    /// With an overlap check of these bodies, each on the first (1) or the second side (2) of the contact, or
+    /// on both (3): what meets is of different sides.
     #[must_use]
     pub(crate) fn judging(self, outlines: Vec<(Outline, u8)>) -> Self {
         let (outlines, sides) = outlines.into_iter().unzip();
-        Self { judge: Judge { outlines, sides, next: f64::NEG_INFINITY, steps: 0, looked: 0, inside: Vec::new() }, ..self }
+        Self { overlap_check: OverlapCheck { outlines, sides, next: f64::NEG_INFINITY, steps: 0, looked: 0, inside: Vec::new() }, ..self }
     }
 
     /// Least thickness at the start behind segments (of their surfaces), m.
@@ -84,11 +84,11 @@ impl Depths {
         let way = scene.sweep.travel - self.travel;
         (self.travel, self.way) = (scene.sweep.travel, if way.is_finite() { way } else { 0.0 });
         self.findings.begin();
-        self.judge.steps += 1;
+        self.overlap_check.steps += 1;
         // What was too deep is looked at in each step: its springs alone may not see it.
-        let least = if scene.sweep.travel >= self.judge.next { 1 } else { MOST_STEPS }.max(self.judge.looked / PER_STEP);
-        let is_due = self.was_deep || self.judge.steps >= least;
-        if !self.judge.outlines.is_empty() && is_due {
+        let least = if scene.sweep.travel >= self.overlap_check.next { 1 } else { MOST_STEPS }.max(self.overlap_check.looked / PER_STEP);
+        let is_due = self.was_deep || self.overlap_check.steps >= least;
+        if !self.overlap_check.outlines.is_empty() && is_due {
             self.look(scene);
         }
     }
@@ -96,15 +96,15 @@ impl Depths {
     /// Judges the bodies as they are.
     fn look(&mut self, scene: &Scene<'_>) {
         let positions = scene.sweep.new;
-        let judge = &mut self.judge;
-        judge.outlines.iter_mut().for_each(|outline| outline.refit(positions));
-        let sides = judge.outlines.iter().flat_map(|outline| &outline.sides).filter(|side| !side.is_mirror);
+        let overlap_check = &mut self.overlap_check;
+        overlap_check.outlines.iter_mut().for_each(|outline| outline.refit(positions));
+        let sides = overlap_check.outlines.iter().flat_map(|outline| &outline.sides).filter(|side| !side.is_mirror);
         let least = sides.map(|side| side.opposite.now(side.segment, positions)).fold(f64::INFINITY, f64::min);
         let findings = &mut self.findings;
-        let mut nodes = std::mem::take(&mut judge.inside);
+        let mut nodes = std::mem::take(&mut overlap_check.inside);
         nodes.clear();
         let mut looked = 0;
-        judge.meeting(|own, other| {
+        overlap_check.meeting(|own, other| {
             looked += own.inside(other, positions, |x, side, is_node| {
                 // Flush sides are cut anywhere: a place that counts is inside for certain.
                 let found = deep(x, side, other, scene).filter(|found| found.ratio() < CERTAIN || other.is_inside(x, positions));
@@ -116,18 +116,19 @@ impl Depths {
                 }
             });
         });
-        for (outline, _) in judge.outlines.iter().zip(&judge.sides).filter(|(_, sides)| **sides == BOTH_SIDES) {
+        for (outline, _) in overlap_check.outlines.iter().zip(&overlap_check.sides).filter(|(_, sides)| **sides == BOTH_SIDES) {
             // That nothing is cut is seen at once, for most segments by boxes around many.
             looked += outline.sides.len() / OF_ITSELF;
             outline.folds(positions, |x, side, square, nearest| findings.see(overlap_of(x, [side, nearest], square, scene), true));
         }
-        (judge.inside, judge.looked) = (nodes, looked as u32);
+        (overlap_check.inside, overlap_check.looked) = (nodes, looked as u32);
         let deepest = findings.now.ratio().max(findings.own.ratio());
-        (judge.next, judge.steps) = (scene.sweep.travel + way_until_next(deepest, DEEPEST_IN_PLANE, BETWEEN_LOOKS, least), 0);
+        (overlap_check.next, overlap_check.steps) =
+            (scene.sweep.travel + way_until_next(deepest, DEEPEST_IN_PLANE, BETWEEN_LOOKS, least), 0);
     }
 
     /// Takes a node that is so deep inside, m, where bodies were `initial` thick at the start, m.
-    pub fn see(&mut self, tracker: &Tracker, touch: &Touch, depth: f64, initial: f64, scene: &Scene<'_>) {
+    pub fn see(&mut self, tracker: &Tracker, touch: &ContactPoint, depth: f64, initial: f64, scene: &Scene<'_>) {
         if !(depth > SEEN * initial) {
             return;
         }
@@ -164,11 +165,11 @@ impl Look<2> for Depths {
     }
 
     fn inside(&self) -> &[(u32, f64)] {
-        &self.judge.inside
+        &self.overlap_check.inside
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        keep_each!(archive; &mut self.findings, &mut self.travel, &mut self.was_deep, &mut self.judge.next, &mut self.judge.steps, &mut self.judge.looked, &mut self.judge.inside);
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        persist_each!(archive; &mut self.findings, &mut self.travel, &mut self.was_deep, &mut self.overlap_check.next, &mut self.overlap_check.steps, &mut self.overlap_check.looked, &mut self.overlap_check.inside);
         Ok(())
     }
 
@@ -177,7 +178,7 @@ impl Look<2> for Depths {
     }
 }
 
-impl Judge {
+impl OverlapCheck {
     /// Shows all pairs of bodies whose boxes meet, either way round.
     fn meeting(&self, mut see: impl FnMut(&Outline, &Outline)) {
         let boxes: Vec<Aabb<2>> = self.outlines.iter().map(Outline::around).collect();

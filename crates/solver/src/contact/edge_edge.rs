@@ -1,4 +1,4 @@
-//! Edges against edges: which ridges of surfaces in space cross each other, from step to step, and the
+//! Edges against edges: which ridges of surfaces in 3D cross each other, from step to step, and the
 //! springs between them.
 //!
 //! Nodes that meet facets say nothing of two edges that cross between their nodes: such bodies would go
@@ -11,10 +11,10 @@
 //! - a pair is not taken where an end of one of its edges is in contact with a facet at the other one
 //!   already; while ridges that cross are held (and none lies on a face), such nodes are left out that were
 //!   not in contact before: the depth of the edges is that of the bodies, also where a node is inside;
-//! - where a crossing goes over a node to the next edge of the same line, the spring goes on there with what
-//!   it knows; where the line bends inward, so that it is on neither edge, it goes on along the first one;
-//!   where the next edge leaves in any other direction, but the normal stays about the same, the spring goes
-//!   on there as soon as it is well off the first one.
+//! - where a crossing goes over a node to the next edge of the same line, the spring continues there with
+//!   what it knows; where the line bends inward, so that it is on neither edge, it continues along the first
+//!   one; where the next edge leaves in any other direction, but the normal stays about the same, the spring
+//!   goes on there as soon as it is well off the first one.
 //!
 //! A pair is inside only if it was seen to come in (on its way in the step, at any speed, as long as the
 //! edges still cross at its end), or at the start. Candidates come from the same global search, of the ends
@@ -22,12 +22,12 @@
 
 use super::Sweep;
 use super::node_facet::groups::bodies_of;
-use super::node_facet::tracker::Memory;
+use super::node_facet::tracker::ContactHistory;
 use super::projection::edge_edge::{Crossing, Ridge, crossing, distance, point};
 use super::projection::node_facet::{Placed, Vector, unit};
 use super::search::{Pair, Query, Search};
 use super::springs::{End, Stiffening};
-use crate::archive::{Archive, Kept, keep_all};
+use crate::archive::{Archive, ArchiveResult, persist_all};
 use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::SpaceSurface;
 use crate::rows::Rows;
@@ -39,9 +39,9 @@ use crate::vector::{length, minus};
 const BETWEEN: f64 = 0.25;
 const BEGINS: f64 = -0.05;
 const STAYS: f64 = -0.25;
-/// By which fraction of an edge a closed spring goes on beyond its end where the line ends.
+/// By which fraction of an edge a closed spring continues beyond its end where the line ends.
 const BEYOND: f64 = 0.05;
-/// The same where the line goes on, but bends inward there so that no place on the next edge takes it over.
+/// The same where the line continues, but bends inward there so that no place on the next edge takes it over.
 const BENT: f64 = 0.5;
 /// The same of the place where edges go through each other on their way in a step.
 const ON_WAY: f64 = 0.1;
@@ -52,7 +52,7 @@ const SHALLOW: f64 = 0.25;
 /// The global search is asked for a little more than is needed: it may round.
 const SLACK: f64 = 1.001;
 
-/// Another pair, and whether its first edge is that which goes on in the second one here: of one surface
+/// Another pair, and whether its first edge is that which continues in the second one here: of one surface
 /// pairs are ascending.
 #[derive(Clone, Copy)]
 struct Other {
@@ -83,10 +83,10 @@ pub struct EdgePair {
     /// Depth beyond which the spring stiffens, m.
     pub stiffening: Stiffening,
     /// What is kept of the spring.
-    pub memory: Memory,
+    pub memory: ContactHistory,
 }
 
-keep_all!(EdgePair { edges, own, touches, stiffness, area, stiffening, memory });
+persist_all!(EdgePair { edges, own, touches, stiffness, area, stiffening, memory });
 
 /// Edges that are inside each other, or near it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -201,7 +201,7 @@ impl EdgeTracker {
         &mut self.pairs[touch.pair as usize]
     }
 
-    /// Candidates anew: all pairs of ridges nearer than the radius. What pairs remember goes on.
+    /// Candidates again: all pairs of ridges nearer than the radius. What pairs remember continues.
     pub fn find(&mut self, around: &Around<'_>) {
         let &Around { surfaces, sweep, radius, skin, .. } = around;
         let [first, second] = self.sides;
@@ -272,7 +272,7 @@ impl EdgeTracker {
         }
     }
 
-    /// Pairs that are inside, or near enough to come in during the next update, ascending. `is_held` tells
+    /// Pairs that are inside, or near enough to come in during the next update, ascending. `is_held` says
     /// whether a node (of the first surface or of the second) is in contact with a facet of the other one;
     /// `make` gives the stiffness and the area of a new spring, and the depth beyond which it stiffens.
     pub fn track(
@@ -311,9 +311,9 @@ impl EdgeTracker {
             if touch.is_new {
                 let (stiffness, area, stiffening) = make(touch);
                 let pair = &mut self.pairs[touch.pair as usize];
-                (pair.stiffness, pair.area, pair.stiffening, pair.memory) = (stiffness, area, stiffening, Memory::default());
-                // A spring that went over the end of another edge goes on: of several that which pushed most
-                // nearly along this normal.
+                (pair.stiffness, pair.area, pair.stiffening, pair.memory) = (stiffness, area, stiffening, ContactHistory::default());
+                // A spring that went over the end of another edge continues: of several that which pushed
+                // most nearly along this normal.
                 let others = self.beside(touch, around).chain(self.come_from(touch.edges, around));
                 let cosine = |other: Other| self.cosine(other, &touch.crossing);
                 let better = |a: Other, b: Other| if cosine(b) > cosine(a) { b } else { a };
@@ -322,7 +322,7 @@ impl EdgeTracker {
                     let EdgePair { stiffness, area, stiffening, memory, .. } = self.pairs[left.pair];
                     // Normal and slip are those of the first edge against the second.
                     let of = |vector: Vector| vector.map(|c| left.sign() * c);
-                    let memory = Memory { normal: of(memory.normal), slip: of(memory.slip), ..memory };
+                    let memory = ContactHistory { normal: of(memory.normal), slip: of(memory.slip), ..memory };
                     self.pairs[left.pair].touches = false;
                     self.pairs[touch.pair as usize] = EdgePair { stiffness, area, stiffening, memory, ..self.pairs[touch.pair as usize] };
                 }
@@ -336,7 +336,7 @@ impl EdgeTracker {
         &self.touches
     }
 
-    /// Whether the spring of a pair ended in this step and goes on at a touch.
+    /// Whether the spring of a pair ended in this step and continues at a touch.
     fn goes_over(&self, other: Other, touch: &EdgeTouch, taken: &[bool]) -> bool {
         self.pairs[other.pair].touches && !taken[other.pair] && self.cosine(other, &touch.crossing) > STRAIGHT
     }
@@ -346,7 +346,7 @@ impl EdgeTracker {
         other.sign() * dot(self.pairs[other.pair].memory.normal, crossing.normal)
     }
 
-    /// Pairs of the edges of a touch, or those that go on from them in the same line.
+    /// Pairs of the edges of a touch, or those that continue from them in the same line.
     fn beside<'a>(&'a self, touch: &EdgeTouch, around: &'a Around<'_>) -> impl Iterator<Item = Other> + use<'a> {
         let [firsts, seconds] = [0, 1].map(|of| self.line(of, touch.edges[of], around));
         let (own, sides) = (touch.edges, self.sides);
@@ -358,7 +358,7 @@ impl EdgeTracker {
         })
     }
 
-    /// Pairs with an edge that goes on from one of these at its end in any direction, and the same other
+    /// Pairs with an edge that continues from one of these at its end in any direction, and the same other
     /// edge, that cross beyond that end: what crosses has gone over the node.
     fn come_from<'a>(&'a self, edges: [u32; 2], around: &'a Around<'_>) -> impl Iterator<Item = Other> + use<'a> {
         let nodes = move |of: usize, edge: u32| around.surfaces[self.sides[of]].edges[edge as usize].nodes;
@@ -382,7 +382,7 @@ impl EdgeTracker {
         })
     }
 
-    /// An edge, and those that go on from its ends in the same line.
+    /// An edge, and those that continue from its ends in the same line.
     fn line(&self, of: usize, edge: u32, around: &Around<'_>) -> Vec<u32> {
         let nodes = around.surfaces[self.sides[of]].edges[edge as usize].nodes;
         let mut line = vec![edge];
@@ -392,7 +392,7 @@ impl EdgeTracker {
         line
     }
 
-    /// Edges that go on from an edge at its end `node` in the same line.
+    /// Edges that continue from an edge at its end `node` in the same line.
     fn next<'a>(&'a self, of: usize, edge: u32, node: u32, around: &'a Around<'_>) -> impl Iterator<Item = u32> + use<'a> {
         let surface = &around.surfaces[self.sides[of]];
         let placed = Placed { surface, positions: around.sweep.new };
@@ -405,8 +405,8 @@ impl EdgeTracker {
         at_node.iter().copied().filter(move |&other| other != edge && dot(own, along(other)).abs() > STRAIGHT)
     }
 
-    /// Whether a crossing is on both edges, or so little beyond their ends that a closed spring goes on.
-    fn goes_on(&self, edges: [u32; 2], crossing: &Crossing, around: &Around<'_>) -> bool {
+    /// Whether a crossing is on both edges, or so little beyond their ends that a closed spring continues.
+    fn continues(&self, edges: [u32; 2], crossing: &Crossing, around: &Around<'_>) -> bool {
         (0..2).all(|of| {
             let along = crossing.along[of];
             let beyond = (-along).max(along - 1.0);
@@ -424,7 +424,7 @@ impl EdgeTracker {
         let crossing = crossing(a, b)?;
         // A closed spring stays where one would not begin.
         let is_closed = touches && memory.half < open;
-        if !(if is_closed { self.goes_on(edges, &crossing, around) } else { crossing.is_within(0.0) }) {
+        if !(if is_closed { self.continues(edges, &crossing, around) } else { crossing.is_within(0.0) }) {
             return None;
         }
         let nodes = [0, 1].map(|of| surfaces[self.sides[of]].edges[edges[of] as usize].nodes);
@@ -504,8 +504,8 @@ impl EdgeTracker {
     }
 
     /// Keeps what is known of the past.
-    pub(super) fn keep(&mut self, archive: &mut Archive<'_>, surfaces: &[SpaceSurface]) -> Kept {
-        crate::archive::Keep::keep(&mut self.pairs, archive)?;
+    pub(super) fn persist(&mut self, archive: &mut Archive<'_>, surfaces: &[SpaceSurface]) -> ArchiveResult {
+        crate::archive::Persist::persist(&mut self.pairs, archive)?;
         let is_there = |pair: &EdgePair| (0..2).all(|of| (pair.edges[of] as usize) < surfaces[self.sides[of]].edges.len());
         let is_sorted = self.pairs.is_sorted_by(|a, b| a.edges < b.edges);
         archive.check(is_sorted && self.pairs.iter().all(is_there), "a contact follows edges that are not there")

@@ -1,22 +1,23 @@
 //! How deep bodies are in each other against their local thickness: what was found, deepest, first and now.
 
-use crate::archive::keep_all;
+use crate::archive::persist_all;
 
-/// Deepest that what is held may be in space, as a fraction of the local thickness: well below half of the
+/// Deepest that what is held may be in 3D, as a fraction of the local thickness: well below half of the
 /// half, for what lies between samples and looks.
 pub const DEEPEST: f64 = 1.0 / 6.0;
-/// The same in the plane, where springs tell depths in each step.
+/// The same in 2D, where springs tell depths in each step.
 pub const DEEPEST_IN_PLANE: f64 = 0.2;
-/// Deepest that it may be in a single step of the plane: what comes in within a step, which may be thrown out
+/// Deepest that it may be in a single step in 2D: what comes in within a step, which may be thrown out
 /// in the next.
 const DEEPEST_IN_A_STEP: f64 = 0.22;
-/// Depth from which on an overlap gets a net and counts as penetration, as a fraction of the local thickness.
+/// Depth from which on an overlap gets a volume spring and counts as penetration, as a fraction of the local
+/// thickness.
 pub const CAST: f64 = 0.05;
 
 /// Fraction of the thickness at the start from which on a depth is looked at: a body may be crushed to a
 /// sixteenth.
 pub(super) const SEEN: f64 = 0.0125;
-/// Way of both sides together between two looks in space, as a fraction of the least thickness, and most
+/// Way of both sides together between two looks in 3D, as a fraction of the least thickness, and most
 /// steps.
 pub(super) const BETWEEN_LOOKS: f64 = 0.125;
 pub(super) const MOST_STEPS: u32 = 16;
@@ -37,7 +38,7 @@ pub(super) fn way_until_next(ratio: f64, most: f64, between: f64, least: f64) ->
 /// A place in an overlap.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Overlap {
-    /// Where, m; in the plane the last is 0.
+    /// Where, m; in 2D the last is 0.
     pub place: [f64; 3],
     /// Depth there, m.
     pub depth: f64,
@@ -49,7 +50,7 @@ pub struct Overlap {
     pub time: f64,
 }
 
-keep_all!(Overlap { place, depth, thickness, nodes, time });
+persist_all!(Overlap { place, depth, thickness, nodes, time });
 
 impl Overlap {
     /// Depth as a fraction of the local thickness.
@@ -62,7 +63,7 @@ impl Overlap {
 /// What was found so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// What was not held, over all looks: in space regions, in the plane steps.
+    /// What was not held, over all looks: in 3D regions, in 2D steps.
     pub unverified: u64,
     /// Looks.
     pub looks: u64,
@@ -78,7 +79,7 @@ pub struct Findings {
     pub through: Option<Overlap>,
 }
 
-keep_all!(Findings { unverified, looks, first, worst, now, own, through });
+persist_all!(Findings { unverified, looks, first, worst, now, own, through });
 
 impl Findings {
     /// A new look begins.
@@ -150,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_in_the_plane_counts_at_once_from_0_22_on_and_from_a_fifth_on_if_the_one_before_was_too_deep() {
+    fn a_step_in_2d_counts_at_once_from_0_22_on_and_from_a_fifth_on_if_the_one_before_was_too_deep() {
         let found = [(0.19, true), (0.21, false), (0.21, true), (0.23, false), (0.23, true)].map(|(ratio, was)| counts(ratio, was));
         assert_eq!(found, [0, 0, 1, 1, 1]);
     }

@@ -112,7 +112,7 @@ pub struct Setup<'a> {
     /// Outlines of all bodies.
     pub outlines: &'a Outlines,
     /// Whether it will take over from one that has acted already, because surfaces have changed.
-    pub again: bool,
+    pub rebuild: bool,
 }
 
 impl Setup<'_> {
@@ -129,7 +129,7 @@ impl Setup<'_> {
     }
 
     /// Sees how deep nodes are against the local thickness; where nothing is tied, and nothing overlaps at
-    /// the start, bodies are judged as they are.
+    /// the start, bodies are checked as they are.
     #[must_use]
     pub fn depths(&self) -> Depths {
         let depths = Depths::new(self.sides.iter().map(|side| self.outlines.opposite(&side.target.surface)).collect());

@@ -6,7 +6,7 @@
 
 pub mod space;
 
-use super::tracker::{Touch, Tracker};
+use super::tracker::{ContactPoint, Tracker};
 use super::{Sweep, Vector};
 use crate::contact::messages::PENETRATION;
 use crate::error::Fault;
@@ -14,8 +14,8 @@ use crate::load::constraint::Constraints;
 use crate::model::{InitialPenetration, Interface};
 use crate::vector::place;
 
-/// At most so many are told one by one.
-const TOLD: usize = 20;
+/// At most so many are reported one by one.
+const REPORTED_MAX: usize = 20;
 /// Rounds of looking for penetrations, and sweeps over those that a round found.
 const ROUNDS: usize = 100;
 const SWEEPS: usize = 10;
@@ -36,7 +36,7 @@ pub struct Penetration<const D: usize = 2> {
 pub enum Inside {
     /// A node, behind a segment, a facet or an obstacle.
     Node,
-    /// An edge of space that crosses another one.
+    /// An edge in 3D that crosses another one.
     Edge,
 }
 
@@ -50,39 +50,39 @@ impl<const D: usize> Penetration<D> {
     }
 }
 
-/// Faults of a contact or obstacle at `path` with these penetrations; the first 20 are told, the rest is
+/// Faults of a contact or obstacle at `path` with these penetrations; the first 20 are reported, the rest is
 /// counted.
 #[must_use]
 pub fn faults<const D: usize>(path: &str, name: &str, found: &[Penetration<D>]) -> Vec<Fault> {
     let help = "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\"";
     let one = |penetration: &Penetration<D>| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
-    let mut faults: Vec<Fault> = found.iter().take(TOLD).map(one).collect();
-    if found.len() > TOLD {
-        faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more nodes are inside", found.len() - TOLD), help));
+    let mut faults: Vec<Fault> = found.iter().take(REPORTED_MAX).map(one).collect();
+    if found.len() > REPORTED_MAX {
+        faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more nodes are inside", found.len() - REPORTED_MAX), help));
     }
     faults
 }
 
-/// Lines of a contact or obstacle for the overview; the first 20 are told, the rest is counted.
+/// Lines of a contact or obstacle for the overview; the first 20 are reported, the rest is counted.
 #[must_use]
 pub fn lines<const D: usize>(name: &str, found: &[Penetration<D>], what_is_done: &str) -> Vec<String> {
     let mut lines: Vec<String> =
-        found.iter().take(TOLD).map(|penetration| format!("{name}: {}; {what_is_done}", penetration.line())).collect();
-    if found.len() > TOLD {
-        lines.push(format!("{name}: and {} more nodes; {what_is_done}", found.len() - TOLD));
+        found.iter().take(REPORTED_MAX).map(|penetration| format!("{name}: {}; {what_is_done}", penetration.line())).collect();
+    if found.len() > REPORTED_MAX {
+        lines.push(format!("{name}: and {} more nodes; {what_is_done}", found.len() - REPORTED_MAX));
     }
     lines
 }
 
 /// Whether gaps that are negative when an interface begins to act count as zero: where the model says so, or
-/// where it begins later, so that nobody can say where bodies are then.
+/// where it begins later, so that no one can say where bodies are then.
 #[must_use]
 pub fn is_ignored(interface: &Interface) -> bool {
     interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
 }
 
 /// The gap that counts as zero (m, negative), now that the gap is `gap`: that at which the interface began to
-/// act, until the surfaces part. One that went with the gap would give to springs what nobody put in.
+/// act, until the surfaces part. One that went with the gap would give to springs what no one put in.
 /// `offset` is that of the step before; it has none before it has begun.
 #[must_use]
 pub fn kept(has_begun: bool, offset: f64, gap: f64) -> f64 {
@@ -105,12 +105,15 @@ pub fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
 #[must_use]
 pub fn penetrations(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<Penetration> {
     let inside = inside(tracker, thickness, positions, tolerance);
-    let of =
-        |touch: &Touch| Penetration { what: Inside::Node, place: positions[touch.node as usize], depth: thickness - touch.projection.gap };
+    let of = |touch: &ContactPoint| Penetration {
+        what: Inside::Node,
+        place: positions[touch.node as usize],
+        depth: thickness - touch.projection.gap,
+    };
     inside.iter().map(of).collect()
 }
 
-fn inside(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<Touch> {
+fn inside(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<ContactPoint> {
     tracker.forget();
     let touches = tracker.track(Sweep::between(positions, positions), thickness);
     touches.iter().filter(|touch| !touch.own && touch.projection.gap - thickness < -tolerance).copied().collect()
@@ -148,7 +151,7 @@ impl Movable<'_> {
         true
     }
 
-    /// Moves `nodes` out of an obstacle of which `project` tells gap (m) and normal. Whether something was
+    /// Moves `nodes` out of an obstacle of which `project` reports gap (m) and normal. Whether something was
     /// moved.
     pub fn push_off(&mut self, nodes: &[u32], project: impl Fn(Vector) -> Option<(f64, Vector)>) -> bool {
         let mut is_moved = false;
@@ -167,7 +170,7 @@ impl Movable<'_> {
     }
 
     /// Moves a node and the segment that it touches to a distance.
-    fn part(&mut self, tracker: &Tracker, touch: &Touch, distance: f64) {
+    fn part(&mut self, tracker: &Tracker, touch: &ContactPoint, distance: f64) {
         let target = tracker.target(touch.pass);
         let Some(here) = target.follow(self.positions[touch.node as usize], touch.projection.segment, self.positions) else { return };
         let [a, b] = target.surface.segments[here.segment as usize];

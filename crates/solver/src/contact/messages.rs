@@ -30,18 +30,18 @@ pub(crate) static SHARED_SURFACE: Message = Message {
     title: "a surface in contact with itself",
     example: Example::Model("[[contact]]\nname = \"hit\"\nbetween = [\"block\", \"block.right\"]\n"),
     cause: "The two surfaces of `between` are the same or have lines in common.",
-    cure: "Name two different surfaces; for a body that touches itself, name it in `bodies`.",
+    remedy: "Name two different surfaces; for a body that touches itself, name it in `bodies`.",
 };
 
 pub(crate) static NOTHING_GIVES_WAY: Message = Message {
     code: "E0402",
-    title: "a contact of bodies that all move as they are told",
+    title: "a contact of bodies whose motion is all prescribed",
     example: Example::Model(
         "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrigid = { x = 0, y = 0, rotation = 0 }\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
          [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
     cause: "All bodies here are rigid and prescribed, so no force changes anything.",
-    cure: "Let one of them deform, or be free in x, y or rotation; or leave the contact out.",
+    remedy: "Let one of them deform, or be free in x, y or rotation; or leave the contact out.",
 };
 
 pub(crate) static COMBINATION: Message = Message {
@@ -51,7 +51,7 @@ pub(crate) static COMBINATION: Message = Message {
         "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nformulation = \"pinball\"\ntied = true\n",
     ),
     cause: "Pinballs only push, segments have no slave nodes, pressures hold nothing together, and bodies have no slave.",
-    cure: "Take what the message suggests; docs/model-file.md says what goes with what.",
+    remedy: "Take what the message suggests; docs/model-file.md says what goes with what.",
 };
 
 pub(crate) static JOINED_TWICE: Message = Message {
@@ -61,27 +61,29 @@ pub(crate) static JOINED_TWICE: Message = Message {
         "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\n\n[[contact]]\nname = \"again\"\nbodies = \"all\"\n",
     ),
     cause: "Both would push, so the surfaces would be twice as stiff, and friction would be counted twice.",
-    cure: "Leave one of them out, or let one end (`death`) before the other begins (`birth`).",
+    remedy: "Leave one of them out, or let one end (`death`) before the other begins (`birth`).",
 };
 
 pub(crate) static PRESSURES: Message = Message {
     code: "E0405",
     title: "a table of pressures that is no contact law",
     example: Example::Model(
-        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nlaw = \"pressure_gap\"\ngaps = [\"-1 mm\", 0]\npressures = [0, \"1 MPa\"]\n",
+        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nlaw = \"pressure_gap\"\ngaps = \
+            [\"-1 mm\", 0]\npressures = [0, \"1 MPa\"]\n",
     ),
     cause: "The pressure must fall with the gap and end with zero, else surfaces pull or push each other from far away.",
-    cure: "Give pressures from the deepest penetration to the widest gap, the last one 0.",
+    remedy: "Give pressures from the deepest penetration to the widest gap, the last one 0.",
 };
 
 pub(crate) static FRICTION: Message = Message {
     code: "E0406",
     title: "static and dynamic friction that don't fit",
     example: Example::Model(
-        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nfriction = 0.1\nfriction_dynamic = 0.3\nfriction_decay = \"0.1 s/m\"\n",
+        "[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nfriction = 0.1\nfriction_dynamic = \
+            0.3\nfriction_decay = \"0.1 s/m\"\n",
     ),
     cause: "Dynamic friction is at most the static one, and is reached only with a decay.",
-    cure: "Give `friction`, a smaller `friction_dynamic`, and `friction_decay`.",
+    remedy: "Give `friction`, a smaller `friction_dynamic`, and `friction_decay`.",
 };
 
 pub(crate) static PENETRATION: Message = Message {
@@ -89,7 +91,7 @@ pub(crate) static PENETRATION: Message = Message {
     title: "bodies that are inside of each other at the start",
     example: Example::Model("[[obstacle]]\nname = \"ground\"\nplane = { point = [0, \"1 mm\"], normal = [0, 1] }\n"),
     cause: "Nodes lie behind the surface that they touch (with the thickness of the contact): its springs would shoot them out.",
-    cure: "Move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\".",
+    remedy: "Move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\".",
 };
 
 pub(crate) static TIE: Message = Message {
@@ -97,27 +99,33 @@ pub(crate) static TIE: Message = Message {
     title: "a tie that binds nothing",
     example: Example::Model("[[contact]]\nname = \"hit\"\nbetween = [\"block.left\", \"wall.right\"]\ntied = true\n"),
     cause: "No node of one surface lies near the other one.",
-    cure: "Let the surfaces touch, raise `thickness`, or leave `tied` out.",
+    remedy: "Let the surfaces touch, raise `thickness`, or leave `tied` out.",
 };
 
 pub(crate) static TIED_TWICE: Message = Message {
     code: "E0409",
     title: "a node in two ties",
     example: Example::Model(
-        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"lower\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"-5 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"upper\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"5 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[contact]]\nname = \"one\"\nbetween = [\"block.right\", \"lower.left\"]\ntied = true\n\n[[contact]]\nname = \"two\"\nbetween = [\"block.right\", \"upper.left\"]\ntied = true\n",
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 \
+            mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"lower\"\nmaterial = \"steel\"\nrectangle = { corner = \
+            [\"10 mm\", \"-5 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"upper\"\nmaterial \
+            = \"steel\"\nrectangle = { corner = [\"10 mm\", \"5 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, \
+            2] }\n\n[[contact]]\nname = \"one\"\nbetween = [\"block.right\", \"lower.left\"]\ntied = \
+            true\n\n[[contact]]\nname = \"two\"\nbetween = [\"block.right\", \"upper.left\"]\ntied = true\n",
     ),
     cause: "Two ties would hold one node against each other.",
-    cure: "Leave one of the two out, name smaller surfaces, or let the other surface be the slave.",
+    remedy: "Leave one of the two out, name smaller surfaces, or let the other surface be the slave.",
 };
 
 pub(crate) static ON_SYMMETRY: Message = Message {
     code: "E0410",
     title: "a surface that is all on a symmetry line",
     example: Example::Model(
-        "[[symmetry]]\npoint = [0, 0]\nnormal = [1, 0]\nparts = [\"block\"]\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.left\", \"wall.left\"]\n",
+        "[[symmetry]]\npoint = [0, 0]\nnormal = [1, 0]\nparts = [\"block\"]\n\n[[contact]]\nname = \"hit\"\nbetween \
+            = [\"block.left\", \"wall.left\"]\n",
     ),
-    cause: "On a symmetry line a body goes on: there is no surface.",
-    cure: "Name another surface.",
+    cause: "On a symmetry line the body continues: there is no surface.",
+    remedy: "Name another surface.",
 };
 
 pub(crate) static OBSTACLE: Message = Message {
@@ -125,7 +133,7 @@ pub(crate) static OBSTACLE: Message = Message {
     title: "an obstacle that has no shape",
     example: Example::Model("[[obstacle]]\nname = \"ground\"\npolyline = { points = [[0, \"-5 mm\"], [0, \"-5 mm\"]] }\n"),
     cause: "A polyline needs two different points, and goes nowhere back on itself; a hollow circle must be larger than the thickness.",
-    cure: "Correct the points or the radius.",
+    remedy: "Correct the points or the radius.",
 };
 
 pub(crate) static TURNED: Message = Message {
@@ -136,18 +144,23 @@ pub(crate) static TURNED: Message = Message {
          vertex -1 -1 0\\n vertex -1 1 0\\n vertex 1 1 0\\n endloop\\n endfacet\\nendsolid two\\n' > two.stl\n\
          embate check model.toml --set 'part=[{name=\"b\",material=\"steel\",box={corner=[0,0,0],size=[1,1,1],elements=[1,1,1]}}]' --set 'contact=[]' --set 'obstacle=[{stl={file=\"two.stl\"}}]'\n",
     ),
-    cause: "Two triangles that have an edge in common look to opposite sides there, or more than two have it, so that nobody can say where outside is.",
-    cure: "Repair the surface in the program that made it: all normals outward, nothing twice, each body closed.",
+    cause: "Two triangles that have an edge in common face opposite sides there, or more than two share it, so that \
+        inside and outside are undefined.",
+    remedy: "Repair the surface in the program that made it: all normals outward, nothing twice, each body closed.",
 };
 
 pub(crate) static NO_STEP: Message = Message {
     code: "E0412",
     title: "a penalty from a time step that nothing gives",
     example: Example::Model(
-        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrigid = true\nvelocity = [\"10 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrigid = true\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\npenalty_from = \"time_step\"\n",
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrigid = true\nvelocity = [\"10 m/s\", 0]\nrectangle = { \
+            corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"wall\"\nmaterial \
+            = \"steel\"\nrigid = true\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 \
+            mm\"], elements = [2, 4] }\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\npenalty_from \
+            = \"time_step\"\n",
     ),
     cause: "The step comes from elements, and rigid parts have none that deform.",
-    cure: "Give `time_step` in `[run]`, or take another `penalty_from`.",
+    remedy: "Give `time_step` in `[run]`, or take another `penalty_from`.",
 };
 
 pub(crate) static IDLE: Message = Message {
@@ -159,7 +172,7 @@ pub(crate) static IDLE: Message = Message {
          [[contact]]\nname = \"self\"\nbodies = [\"block\"]\n",
     ),
     cause: "No contact, obstacle, joint, load or motion has to do with the part: it stays as it is, and others go through it.",
-    cure: "Name it in a contact, move it or load it, or leave it out.",
+    remedy: "Name it in a contact, move it or load it, or leave it out.",
 };
 
 pub(crate) static OPEN: Message = Message {
@@ -169,8 +182,10 @@ pub(crate) static OPEN: Message = Message {
         "printf 'solid one\\n facet normal 0 0 1\\n outer loop\\n vertex -1 -1 0\\n vertex 1 -1 0\\n vertex 1 1 0\\n endloop\\n endfacet\\nendsolid one\\n' > one.stl\n\
          embate check model.toml --set 'part=[{name=\"b\",material=\"steel\",box={corner=[0,0,0],size=[1,1,1],elements=[1,1,1]}}]' --set 'contact=[]' --set 'obstacle=[{stl={file=\"one.stl\"}}]'\n",
     ),
-    cause: "Some edges of the triangles have a triangle on one side alone: the surface is a sheet, or has holes, or the corners of neighbours differ in their last digits.",
-    cure: "Of a sheet nothing is to be done if bodies meet its front and stay within its rim. Else close the surface in the program that made it, or merge its points.",
+    cause: "Some edges of the triangles have a triangle on one side alone: the surface is a sheet, or has holes, or \
+        the corners of neighbours differ in their last digits.",
+    remedy: "Of a sheet nothing is to be done if bodies meet its front and stay within its rim. Else close the \
+        surface in the program that made it, or merge its points.",
 };
 
 pub(crate) static NO_FORCE: Message = Message {
@@ -178,7 +193,7 @@ pub(crate) static NO_FORCE: Message = Message {
     title: "a contact that transmitted nothing",
     example: Example::Model("[run]\nend = \"0.1 us\"\n"),
     cause: "In the whole run no two surfaces of it touched.",
-    cure: "Look whether the run is long enough, the bodies move towards each other, and the contact names the surfaces that meet.",
+    remedy: "Look whether the run is long enough, the bodies move towards each other, and the contact names the surfaces that meet.",
 };
 
 pub(crate) static INSIDE_AT_START: Message = Message {
@@ -190,17 +205,21 @@ pub(crate) static INSIDE_AT_START: Message = Message {
          [[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\ninitial_penetration = \"ignore\"\n",
     ),
     cause: "`initial_penetration` lets the model be accepted: the nodes were pushed out, or the contact forgives what they began with.",
-    cure: "`embate check` lists the nodes; move the bodies apart where results near the contact matter.",
+    remedy: "`embate check` lists the nodes; move the bodies apart where results near the contact matter.",
 };
 
 pub(crate) static TIES_BROKE: Message = Message {
     code: "W0404",
     title: "ties that broke, or that bound nothing",
     example: Example::Model(
-        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [\"-10 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\ntied = true\ntie_strength = \"10 MPa\"\n",
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [\"-10 m/s\", 0]\nrectangle = { corner = [0, \
+            0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle \
+            = { corner = [\"10 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] \
+            }\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\ntied = true\ntie_strength \
+            = \"10 MPa\"\n",
     ),
     cause: "The force in a tie went over its strength, or the parts that it held were eroded.",
-    cure: "Nothing, where that is what is computed; else raise `tie_strength`.",
+    remedy: "Nothing, where that is what is computed; else raise `tie_strength`.",
 };
 
 pub(crate) static UNSOLVED: Message = Message {
@@ -208,13 +227,15 @@ pub(crate) static UNSOLVED: Message = Message {
     title: "contact forces that were not solved to the last digit",
     example: Example::Words("Many very stiff springs press on each other in one step."),
     cause: "The sweeps over the springs of a step ended before their forces agreed: penalties are far stiffer than the bodies.",
-    cure: "Lower the contact penalties (`penalty_scale`), and look at the energy drift.",
+    remedy: "Lower the contact penalties (`penalty_scale`), and look at the energy drift.",
 };
 
 pub(crate) static MISSED: Message = Message {
     code: "W0406",
     title: "bodies inside each other that nothing holds apart",
     example: Example::Words("Two parts that no contact names go through each other next to a contact."),
-    cause: "A node came in where no contact watches, a body went through itself, or bodies overlap by more than a sixth of their thickness (in the plane a fifth).",
-    cure: "Look at the place that the message names. Let one contact of `bodies = \"all\"` watch all surfaces; raise `penalty_scale` where a contact is too soft for what presses on it.",
+    cause: "A node came in where no contact watches, a body went through itself, or bodies overlap by more than a \
+        sixth of their thickness (in 2D a fifth).",
+    remedy: "Look at the place that the message names. Let one contact of `bodies = \"all\"` watch all surfaces; \
+        raise `penalty_scale` where a contact is too soft for what presses on it.",
 };

@@ -1,4 +1,4 @@
-//! Bodies against their own mirror image in a symmetry line, in space a plane: a fold that reaches it meets
+//! Bodies against their own mirror image in a symmetry line, in 3D a plane: a fold that reaches it meets
 //! its image there.
 //!
 //! Lines or planes, and nodes, come from the builder; springs go to the same solution as those of the contact
@@ -8,7 +8,7 @@
 
 use super::springs::{Answers, End, Spring, Springs};
 use super::{Formulation, Scene};
-use crate::archive::{Archive, Kept};
+use crate::archive::{Archive, ArchiveResult};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 use crate::vector::{dot, length, minus};
@@ -19,9 +19,9 @@ use std::any::Any;
 pub struct MirroredNode {
     /// The node.
     pub node: u32,
-    /// Constant of its spring on the distance from there, N/m, in the plane per metre of depth.
+    /// Constant of its spring on the distance from there, N/m, in 2D per metre of depth.
     pub stiffness: f64,
-    /// Surface that it stands for, m (in space m²).
+    /// Surface that it stands for, m (in 3D m²).
     pub area: f64,
     /// Distance that it keeps from there, m: half of that from its image.
     pub distance: f64,
@@ -91,10 +91,10 @@ where
         self.contact.remember(solved.part(self.found, usize::MAX));
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         // How many springs to images there are counts within a step.
         let Self { contact, mirrors: _, terms: _, found: _ } = self;
-        contact.keep(archive)
+        contact.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

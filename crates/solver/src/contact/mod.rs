@@ -19,7 +19,7 @@ pub mod edge_edge;
 pub mod node_facet;
 pub mod node_segment;
 pub mod pinball;
-pub mod proof;
+pub mod missed_contacts;
 pub mod segment;
 pub mod tied;
 pub mod obstacle;
@@ -29,12 +29,12 @@ pub mod overlap;
 pub mod depths;
 pub mod outline;
 mod closed;
-pub mod judged;
+pub mod checked;
 pub mod mirror;
 pub mod traces;
 pub(crate) mod rebuild;
 
-use crate::archive::{Archive, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::contact_forces::ContactForces;
 use crate::mesh::surface::Surface;
@@ -49,7 +49,7 @@ use tied::Ties;
 use traces::Traces;
 use tracker::{Certificate, SearchReport};
 
-/// A vector of the plane.
+/// A vector in 2D.
 pub type Vector = [f64; 2];
 
 /// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against
@@ -70,7 +70,7 @@ where
     ///
     /// # Errors
     /// What is read is of other surfaces.
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult;
 
     /// Takes over what its predecessor knew, which was of the same kind and made of the same contact before
     /// surfaces changed. What belongs to nodes and segments that are no more is forgotten.
@@ -90,8 +90,8 @@ where
     /// Energy of springs that were closed in the step before and were not found by the last
     /// [`Formulation::detect`], because what they pushed on has left the surface, J/m. What goes with
     /// surfaces that are no more is not among it.
-    fn let_go(&self) -> f64 {
-        self.within().map_or(0.0, |within| within.let_go())
+    fn lost_contact_energy(&self) -> f64 {
+        self.within().map_or(0.0, |within| within.lost_contact_energy())
     }
 
     /// Its ties, if it has such.
@@ -238,15 +238,15 @@ where
     ///
     /// # Errors
     /// What is read is of other surfaces.
-    pub(crate) fn keep(&mut self, archive: &mut Archive<'_>, springs: usize) -> Kept {
+    pub(crate) fn persist(&mut self, archive: &mut Archive<'_>, springs: usize) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
             name: _, kind: _, terms: _, active: _,
             totals, penetration, has_pressed, friction_work, formulation, checked, time, found,
         } = self;
-        keep_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, &mut found.start, &mut found.end);
+        persist_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, &mut found.start, &mut found.end);
         archive.check(found.start <= found.end && found.end <= springs, "a contact has springs that are not there")?;
-        formulation.keep(archive)
+        formulation.persist(archive)
     }
 
     fn acts_at(&self, time: f64) -> bool {
@@ -281,12 +281,12 @@ where
         self.friction_work += self.totals.lost.friction;
         self.formulation.remember(answers.clone());
         let acts = self.acts_at(self.time);
-        self.totals.lost.let_go = if acts { self.formulation.let_go() } else { 0.0 };
+        self.totals.lost.lost_contact_energy = if acts { self.formulation.lost_contact_energy() } else { 0.0 };
         let ends = acts && !self.acts_at(self.time + time_step);
         self.totals.lost.freed = if ends { answers.flat_map(|answer| answer.books().stored).sum() } else { self.formulation.freed() };
     }
 
-    /// Goes on with another formulation of the same kind, made of changed surfaces.
+    /// Continues with another formulation of the same kind, made of changed surfaces.
     pub fn renew(&mut self, formulation: Box<dyn Formulation<D>>) {
         let old = std::mem::replace(&mut self.formulation, formulation);
         self.formulation.inherit(old);
@@ -345,7 +345,7 @@ where
     }
 
     /// How deep it is, m: the deepest of the last evaluation's penetration and of the overlaps that are deep
-    /// enough for a net in the last look, between bodies and in themselves.
+    /// enough for a volume spring in the last look, between bodies and in themselves.
     #[must_use]
     pub fn depth(&self) -> f64 {
         let found = self.overlaps().map_or([Overlap::default(); 2], |found| [found.now, found.own]);
@@ -413,7 +413,7 @@ where
 {
     fn detect(&mut self, _: &Scene<'_, D>, _: &mut Springs<D>) {}
     fn remember(&mut self, _: Answers<'_, D>) {}
-    fn keep(&mut self, _: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, _: &mut Archive<'_>) -> ArchiveResult {
         Ok(())
     }
     fn inherit(&mut self, _: Box<dyn Any>) {}
@@ -427,7 +427,7 @@ pub(crate) fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
 /// What a node of a surface stands for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tributary {
-    /// Area, m²/m; of a body of revolution m², all around.
+    /// Area, m²/m; of an axisymmetric body m², all around.
     pub area: f64,
     /// Length, m.
     pub length: f64,

@@ -1,4 +1,4 @@
-//! Nodes against facets of surfaces in space: a spring for each slave node, in a single pass, a double pass,
+//! Nodes against facets of surfaces in 3D: a spring for each slave node, in a single pass, a double pass,
 //! or of a surface with itself; in the latter two also edges against edges ([`super::edge_edge`]), which
 //! share friction, thickness and memory with the nodes.
 //!
@@ -14,24 +14,24 @@ pub(super) mod passage;
 pub mod tied;
 pub mod tracker;
 
+use super::checked::Look;
 use super::closed::Closed;
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
 use super::findings::Findings;
 use super::initial::{is_ignored, kept};
-use super::judged::Look;
 use super::law::penalty::{factor, stiffening};
+use super::missed_contacts::MissedContactCheck;
 use super::node_segment::is_stored;
-use super::overlap::Judge;
+use super::overlap::OverlapCheck;
 use super::projection::edge_edge::distance;
 use super::projection::node_facet::{Placed, Projection, Vector, unit};
-use super::proof::Proof;
 use super::search::Search;
 use super::spin;
 use super::springs::friction::cone;
 use super::springs::{Answer, Answers, End, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Sweep};
-use crate::archive::{Archive, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::{Corners, NONE};
 use crate::model;
@@ -40,7 +40,7 @@ use crate::vector::any_tangent;
 pub use ends::ends;
 use ends::{ends_with, pushed};
 use std::any::Any;
-use tracker::{Memory, Touch, Tracker};
+use tracker::{ContactHistory, ContactPoint, Tracker};
 
 /// What a pass knows of its nodes and facets.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -108,9 +108,9 @@ pub struct NodeFacet {
     /// Edges against edges, if they meet.
     edges: Option<EdgeTracker>,
     /// Sweeps pairs within each step.
-    proof: Option<Proof>,
+    proof: Option<MissedContactCheck>,
     /// Looks at the bodies as they are.
-    judge: Option<Judge>,
+    overlap_check: Option<OverlapCheck>,
     passes: Vec<PassInput>,
     /// Distance that the surfaces keep, m.
     thickness: f64,
@@ -127,7 +127,7 @@ pub struct NodeFacet {
     has_begun: bool,
     /// Energy of the springs of the last step, and of those that were not found again, J.
     closed: Closed,
-    let_go: f64,
+    lost_contact_energy: f64,
     /// The touches of nodes that made springs in this step; those of edges follow.
     used: Vec<u32>,
     /// Nodes whose springs were closed after the last step, and those that edges stand for in this one: slave
@@ -146,7 +146,7 @@ impl NodeFacet {
             tracker,
             edges: None,
             proof: None,
-            judge: None,
+            overlap_check: None,
             passes,
             thickness: interface.thickness,
             reach,
@@ -156,7 +156,7 @@ impl NodeFacet {
             initial: if interface.thickness + reach > 0.0 { initial.to_vec() } else { Vec::new() },
             has_begun: false,
             closed: Closed::default(),
-            let_go: 0.0,
+            lost_contact_energy: 0.0,
             used: Vec::new(),
             closed_nodes: Vec::new(),
             superseded: Vec::new(),
@@ -173,14 +173,14 @@ impl NodeFacet {
 
     /// The same with a proof that nothing is missed.
     #[must_use]
-    pub fn with_proof(self, proof: Proof) -> Self {
+    pub fn with_proof(self, proof: MissedContactCheck) -> Self {
         Self { proof: Some(proof), ..self }
     }
 
-    /// The same with a judge of overlaps.
+    /// The same with an overlap check of overlaps.
     #[must_use]
-    pub fn with_judge(self, judge: Judge) -> Self {
-        Self { judge: Some(judge), ..self }
+    pub fn with_check(self, overlap_check: OverlapCheck) -> Self {
+        Self { overlap_check: Some(overlap_check), ..self }
     }
 
     /// What follows the edges.
@@ -197,7 +197,7 @@ impl NodeFacet {
 
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had:
     /// neighbours along a surface are near, and stay so.
-    fn gap(&self, touch: &Touch) -> f64 {
+    fn gap(&self, touch: &ContactPoint) -> f64 {
         let gap = touch.projection.gap - self.thickness;
         if !touch.own || self.initial.is_empty() {
             return gap;
@@ -220,7 +220,7 @@ impl NodeFacet {
     }
 
     /// Gap as the spring sees it, and the gap that counts as zero.
-    fn beyond(&self, gap: f64, own: bool, memory: &Memory) -> (f64, f64) {
+    fn beyond(&self, gap: f64, own: bool, memory: &ContactHistory) -> (f64, f64) {
         let offset = kept(self.has_begun, memory.offset, gap);
         let offset = if self.ignores_start && !own { offset } else { 0.0 };
         (gap - offset, offset)
@@ -277,7 +277,7 @@ impl NodeFacet {
     }
 
     /// Whether edges stand for a node that touches.
-    fn is_superseded(&self, touch: &Touch, scene: &Scene<'_, 3>) -> bool {
+    fn is_superseded(&self, touch: &ContactPoint, scene: &Scene<'_, 3>) -> bool {
         let (surface, side) = (self.tracker.target(touch.pass), self.tracker.slave(touch.pass));
         let rest = Placed { surface, positions: scene.sweep.new }.rests_on(&touch.projection);
         surface.sharing(touch.projection.facet, rest).any(|facet| self.superseded.binary_search(&(side, touch.node, facet)).is_ok())
@@ -306,23 +306,23 @@ impl NodeFacet {
         } else {
             self.push_whole(&touch, &memory, (spring, rest), scene, (springs, &mut more));
         }
-        self.go_on(&memory, springs);
+        self.continue_run(&memory, springs);
         self.more = more;
-        *self.tracker.kept_mut(&touch) = Memory { offset, normal, facet, rest, stored: 0.0, ..memory };
+        *self.tracker.kept_mut(&touch) = ContactHistory { offset, normal, facet, rest, stored: 0.0, ..memory };
     }
 
-    /// Lets the spring that was pushed last go on where it ended.
-    fn go_on(&self, memory: &Memory, springs: &mut Springs<3>) {
+    /// Lets the spring that was pushed last continue where it ended.
+    fn continue_run(&self, memory: &ContactHistory, springs: &mut Springs<3>) {
         if self.stores && self.has_begun {
-            springs.goes_on(memory.half(), memory.stored);
+            springs.continues(memory.half(), memory.stored);
         }
     }
 
     /// The same with slip and rims.
     fn push_whole(
         &self,
-        touch: &Touch,
-        memory: &Memory,
+        touch: &ContactPoint,
+        memory: &ContactHistory,
         (spring, rest): (Spring<3>, [u32; 2]),
         scene: &Scene<'_, 3>,
         (springs, more): (&mut Springs<3>, &mut Vec<End<3>>),
@@ -357,9 +357,9 @@ impl NodeFacet {
         let slip = cone::carried(slip, Dim::<3>::tangents(normal, &tangent));
         let (stiffness, area, stiffening) = (pair.stiffness, pair.area, pair.stiffening);
         springs.push(Spring { normal, gap, stiffness, area, stiffening, side, slip, tangent, ..Spring::default() }, &ends);
-        self.go_on(&pair.memory, springs);
+        self.continue_run(&pair.memory, springs);
         if let Some(edges) = &mut self.edges {
-            edges.kept_mut(touch).memory = Memory { offset, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
+            edges.kept_mut(touch).memory = ContactHistory { offset, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
         }
         pair.memory.stored
     }
@@ -379,8 +379,8 @@ impl NodeFacet {
         if let Some(proof) = &mut self.proof {
             proof.look_at(&self.tracker, self.edges.as_ref(), scene.sweep);
         }
-        if let Some(judge) = &mut self.judge {
-            judge.see_step(scene);
+        if let Some(overlap_check) = &mut self.overlap_check {
+            overlap_check.see_step(scene);
         }
         self.find_superseded();
         let mut again = Closed::default();
@@ -405,10 +405,10 @@ impl NodeFacet {
         for at in 0..self.edges.as_ref().map_or(0, |edges| edges.touches().len()) {
             again.add(self.push_edges(at, scene, springs));
         }
-        if let Some(judge) = &mut self.judge {
-            judge.push_nets(springs, |stored| again.add(stored));
+        if let Some(overlap_check) = &mut self.overlap_check {
+            overlap_check.push_nets(springs, |stored| again.add(stored));
         }
-        self.let_go = self.closed.less(&again);
+        self.lost_contact_energy = self.closed.less(&again);
         self.has_begun = true;
     }
 }
@@ -421,13 +421,13 @@ impl Formulation<3> for NodeFacet {
     fn remember(&mut self, solved: Answers<'_, 3>) {
         let (nodes, count) = (self.used.len(), self.edges.as_ref().map_or(0, |edges| edges.touches().len()));
         self.closed = Closed::default();
-        if let Some(judge) = &mut self.judge {
-            judge.note_nets(solved.part(nodes + count, usize::MAX), |stored| self.closed.add(stored));
-            judge.weigh(&solved);
+        if let Some(overlap_check) = &mut self.overlap_check {
+            overlap_check.note_nets(solved.part(nodes + count, usize::MAX), |stored| self.closed.add(stored));
+            overlap_check.weigh(&solved);
         }
         let (nodes, edges) = (solved.part(0, nodes), solved.part(nodes, nodes + count));
         let (stores, slips, reach, closed) = (self.stores, self.slips, self.reach, &mut self.closed);
-        let mut note = |memory: &mut Memory, answer: &Answer<'_, 3>| {
+        let mut note = |memory: &mut ContactHistory, answer: &Answer<'_, 3>| {
             if slips {
                 let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
                 memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
@@ -450,7 +450,7 @@ impl Formulation<3> for NodeFacet {
         }
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self {
             passes: _,
             thickness: _,
@@ -459,7 +459,7 @@ impl Formulation<3> for NodeFacet {
             slips: _,
             ignores_start: _,
             initial: _,
-            let_go: _,
+            lost_contact_energy: _,
             used: _,
             closed_nodes: _,
             superseded: _,
@@ -467,21 +467,21 @@ impl Formulation<3> for NodeFacet {
             tracker,
             edges,
             proof,
-            judge,
+            overlap_check,
             has_begun,
             closed,
         } = self;
-        tracker.keep(archive)?;
+        tracker.persist(archive)?;
         if let Some(proof) = proof {
-            proof.keep(archive, tracker.surfaces())?;
+            proof.persist(archive, tracker.surfaces())?;
         }
         if let Some(edges) = edges {
-            edges.keep(archive, tracker.surfaces())?;
+            edges.persist(archive, tracker.surfaces())?;
         }
-        if let Some(judge) = judge {
-            judge.keep(archive)?;
+        if let Some(overlap_check) = overlap_check {
+            overlap_check.persist(archive)?;
         }
-        keep_each!(archive; has_begun, closed);
+        persist_each!(archive; has_begun, closed);
         Ok(())
     }
 
@@ -495,31 +495,31 @@ impl Formulation<3> for NodeFacet {
             if let (Some(proof), Some(before)) = (&mut self.proof, &old.proof) {
                 proof.inherit(before, self.tracker.surfaces());
             }
-            if let (Some(judge), Some(before)) = (&mut self.judge, &old.judge) {
-                judge.inherit(before);
+            if let (Some(overlap_check), Some(before)) = (&mut self.overlap_check, &old.overlap_check) {
+                overlap_check.inherit(before);
             }
             self.has_begun = old.has_begun;
         }
     }
 
     fn overlaps(&self) -> Option<&Findings> {
-        self.judge.as_ref().map(Judge::findings)
+        self.overlap_check.as_ref().map(OverlapCheck::findings)
     }
 
     fn inside(&self) -> &[(u32, f64)] {
-        self.judge.as_ref().map_or(&[], Judge::inside)
+        self.overlap_check.as_ref().map_or(&[], OverlapCheck::inside)
     }
 
     fn thinnest(&self) -> f64 {
-        self.judge.as_ref().map_or(f64::INFINITY, Judge::thinnest)
+        self.overlap_check.as_ref().map_or(f64::INFINITY, OverlapCheck::thinnest)
     }
 
     fn certificate(&self) -> Certificate {
-        self.proof.as_ref().map(Proof::certificate).unwrap_or_default()
+        self.proof.as_ref().map(MissedContactCheck::certificate).unwrap_or_default()
     }
 
-    fn let_go(&self) -> f64 {
-        self.let_go
+    fn lost_contact_energy(&self) -> f64 {
+        self.lost_contact_energy
     }
 
     fn search_report(&self) -> Option<SearchReport> {
@@ -529,7 +529,7 @@ impl Formulation<3> for NodeFacet {
     }
 }
 
-/// What a tracker of nodes, which has looked at the same step, tells to one of edges; the law pushes up to
+/// What a tracker of nodes, which has looked at the same step, reports to one of edges; the law pushes up to
 /// the distance `extra`, thickness included, and springs are closed below the gap `open`, m.
 fn around<'a>(tracker: &'a Tracker, sweep: Sweep<'a, 3>, is_new: bool, [extra, open]: [f64; 2]) -> Around<'a> {
     let [radius, skin] = tracker.reach();

@@ -6,18 +6,18 @@
 
 mod fold;
 
+use super::checked::Look;
 use super::closed::Closed;
 use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
 use super::initial::{is_ignored, kept};
-use super::judged::Look;
 use super::law::penalty::{at_obstacles, factor, penalty_of, stiffening};
 use super::projection::node_segment::{Projection, Target};
 use super::springs::{Answers, End, Spring, Springs, tangent};
-use super::tracker::{Certificate, Memory, SearchReport, Touch, Tracker, is_facing};
+use super::tracker::{Certificate, ContactHistory, ContactPoint, SearchReport, Tracker, is_facing};
 use super::{Formulation, Scene, Vector};
-use crate::archive::{Archive, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::mesh::surface::NONE;
 use crate::model;
 use fold::{other_at_node, turn_with_both};
@@ -62,7 +62,7 @@ pub struct NodeSegment {
     used: Vec<u32>,
     /// Energy of the springs of the last step, and of those that were not found again, J/m.
     closed: Closed,
-    let_go: f64,
+    lost_contact_energy: f64,
     /// How deep nodes are against the local thickness.
     depths: Depths,
 }
@@ -91,7 +91,7 @@ pub struct PassInput {
 /// What a segment at a node has of the node's tributary length and of its stiffness, as fractions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Face {
-    /// Fraction of the length, of a body of revolution of the area.
+    /// Fraction of the length, of an axisymmetric body of the area.
     pub length: f64,
     /// Fraction of the stiffness.
     pub stiffness: f64,
@@ -142,7 +142,7 @@ impl PassInput {
 pub struct Slave {
     /// Stiffness, N/m per metre of depth.
     pub stiffness: f64,
-    /// Area of surface that it stands for, m (of a body of revolution m²): its own, half of that where both
+    /// Area of surface that it stands for, m (of an axisymmetric body m²): its own, half of that where both
     /// surfaces are slaves.
     pub area: f64,
     /// Elastic slip at n − ½, m.
@@ -192,7 +192,7 @@ impl NodeSegment {
             has_begun: false,
             used: Vec::new(),
             closed: Closed::default(),
-            let_go: 0.0,
+            lost_contact_energy: 0.0,
             depths: Depths::default(),
         }
     }
@@ -207,7 +207,7 @@ impl NodeSegment {
 
     /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had:
     /// neighbours along a surface are near, and stay so.
-    fn gap(&self, touch: &Touch) -> f64 {
+    fn gap(&self, touch: &ContactPoint) -> f64 {
         let gap = touch.projection.gap - self.thickness;
         if !touch.own || self.initial.is_empty() {
             return gap;
@@ -218,7 +218,7 @@ impl NodeSegment {
     }
 
     /// Gap as the spring sees it, and the gap that counts as zero.
-    fn beyond(&self, touch: &Touch, memory: &Memory) -> (f64, f64) {
+    fn beyond(&self, touch: &ContactPoint, memory: &ContactHistory) -> (f64, f64) {
         let gap = self.gap(touch);
         let offset = kept(self.has_begun, memory.offset, gap);
         let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
@@ -231,7 +231,7 @@ impl NodeSegment {
     /// the target, so that the corner of a block presses with half of the segment under it and not with the
     /// side wall; else, and where none faces the target, both. It stays so for as long as they are near: a
     /// spring that is closed may not change its stiffness.
-    fn faces(&self, touch: &Touch, memory: &Memory, positions: &[Vector]) -> u8 {
+    fn faces(&self, touch: &ContactPoint, memory: &ContactHistory, positions: &[Vector]) -> u8 {
         if memory.faces != 0 {
             return memory.faces;
         }
@@ -286,13 +286,13 @@ impl NodeSegment {
                 Some(more) => springs.push_with(spring, ends.iter().chain([&more])),
             }
             if self.stores && self.has_begun {
-                springs.goes_on(memory.half(), memory.stored);
+                springs.continues(memory.half(), memory.stored);
             }
-            *self.tracker.kept_mut(&touch) = Memory { offset, faces, normal, stored: 0.0, ..memory };
+            *self.tracker.kept_mut(&touch) = ContactHistory { offset, faces, normal, stored: 0.0, ..memory };
             self.used.push(index as u32);
         }
         self.depths.end();
-        self.let_go = self.closed.less(&again);
+        self.lost_contact_energy = self.closed.less(&again);
         self.has_begun = true;
     }
 }
@@ -315,15 +315,15 @@ impl Formulation for NodeSegment {
         }
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            passes: _, thickness: _, reach: _, stores: _, slips: _, ignores_start: _, initial: _, used: _, let_go: _,
+            passes: _, thickness: _, reach: _, stores: _, slips: _, ignores_start: _, initial: _, used: _, lost_contact_energy: _,
             tracker, has_begun, closed, depths,
         } = self;
-        tracker.keep(archive)?;
-        keep_each!(archive; has_begun, closed);
-        depths.keep(archive)
+        tracker.persist(archive)?;
+        persist_each!(archive; has_begun, closed);
+        depths.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
@@ -335,8 +335,8 @@ impl Formulation for NodeSegment {
         }
     }
 
-    fn let_go(&self) -> f64 {
-        self.let_go
+    fn lost_contact_energy(&self) -> f64 {
+        self.lost_contact_energy
     }
 
     fn certificate(&self) -> Certificate {
@@ -405,7 +405,7 @@ pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positio
 /// d = ± t·(x − C) with the segment's direction t and its nearer end C, so dd = ± [t·(dx − dC) + h n·(dx_C2 −
 /// dx_C1) / L] with the height h of the node over the segment's line. The whole gradient, so no energy is
 /// lost, and d does not see motions of node and segment together, so both momenta are exact.
-fn lean(ends: &mut [End; 3], touch: &Touch, positions: &[Vector]) {
+fn lean(ends: &mut [End; 3], touch: &ContactPoint, positions: &[Vector]) {
     let Projection { weights: [before, place], normal, .. } = touch.projection;
     let t = tangent(normal);
     let along = |k: usize| positions[ends[k].at as usize];
@@ -441,7 +441,7 @@ mod tests {
             let projection = target.beyond(x, 0, band, &positions).unwrap();
             let slope = fall_off(target.seen(x, 0, &positions).unwrap().beyond(), band)[1];
             assert!(slope > 0.0, "{x:?}");
-            let touch = Touch { pass: 0, slave: 0, node: 0, projection, slope, group: 0, own: false };
+            let touch = ContactPoint { pass: 0, slave: 0, node: 0, projection, slope, group: 0, own: false };
             let mut ends = ends(0, &projection, &target, &positions);
             lean(&mut ends, &touch, &positions);
             let row = |end: &End| [0, 1].map(|d| end.share * projection.normal[d] + end.lean[d]);

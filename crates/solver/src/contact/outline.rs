@@ -1,8 +1,8 @@
-//! Outlines of bodies in the plane: what is opposite of each segment, and what is inside.
+//! Outlines of bodies in 2D: what is opposite of each segment, and what is inside.
 //!
 //! Local thickness is how far the surface is on the other side, along the inward normal. The ray from the
 //! middle of a segment finds the opposite segment once, at the start; what lies there is followed as both
-//! move, so that a crushed body is as thin as it is. On a symmetry line the body goes on as its image.
+//! move, so that a crushed body is as thin as it is. On a symmetry line the body continues as its image.
 //! Nothing is thicker than 4 A / P with the area A and the perimeter P of the body, which is twice the radius
 //! of the inscribed circle for polygons that have one, and more for other convex ones. That is taken, too,
 //! where the ray leaves the body at less than 30 degrees to the surface there, as beside a corner.
@@ -138,7 +138,7 @@ impl Outline {
         made
     }
 
-    /// Takes the boxes anew.
+    /// Takes the boxes again.
     pub(super) fn refit(&mut self, positions: &[Vector]) {
         let mut boxes = std::mem::take(&mut self.boxes);
         boxes.clear();

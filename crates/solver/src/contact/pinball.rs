@@ -20,21 +20,21 @@
 mod follower;
 pub mod space;
 
+use super::checked::Checked;
 use super::formulation::{FormulationKind, Setup, Side, both_passes};
-use super::judged::Judged;
 use super::springs::{Answers, End, Spring, Springs};
 use super::{Formulation, Scene, Vector, length};
-use crate::archive::{Archive, Kept};
+use crate::archive::{Archive, ArchiveResult};
 use follower::{Ball, Follower};
 use std::any::Any;
 
 /// Registry entry.
 pub const KIND: FormulationKind = FormulationKind {
     name: "pinball",
-    doc: "disks (in space balls) in the elements under the surfaces against each other: simple and robust, bumpy where bodies slide",
+    doc: "disks (in 3D balls) in the elements under the surfaces against each other: simple and robust, bumpy where bodies slide",
     source: "Belytschko and Neal (1991), split as by Belytschko and Yeh (1993); disks and balls that touch the surface from inside",
     passes: both_passes,
-    make: |setup| Ok(Box::new(Judged::new(Box::new(Pinball::of(&setup)), setup.depths()))),
+    make: |setup| Ok(Box::new(Checked::new(Box::new(Pinball::of(&setup)), setup.depths()))),
 };
 
 /// A disk in an element of at most four nodes; its area is the length of surface that it stands for, m.
@@ -158,8 +158,8 @@ impl Formulation for Pinball {
         follower.has_begun = true;
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        self.follower.keep(archive)
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        self.follower.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

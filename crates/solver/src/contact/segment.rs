@@ -8,7 +8,7 @@
 //! common part). The forces are F ∂g/∂x of the four nodes: the gap does not change when both segments move
 //! together, so both momenta are exact. A uniform gap gives the consistent loads of a uniform pressure on
 //! both meshes, so flat surfaces pass the patch test whatever their nodes; node-to-segment contact does not.
-//! In a body of revolution each point stands for its present circumference, w ℓ 2π x with x half way between
+//! In an axisymmetric body each point stands for its present circumference, w ℓ 2π x with x half way between
 //! x_a and x_b, and the forces are the gradient of that energy. After Papadopoulos and Taylor, Comput. Meth.
 //! Appl. Mech. Engng 94 (1992) 373-389 (integration over the parts that segments have in common) and Puso and
 //! Laursen, Comput. Meth. Appl. Mech. Engng 193 (2004) 601-629 (common plane of both).
@@ -19,16 +19,16 @@
 
 mod common;
 
+use super::checked::Look;
 use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes};
 use super::initial::kept;
-use super::judged::Look;
 use super::law::{Law, penalty};
 use super::springs::{Answers, Patch, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
@@ -60,7 +60,7 @@ const FLUSH: f64 = 1e-6;
 const DEEPER: f64 = 2.0;
 
 /// A new pair that had more than this fraction of its shorter segment in common at the beginning of the step
-/// already has not slid or turned in: it was not seen before. What its springs would store nobody put in, so
+/// already has not slid or turned in: it was not seen before. What its springs would store no one put in, so
 /// that their gaps count as zero until the surfaces part.
 const AT_ONCE: f64 = 0.05;
 
@@ -87,14 +87,14 @@ pub struct Segment {
     tree: Vec<u32>,
     least: Vec<f64>,
     /// Of each node whether common parts of the first (1) or second segment (2) of a pair end there and do
-    /// not go on, and of each tree of which surfaces its free ends are.
+    /// not continue, and of each tree of which surfaces its free ends are.
     free_ends: Vec<u8>,
     owners: Vec<u8>,
     /// Pairs with springs in this step, and in the last one.
     facing: Vec<Facing>,
     before: Vec<Facing>,
     /// Energy of springs that were not found again, J/m.
-    let_go: f64,
+    lost_contact_energy: f64,
     /// How deep nodes are against the local thickness.
     depths: Depths,
 }
@@ -136,7 +136,7 @@ struct Chain {
 
 /// Two segments with springs, and the elastic slips of these: they stay with the integration points of their
 /// pair. Points move along the segments only as fast as the surfaces slide, and where they slide friction
-/// sets the slip anew.
+/// sets the slip again.
 #[derive(Clone, Copy, Debug, Default)]
 struct Facing {
     pair: [u32; 2],
@@ -148,7 +148,7 @@ struct Facing {
     stored: f64,
 }
 
-keep_all!(Facing { pair, length, slips, offsets, stored });
+persist_all!(Facing { pair, length, slips, offsets, stored });
 
 impl Chain {
     fn new(surface: &Surface, stiffness: Vec<f64>) -> Self {
@@ -200,7 +200,7 @@ impl Segment {
             owners: vec![0; count],
             facing: Vec::new(),
             before: Vec::new(),
-            let_go: 0.0,
+            lost_contact_energy: 0.0,
         }
     }
 
@@ -365,7 +365,7 @@ impl Segment {
     }
 
     /// Energy of the pairs that had springs in the last step, have none now, and yet have much in common:
-    /// what runs out as surfaces slide goes on in its neighbours.
+    /// what runs out as surfaces slide continues in its neighbours.
     fn missing(&self, positions: &[Vector]) -> f64 {
         let (mut now, mut sum) = (self.facing.iter().map(|facing| facing.pair).peekable(), 0.0);
         for before in &self.before {
@@ -454,19 +454,19 @@ impl Formulation for Segment {
         for index in 0..self.commons.len() {
             self.connect(self.commons[index], scene.sweep, springs);
         }
-        self.let_go = self.missing(scene.sweep.new);
+        self.lost_contact_energy = self.missing(scene.sweep.new);
         self.start.has_begun = true;
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _, let_go: _,
+            chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _, lost_contact_energy: _,
             tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing, depths,
         } = self;
-        tracker.keep(archive)?;
-        depths.keep(archive)?;
-        keep_each!(archive; has_begun, facing);
+        tracker.persist(archive)?;
+        depths.persist(archive)?;
+        persist_each!(archive; has_begun, facing);
         let segments = self.surfaces().map(|surface| self.tracker.targets()[surface].surface.segments.len());
         let is_there = |facing: &Facing| (0..2).all(|k| (facing.pair[k] as usize) < segments[k]);
         archive.check(self.facing.iter().all(is_there), "a segment is not there")
@@ -501,8 +501,8 @@ impl Formulation for Segment {
         self.facing.sort_by_key(|facing| facing.pair);
     }
 
-    fn let_go(&self) -> f64 {
-        self.let_go
+    fn lost_contact_energy(&self) -> f64 {
+        self.lost_contact_energy
     }
 
     fn certificate(&self) -> Certificate {

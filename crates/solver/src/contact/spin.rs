@@ -1,4 +1,4 @@
-//! How far nodes turn together in a step in space, and a slip that turns with them: whatever their numbering,
+//! How far nodes turn together in a step in 3D, and a slip that turns with them: whatever their numbering,
 //! and exactly in every rigid motion.
 //!
 //! Nodes come from the elements of balls, from facets and from edges that touch, positions from the step;

@@ -8,8 +8,8 @@
 //! would hold more than there is to hold.
 //!
 //! Where √(⟨−F⟩² + T²) / area exceeds the strength the tie is gone for good; pressing does not break it. What
-//! was stored in pulling and in slip is lost, and told to the ledger. Nodes that are free, and those whose
-//! ties are gone, are in ordinary contact with the same surface.
+//! was stored in pulling and in slip is lost, and reported to the ledger. Nodes that are free, and those
+//! whose ties are gone, are in ordinary contact with the same surface.
 
 use super::formulation::{FormulationKind, Setup, one_pass};
 use super::node_segment::{NodeSegment, PassInput, ends};
@@ -17,7 +17,7 @@ use super::projection::node_segment::{Projection, Target};
 use super::search::{Query, Search};
 use super::springs::{Answers, Spring, Springs};
 use super::{Formulation, Scene, Vector, length};
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::contact::messages::TIE;
 use crate::error::Fault;
 use std::any::Any;
@@ -39,7 +39,7 @@ pub struct Tied {
     target: Target,
     ties: Vec<Tie>,
     /// What binds at birth; `None` when it has.
-    unborn: Option<Unborn>,
+    unborn: Option<PendingTies>,
     /// Traction that breaks a tie, Pa.
     strength: f64,
     /// Which terms ties follow.
@@ -53,7 +53,7 @@ pub struct Tied {
     freed: f64,
 }
 
-struct Unborn {
+struct PendingTies {
     search: Box<dyn Search<2>>,
     nodes: Vec<u32>,
     input: PassInput,
@@ -75,7 +75,7 @@ struct Tie {
     area: f64,
 }
 
-keep_all!(Tie { node, slave, segment, place, gap, stiffness, area });
+persist_all!(Tie { node, slave, segment, place, gap, stiffness, area });
 
 impl Tied {
     fn of(setup: Setup<'_>) -> Result<Self, Fault> {
@@ -87,13 +87,13 @@ impl Tied {
         let input = PassInput { slaves: setup.slaves(slave, 1), per_modulus: setup.per_modulus(slave, 1), moduli, ..PassInput::default() };
         let interface = &setup.contact.interface;
         let birth = interface.active[0];
-        let unborn = Unborn { search: (setup.search)(), nodes, input, thickness: interface.thickness };
+        let unborn = PendingTies { search: (setup.search)(), nodes, input, thickness: interface.thickness };
         let (strength, terms, side) = (setup.contact.tied.unwrap_or(f64::INFINITY), setup.tie_terms, [1.0, -1.0][slave]);
         let (positions, bound) = (setup.positions, vec![false; unborn.nodes.len()]);
-        let again = setup.again;
+        let rebuild = setup.rebuild;
         let loose = NodeSegment::of(setup);
         let mut tied = Self { target, ties: Vec::new(), unborn: Some(unborn), strength, terms, side, loose, bound, broken: 0, freed: 0.0 };
-        if birth <= 0.0 && !again {
+        if birth <= 0.0 && !rebuild {
             tied.bind(positions);
             if tied.ties.is_empty() {
                 let (first, second) = [("first", "second"), ("second", "first")][slave];
@@ -107,7 +107,7 @@ impl Tied {
 
     /// Binds what is near.
     fn bind(&mut self, positions: &[Vector]) {
-        let Some(Unborn { mut search, nodes, input, thickness }) = self.unborn.take() else { return };
+        let Some(PendingTies { mut search, nodes, input, thickness }) = self.unborn.take() else { return };
         let segments = &self.target.surface.segments;
         let longest = segments.iter().map(|&segment| length(segment, positions)).fold(0.0, f64::max);
         let query = Query {
@@ -198,10 +198,10 @@ impl Formulation for Tied {
         });
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { target, ties, unborn, strength: _, terms: _, side: _, loose, bound, broken, freed } = self;
         let mut is_unborn = unborn.is_some();
-        keep_each!(archive; &mut is_unborn, ties, &mut bound[..], broken, freed);
+        persist_each!(archive; &mut is_unborn, ties, &mut bound[..], broken, freed);
         archive.check(unborn.is_some() || !is_unborn, "ties of this contact are there from the start")?;
         if !is_unborn {
             *unborn = None;
@@ -211,7 +211,7 @@ impl Formulation for Tied {
             (node as usize) < archive.nodes && (slave as usize) < bound.len() && (segment as usize) < target.surface.segments.len()
         };
         archive.check(ties.iter().all(is_tie), "a tie binds what is not there")?;
-        loose.keep(archive)
+        loose.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
@@ -222,7 +222,7 @@ impl Formulation for Tied {
         if unborn.is_some() {
             return;
         }
-        let Some(Unborn { nodes, .. }) = self.unborn.take() else { return };
+        let Some(PendingTies { nodes, .. }) = self.unborn.take() else { return };
         let mut by_nodes: Vec<([u32; 2], u32)> = self.target.surface.segments.iter().copied().zip(0..).collect();
         by_nodes.sort_unstable();
         for tie in ties {

@@ -5,7 +5,7 @@
 //! and a node has its shares of the springs at it.
 
 use super::springs::{Answer, Springs};
-use crate::archive::{Archive, Keep, Kept};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::contact::springs::TangentSpace;
 use crate::contact_forces::ContactForces;
 use crate::energy::Lost;
@@ -21,7 +21,7 @@ where
 {
     outside: Surface<D>,
     depth: Depth,
-    /// Initial area of surface at each node, m (of a body of revolution m²); zero inside.
+    /// Initial area of surface at each node, m (of an axisymmetric body m²); zero inside.
     area: Vec<f64>,
     /// Sliding distance of each node, m.
     slip: Vec<f64>,
@@ -54,14 +54,14 @@ where
     }
 }
 
-impl<const D: usize> Keep for Traces<D>
+impl<const D: usize> Persist for Traces<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { outside: _, depth: _, area: _, slip, heat } = self;
-        slip[..].keep(archive)?;
-        heat[..].keep(archive)
+        slip[..].persist(archive)?;
+        heat[..].persist(archive)
     }
 }
 
@@ -142,7 +142,7 @@ where
         Self { outside, depth, area, slip: vec![0.0; positions.len()], heat: vec![0.0; positions.len()] }
     }
 
-    /// Goes on with another outside; `positions` are the initial ones. Sums stay with the nodes.
+    /// Continues with another outside; `positions` are the initial ones. Sums stay with the nodes.
     pub fn renew(&mut self, outside: Surface<D>, positions: &[[f64; D]]) {
         let Self { slip, heat, depth, .. } = std::mem::take(self);
         *self = Self { slip, heat, ..Self::new(outside, positions, depth) };

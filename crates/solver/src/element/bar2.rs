@@ -1,5 +1,5 @@
-//! The bar of two nodes: what is told of it in the registry. Its equations are in `block/bar.rs`: it has a
-//! length and no Jacobian of the plane.
+//! The bar of two nodes: its entry in the registry. Its equations are in `block/bar.rs`: it has a
+//! length and no Jacobian in 2D.
 
 use super::ElementKind;
 use crate::mesh::cell::CellKind;

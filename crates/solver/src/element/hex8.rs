@@ -204,7 +204,7 @@ impl Element<3, 8, 8> for Hex8 {
     }
 
     #[inline(always)]
-    fn thickness_squared<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 8>, volume: L, shear: L) -> [L; 2] {
+    fn characteristic_length_squared<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 8>, volume: L, shear: L) -> [L; 2] {
         let (mut trace, mut spread) = (L::splat(0.0), L::splat(0.0));
         for p in 0..8 {
             let inverse = L::splat(1.0) / map.determinants[p];

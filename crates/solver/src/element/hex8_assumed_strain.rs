@@ -199,7 +199,7 @@ pub(super) fn bend<L: Lane>(coefficient: f64, corners: &Corners<L, 3, 8>, kept: 
         }
     }
     // b/a at q = 0, and what q adds.
-    let [numerator, denominator] = corners.thickness_squared;
+    let [numerator, denominator] = corners.characteristic_length_squared;
     let unit = potential.stiffest * L::splat(16.0) * numerator / (denominator * corners.volume * corners.modulus);
     let (xy, yz, zx) = (dot(axes[0], axes[1]).abs(), dot(axes[1], axes[2]).abs(), dot(axes[2], axes[0]).abs());
     let skew = (xy + zx).max(xy + yz).max(yz + zx);

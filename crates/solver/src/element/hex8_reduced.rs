@@ -184,7 +184,7 @@ fn hold<L: Lane>(coefficient: f64, corners: &Corners<L, 3, 8>, kept: &mut [Batch
             pulls[pattern][i] = amplitude[i] * scale;
         }
     }
-    let [numerator, denominator] = corners.thickness_squared;
+    let [numerator, denominator] = corners.characteristic_length_squared;
     let stiffening = one + stiffest * numerator * quarter / (denominator * corners.volume * corners.modulus);
     held(&pulls, &shares, half * scale * squares, stiffening)
 }
@@ -200,7 +200,7 @@ fn damp<L: Lane>(coefficient: f64, corners: &Corners<L, 3, 8>, kept: &mut [Batch
     let mut work = L::splat(-0.0);
     for pattern in 0..4 {
         for i in 0..3 {
-            let (memory, change) = (&mut kept[3 * pattern + i], corners.swing[pattern][i]);
+            let (memory, change) = (&mut kept[3 * pattern + i], corners.hourglass_rates[pattern][i]);
             let (old, force) = (L::load(memory, at), resistance * change);
             force.store(memory, at);
             work += (old + force) * change;
@@ -208,7 +208,7 @@ fn damp<L: Lane>(coefficient: f64, corners: &Corners<L, 3, 8>, kept: &mut [Batch
         }
     }
     // ξ = d Δt_s / 4 = ½ κ √(k₁/m) (1 + Σ c²) Δt_s
-    let [numerator, denominator] = corners.thickness_squared;
+    let [numerator, denominator] = corners.characteristic_length_squared;
     let part = (rigidity * numerator / (denominator * corners.volume * corners.modulus)).sqrt() * extent(&shares);
     let part = part * L::splat(0.5 * coefficient);
     let stiffening = (one + part * part).sqrt() + part;
@@ -217,7 +217,7 @@ fn damp<L: Lane>(coefficient: f64, corners: &Corners<L, 3, 8>, kept: &mut [Batch
 
 /// Changes of the amplitudes q in a step to `x`, at mid-step.
 #[inline(always)]
-fn swing<L: Lane>(x: &[[L; 3]; 8], step: &[[L; 3]; 8]) -> [[L; 3]; PATTERNS] {
+fn hourglass_rates<L: Lane>(x: &[[L; 3]; 8], step: &[[L; 3]; 8]) -> [[L; 3]; PATTERNS] {
     let (eighth, half) = (L::splat(0.125), L::splat(0.5));
     let (mut middle, step) = (all_parts(x), all_parts(step));
     for i in 0..3 {
@@ -257,7 +257,7 @@ macro_rules! reduced {
                 Control::Viscous => DAMPERS,
                 Control::AssumedStrain => hex8_assumed_strain::POTENTIAL,
             };
-            const SWINGS: usize = if matches!(Control::$control, Control::Viscous) { 4 } else { 0 };
+            const HOURGLASS_MODES: usize = if matches!(Control::$control, Control::Viscous) { 4 } else { 0 };
             const WARPED: bool = true;
             const PARTS: usize = hex8::PARTS;
 
@@ -299,7 +299,7 @@ macro_rules! reduced {
             }
             /// Σ_a B_a B_aᵀ is 8 times that of the parts, 64 V = D.
             #[inline(always)]
-            fn thickness_squared<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 1>, _: L, shear: L) -> [L; 2] {
+            fn characteristic_length_squared<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 1>, _: L, shear: L) -> [L; 2] {
                 let ([a, b, c], [d, e, f]) = (map.adjugates[0], map.warped);
                 let determinant = map.determinants[0];
                 let spectrum = Metric::of(a).and(b).and(c).and(d).and(e).and(f).spectrum();
@@ -309,11 +309,11 @@ macro_rules! reduced {
                 Some(corner_volumes(nodal))
             }
             #[inline(always)]
-            fn swing<L: Lane>(x: &[[L; 3]; 8], step: &[[L; 3]; 8], _: &Matrix<L, 3>) -> [[L; 3]; PATTERNS] {
-                swing(x, step)
+            fn hourglass_rates<L: Lane>(x: &[[L; 3]; 8], step: &[[L; 3]; 8], _: &Matrix<L, 3>) -> [[L; 3]; PATTERNS] {
+                hourglass_rates(x, step)
             }
             #[inline(always)]
-            fn hold_shape<L: Lane>(&self, corners: &Corners<L, 3, 8>, kept: &mut [Batch], at: usize) -> Held<L, 3, 8> {
+            fn hourglass_forces<L: Lane>(&self, corners: &Corners<L, 3, 8>, kept: &mut [Batch], at: usize) -> Held<L, 3, 8> {
                 match Control::$control {
                     Control::Stiffness => hold(self.coefficient, corners, kept, at),
                     Control::Viscous => damp(self.coefficient, corners, kept, at),
@@ -347,7 +347,8 @@ reduced!(
     0.05,
     ElementKind {
         name: "hex8_reduced_viscous",
-        doc: "eight-node hexahedron, one point, hourglass control by damping (coefficient 0.05): for high rates; shapes that are there remain",
+        doc: "eight-node hexahedron, one point, hourglass control by damping (coefficient 0.05): for high rates; \
+            shapes that are there remain",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
         cell: CellKind::Hexahedron,
         dimension: 3,
@@ -363,7 +364,8 @@ reduced!(
     1.0,
     ElementKind {
         name: "hex8_reduced_assumed_strain",
-        doc: "eight-node hexahedron, one point, hourglass control by assumed strain (coefficient 1): right in elastic bending with one element through the thickness",
+        doc: "eight-node hexahedron, one point, hourglass control by assumed strain (coefficient 1): right in \
+            elastic bending with one element through the thickness",
         source: "Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 105 (1993) 225-260 (ASQBI)",
         cell: CellKind::Hexahedron,
         dimension: 3,

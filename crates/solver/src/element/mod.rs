@@ -40,7 +40,7 @@ pub struct ElementKind {
     pub source: &'static str,
     /// Which kind of cell it is.
     pub cell: CellKind,
-    /// Of the models that it is for: 2 in the plane (bars: in space too), 3 in space.
+    /// Of the models that it is for: 2 in 2D (bars: in 3D too), 3 in 3D.
     pub dimension: usize,
     /// Name of the element that takes its place where a part of it is extruded or revolved, if there is one.
     pub extruded: Option<&'static str>,
@@ -86,7 +86,7 @@ where
     const HOURGLASS: usize = 0;
     /// Patterns whose amplitude that control follows from step to step, keeping a force against each, which
     /// turns with the element; at most [`PATTERNS`].
-    const SWINGS: usize = 0;
+    const HOURGLASS_MODES: usize = 0;
     /// Whether the gradient at its one point is the exact mean over an element that may be warped: then it
     /// takes a second matrix of natural parts, [`Element::warp`].
     const WARPED: bool = false;
@@ -134,17 +134,17 @@ where
     /// `natural` are the parts of the positions, `map` is that of the element's present form, `volume` the
     /// weighted sum of its determinants, and `shear` the part s = 2µ/M of an isotropic elastic stiffness in
     /// M = K + 4µ/3, or 0 where only M is known.
-    fn thickness_squared<L: Lane>(natural: &[[L; D]; N], map: &Map<L, D, P>, volume: L, shear: L) -> [L; 2];
-    /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of a body of revolution; `None`: the points' sums are
+    fn characteristic_length_squared<L: Lane>(natural: &[[L; D]; N], map: &Map<L, D, P>, volume: L, shear: L) -> [L; 2];
+    /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of an axisymmetric body; `None`: the points' sums are
     /// exact enough.
     fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
         None
     }
     /// Changes of the amplitudes q of the shapes that the points do not feel, m, in a `step` of the nodes to
     /// `x`, both in natural parts, whose displacement gradient at mid-step is known. Called only where
-    /// hourglass control follows them ([`Element::SWINGS`]).
+    /// hourglass control follows them ([`Element::HOURGLASS_MODES`]).
     #[inline(always)]
-    fn swing<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [[L; D]; PATTERNS] {
+    fn hourglass_rates<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [[L; D]; PATTERNS] {
         [[L::splat(0.0); D]; PATTERNS]
     }
     /// Forces against the shapes that the points do not feel; `kept` is what was kept at the beginning of the
@@ -152,7 +152,7 @@ where
     /// to its end) and becomes what is kept until the next. Called only where hourglass control keeps
     /// something.
     #[inline(always)]
-    fn hold_shape<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
+    fn hourglass_forces<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
         let zero = L::splat(0.0);
         Held { forces: [[zero; D]; N], flux: [[zero; D]; D], pulls: Pulls::none(), work: zero, stiffening: L::splat(1.0) }
     }
@@ -242,9 +242,9 @@ pub struct Corners<L, const D: usize, const N: usize> {
     /// Positions in natural parts ([`Element::natural`]), m.
     pub x: [[L; D]; N],
     /// Changes of the amplitudes in the step that led there, m, in directions of its end.
-    pub swing: [[L; D]; PATTERNS],
+    pub hourglass_rates: [[L; D]; PATTERNS],
     /// Square of the thickness as numerator and denominator, as in the stable step.
-    pub thickness_squared: [L; 2],
+    pub characteristic_length_squared: [L; 2],
     /// The same where all of M resists dilatation alone.
     pub dilating_squared: [L; 2],
     /// Area, m².
@@ -366,17 +366,17 @@ elements! {
     }
 }
 
-/// Every element of the plane, in the order in which it is listed.
+/// Every element in 2D, in the order in which it is listed.
 pub const ELEMENTS: &[ElementKind] = <Dim<2> as Registered<2>>::ELEMENTS;
 
-/// Every element of space, in the order in which it is listed.
+/// Every element in 3D, in the order in which it is listed.
 pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENTS;
 
 /// Elements that are lines: blocks of their own make them, not the kernels that [`Element`]s are compiled
 /// into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
-/// Every element: those of the plane, bars too, then those of space.
+/// Every element: those of the plane, bars too, then those in 3D.
 #[must_use]
 pub fn registry() -> Vec<ElementKind> {
     ELEMENTS.iter().chain(BARS).chain(ELEMENTS_OF_SPACE).copied().collect()

@@ -11,7 +11,7 @@ impl Part {
         BARS.iter().any(|kind| kind.name == self.element)
     }
 
-    /// What its cells of a kind are in a model of so many dimensions: the element that it names, in space
+    /// What its cells of a kind are in a model of so many dimensions: the element that it names, in 3D
     /// also the one that takes its place there ([`ElementKind::extruded`]), else the default one
     /// ([`ElementKind::is_default`]); `None` when there is none of them.
     #[must_use]

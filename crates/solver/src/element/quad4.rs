@@ -82,7 +82,7 @@ pub(super) fn distance_squared<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
 /// |j_ξ| + |j_η| of the determinant's relative slopes (`the_stable_step_bounds_the_largest_frequency`
 /// searches them all).
 #[inline(always)]
-fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> [L; 2] {
+fn characteristic_length_squared<L: Lane>(x: &[[L; 2]; 4], determinants: &[L; 4], volume: L) -> [L; 2] {
     let half = L::splat(0.5);
     let extent = (distance_squared(x[0], x[2]) + distance_squared(x[1], x[3])) * half;
     let least = determinants[0].min(determinants[1]).min(determinants[2].min(determinants[3]));
@@ -119,8 +119,8 @@ macro_rules! quadrilateral {
                 divergence(flux)
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], map: &Map<L, 2, 4>, volume: L, _: L) -> [L; 2] {
-                thickness_squared(nodal, &map.determinants, volume)
+            fn characteristic_length_squared<L: Lane>(nodal: &[[L; 2]; 4], map: &Map<L, 2, 4>, volume: L, _: L) -> [L; 2] {
+                characteristic_length_squared(nodal, &map.determinants, volume)
             }
         }
     };

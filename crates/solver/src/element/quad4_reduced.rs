@@ -171,7 +171,7 @@ fn bending<L: Lane>(natural: &Matrix<L, 2>, axis: [L; 2], poisson: L) -> [L; 3] 
 /// h² = 2 A² / (d₁₃² + d₂₄²), numerator and denominator: ω² ≤ M V (|∇ξ|² + |∇η|²) / m at the centre, by the
 /// two blocks of [`super::quad4`].
 #[inline(always)]
-fn thickness_squared<L: Lane>(x: &[[L; 2]; 4], area: L) -> [L; 2] {
+fn characteristic_length_squared<L: Lane>(x: &[[L; 2]; 4], area: L) -> [L; 2] {
     [L::splat(2.0) * area * area, distance_squared(x[0], x[2]) + distance_squared(x[1], x[3])]
 }
 
@@ -197,7 +197,7 @@ struct Answer<L> {
     /// To Q; of dampers all of it.
     added: [L; 2],
     /// b Δt² over γ·γ at the stable step of the linear shapes.
-    swing: L,
+    hourglass_rates: L,
 }
 
 /// What the potential of the assumed strain keeps of the start: γ as its parts along the diagonals, and the
@@ -267,7 +267,7 @@ fn bend<L: Lane>(
     }
     let difference = xx - yy;
     let largest = (xx + yy + (difference * difference + four * xy * xy).sqrt()) * half;
-    let swing = largest * numerator / (four * corners.modulus * corners.volume * extent);
+    let hourglass_rates = largest * numerator / (four * corners.modulus * corners.volume * extent);
     let more = two * (first * first + second * second);
     // |dq̂| ≤ ¼|γ||dx| + |q̂| √8/|p| |dx|, the second part at most r times the first.
     let r = (L::splat(32.0) * (x * x + y * y) / square).sqrt();
@@ -276,13 +276,13 @@ fn bend<L: Lane>(
         flux: [[L::splat(0.0); 2]; 2],
         pulls: Pulls::none(),
         work: half * (force_x * x + force_y * y),
-        stiffening: together(swing, more) + swing * (four + more) * quarter * (r * (two + r)),
+        stiffening: together(hourglass_rates, more) + hourglass_rates * (four + more) * quarter * (r * (two + r)),
     }
 }
 
 /// q̇ Δt at mid-step, from the twist less what is linear in it.
 #[inline(always)]
-fn swing<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) -> [L; 2] {
+fn hourglass_rates<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) -> [L; 2] {
     let (quarter, half) = (L::splat(0.25), L::splat(0.5));
     let (end, step) = (Differences::of(x).twist, Differences::of(step).twist);
     let middle = [end[0] - step[0] * half, end[1] - step[1] * half];
@@ -297,32 +297,38 @@ fn swing<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) 
 /// Δt² / γ·γ and γ·γ − 4. With a Δt² = 4 the bound is ½ (a + b + √((a − b)² + 4abc²)) ≤ a + abc² / (a −
 /// b) ≤ a (1 + 2bc²/a) where b is at most a/2, and at most a + b elsewhere.
 #[inline(always)]
-fn together<L: Lane>(swing: L, more: L) -> L {
+fn together<L: Lane>(hourglass_rates: L, more: L) -> L {
     let (quarter, half, one, two) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0));
-    let all = swing * (L::splat(4.0) + more);
-    L::select(two.less(all), one + all * quarter, one + swing * more * half)
+    let all = hourglass_rates * (L::splat(4.0) + more);
+    L::select(two.less(all), one + all * quarter, one + hourglass_rates * more * half)
 }
 
 #[inline(always)]
-fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
+fn hourglass_forces<L: Lane>(
+    control: Control,
+    coefficient: f64,
+    corners: &Corners<L, 2, 4>,
+    kept: &mut [Batch],
+    at: usize,
+) -> Held<L, 2, 4> {
     let (quarter, half, one, two, four) = (L::splat(0.25), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(4.0));
-    let Corners { shape_modulus, mass, rate, volume, swing: [change, ..], .. } = *corners;
+    let Corners { shape_modulus, mass, rate, volume, hourglass_rates: [change, ..], .. } = *corners;
     let coefficient = L::splat(coefficient);
     let end = Differences::of(&corners.x);
     let inverse = one / end.area_twice();
     // k₁ = 2 M V / h² with h² = 2 A² / (…)
-    let thickness_squared = thickness_squared(&corners.x, corners.area);
-    let stiffness = four * shape_modulus * volume * thickness_squared[1] * (inverse * inverse);
-    let Answer { added, swing } = match control {
+    let characteristic_length_squared = characteristic_length_squared(&corners.x, corners.area);
+    let stiffness = four * shape_modulus * volume * characteristic_length_squared[1] * (inverse * inverse);
+    let Answer { added, hourglass_rates } = match control {
         Control::Stiffness => {
             let k = coefficient * stiffness;
-            Answer { added: [k * change[0], k * change[1]], swing: half * coefficient }
+            Answer { added: [k * change[0], k * change[1]], hourglass_rates: half * coefficient }
         }
         Control::Viscous => {
             let c = two * coefficient * (stiffness * mass).sqrt() * rate;
-            Answer { added: [c * change[0], c * change[1]], swing: L::splat(SQRT_2) * coefficient }
+            Answer { added: [c * change[0], c * change[1]], hourglass_rates: L::splat(SQRT_2) * coefficient }
         }
-        Control::AssumedStrain => return bend(coefficient, corners, thickness_squared, &end, inverse, (kept, at)),
+        Control::AssumedStrain => return bend(coefficient, corners, characteristic_length_squared, &end, inverse, (kept, at)),
     };
     let old = [L::load(&kept[0], at), L::load(&kept[1], at)];
     let force = if matches!(control, Control::Viscous) { added } else { [old[0] + added[0], old[1] + added[1]] };
@@ -336,7 +342,7 @@ fn hold_shape<L: Lane>(control: Control, coefficient: f64, corners: &Corners<L, 
     force[0].store(&mut kept[0], at);
     force[1].store(&mut kept[1], at);
     // γ·γ − 4
-    let together = together(swing, two * (first * first + second * second));
+    let together = together(hourglass_rates, two * (first * first + second * second));
     Held {
         forces,
         flux: [[L::splat(0.0); 2]; 2],
@@ -361,7 +367,7 @@ macro_rules! reduced {
             const NODES: [[f64; 2]; 4] = DIAGONAL_NODES;
             const MEAN_DILATATION: bool = false;
             const HOURGLASS: usize = if matches!(Control::$control, Control::AssumedStrain) { POTENTIAL } else { 2 };
-            const SWINGS: usize = if matches!(Control::$control, Control::AssumedStrain) { 0 } else { 1 };
+            const HOURGLASS_MODES: usize = if matches!(Control::$control, Control::AssumedStrain) { 0 } else { 1 };
 
             fn new(options: &ElementOptions) -> Self {
                 Self { coefficient: options.hourglass.unwrap_or($coefficient) }
@@ -389,21 +395,21 @@ macro_rules! reduced {
                 out
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(nodal: &[[L; 2]; 4], _: &Map<L, 2, 1>, area: L, _: L) -> [L; 2] {
-                thickness_squared(nodal, area)
+            fn characteristic_length_squared<L: Lane>(nodal: &[[L; 2]; 4], _: &Map<L, 2, 1>, area: L, _: L) -> [L; 2] {
+                characteristic_length_squared(nodal, area)
             }
             fn corner_volumes(nodal: &[[f64; 2]; 4], is_axisymmetric: bool) -> Option<[f64; 4]> {
                 Some(corner_volumes(nodal, is_axisymmetric))
             }
             #[inline(always)]
-            fn swing<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) -> [[L; 2]; PATTERNS] {
+            fn hourglass_rates<L: Lane>(x: &[[L; 2]; 4], step: &[[L; 2]; 4], gradient: &Matrix<L, 2>) -> [[L; 2]; PATTERNS] {
                 let mut all = [[L::splat(0.0); 2]; PATTERNS];
-                all[0] = swing(x, step, gradient);
+                all[0] = hourglass_rates(x, step, gradient);
                 all
             }
             #[inline(always)]
-            fn hold_shape<L: Lane>(&self, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
-                hold_shape(Control::$control, self.coefficient, corners, kept, at)
+            fn hourglass_forces<L: Lane>(&self, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
+                hourglass_forces(Control::$control, self.coefficient, corners, kept, at)
             }
         }
     };
@@ -432,7 +438,8 @@ reduced!(
     0.05,
     ElementKind {
         name: "quad4_reduced_viscous",
-        doc: "four-node quadrilateral, one point, hourglass control by damping (coefficient 0.05): for high rates; shapes that are there remain",
+        doc: "four-node quadrilateral, one point, hourglass control by damping (coefficient 0.05): for high rates; \
+            shapes that are there remain",
         source: "Flanagan and Belytschko, Int. J. Numer. Meth. Engng 17 (1981) 679-706",
         cell: CellKind::Quadrilateral,
         dimension: 2,
@@ -448,7 +455,8 @@ reduced!(
     1.0,
     ElementKind {
         name: "quad4_reduced_assumed_strain",
-        doc: "four-node quadrilateral, one point, hourglass control by assumed strain (coefficient 1): right in elastic bending with one element through the thickness",
+        doc: "four-node quadrilateral, one point, hourglass control by assumed strain (coefficient 1): right in \
+            elastic bending with one element through the thickness",
         source: "Belytschko and Bindeman, Comput. Meth. Appl. Mech. Engng 88 (1991) 311-340 (ASQBI)",
         cell: CellKind::Quadrilateral,
         dimension: 2,

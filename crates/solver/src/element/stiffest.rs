@@ -1,4 +1,4 @@
-//! The stiffest motion of an element of space: a bound of its largest frequency, from the Jacobians at its
+//! The stiffest motion of an element in 3D: a bound of its largest frequency, from the Jacobians at its
 //! points.
 //!
 //! Let ∂N_p be the gradients of the shape functions at a point in natural coordinates so chosen that Σ_p w_p

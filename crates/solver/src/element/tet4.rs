@@ -58,8 +58,8 @@ macro_rules! tetrahedron {
                 out
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(_: &[[L; 3]; 4], map: &Map<L, 3, 1>, _: L, shear: L) -> [L; 2] {
-                thickness_squared(map, shear)
+            fn characteristic_length_squared<L: Lane>(_: &[[L; 3]; 4], map: &Map<L, 3, 1>, _: L, shear: L) -> [L; 2] {
+                characteristic_length_squared(map, shear)
             }
         }
     };
@@ -98,7 +98,7 @@ tetrahedron!(
 /// h² = 1 / (max(1 − s, 0) T + s Λ) of Σ_a ∇N_a ∇N_aᵀ, whose rows times the determinant are those of the
 /// adjugate, and minus their sum.
 #[inline(always)]
-fn thickness_squared<L: Lane>(map: &Map<L, 3, 1>, shear: L) -> [L; 2] {
+fn characteristic_length_squared<L: Lane>(map: &Map<L, 3, 1>, shear: L) -> [L; 2] {
     let [a, b, c] = map.adjugates[0];
     let last = [a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]];
     let determinant = map.determinants[0];

@@ -58,8 +58,8 @@ macro_rules! triangle {
                 out
             }
             #[inline(always)]
-            fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], _: &Map<L, 2, 1>, area: L, _: L) -> [L; 2] {
-                thickness_squared(x, area)
+            fn characteristic_length_squared<L: Lane>(x: &[[L; 2]; 3], _: &Map<L, 2, 1>, area: L, _: L) -> [L; 2] {
+                characteristic_length_squared(x, area)
             }
             fn corner_volumes(x: &[[f64; 2]; 3], is_axisymmetric: bool) -> Option<[f64; 3]> {
                 Some(corner_volumes(x, is_axisymmetric))
@@ -103,12 +103,12 @@ triangle!(
 /// |∇N_a| = ℓ_a / 2A with the side opposite to the node: ω² ≤ c² Σ ℓ² / (4 A²) · 3 for corners of a third of
 /// the mass.
 #[inline(always)]
-pub(super) fn thickness_squared<L: Lane>(x: &[[L; 2]; 3], area: L) -> [L; 2] {
+pub(super) fn characteristic_length_squared<L: Lane>(x: &[[L; 2]; 3], area: L) -> [L; 2] {
     let sides = distance_squared(x[0], x[1]) + distance_squared(x[1], x[2]) + distance_squared(x[2], x[0]);
     [area * area * L::splat(16.0 / 3.0), sides]
 }
 
-/// A third of the area each; of a body of revolution ∫ 2πx N_a dA = 2π A (x_1 + x_2 + x_3 + x_a) / 12.
+/// A third of the area each; of an axisymmetric body ∫ 2πx N_a dA = 2π A (x_1 + x_2 + x_3 + x_a) / 12.
 pub(super) fn corner_volumes(x: &[[f64; 2]; 3], is_axisymmetric: bool) -> [f64; 3] {
     let area = 0.5 * ((x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[2][0] - x[0][0]) * (x[1][1] - x[0][1]));
     let sum = x[0][0] + x[1][0] + x[2][0];

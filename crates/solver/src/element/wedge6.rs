@@ -100,7 +100,7 @@ impl Element<3, 6, 6> for Wedge6 {
     }
 
     #[inline(always)]
-    fn thickness_squared<L: Lane>(_: &[[L; 3]; 6], map: &Map<L, 3, 6>, volume: L, shear: L) -> [L; 2] {
+    fn characteristic_length_squared<L: Lane>(_: &[[L; 3]; 6], map: &Map<L, 3, 6>, volume: L, shear: L) -> [L; 2] {
         let (scale, height) = (L::splat(0.5f64.sqrt()), L::splat((1.0 / 6.0f64).sqrt()));
         let (mut trace, mut spread) = (L::splat(0.0), L::splat(0.0));
         for p in 0..6 {

@@ -38,7 +38,7 @@ pub struct Criterion {
 
 /// What criteria see of eight elements: means over the points.
 pub trait Seen {
-    /// Cauchy stress xx yy zz xy yz zx, Pa; the last two are zero in the plane.
+    /// Cauchy stress xx yy zz xy yz zx, Pa; the last two are zero in 2D.
     fn stress(&self) -> [Batch; 6];
     /// A history variable; zero where the law has none such.
     fn variable(&self, variable: &Variable) -> Batch;
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn in_space_every_shear_counts() {
+    fn in_3d_every_shear_counts() {
         let largest = |stress: [f64; 6], limit: f64| {
             let state = State { stress, variables: &[], time_step: 1.0 };
             (by_name("principal_stress").unwrap().fails)(&state, limit)[0]

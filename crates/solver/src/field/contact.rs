@@ -17,7 +17,7 @@ pub(super) fn fields() -> Vec<Description> {
             of_nodes!(force),
         )
         .needs(Needs::Contact)
-        .in_space("N"),
+        .in_3d("N"),
         scalar(
             "contact_pressure",
             "Pa",
@@ -29,7 +29,9 @@ pub(super) fn fields() -> Vec<Description> {
         scalar(
             "contact_gap",
             "m",
-            "distance from what is opposite, negative where it penetrates (inside a body where no node holds it: minus the distance to its surface when the bodies were last looked at); not a number where nothing is near",
+            "distance from what is opposite, negative where it penetrates (inside a body where no node holds it: \
+                minus the distance to its surface when the bodies were last looked at); not a number where nothing \
+                is near",
             of_nodes!(gap),
         ),
         scalar("contact_slip", "m", "distance that the surfaces have slid on each other", of_nodes!(slip)),

@@ -131,7 +131,7 @@ impl Description {
     }
 
     /// The same with another unit in 3D.
-    pub(crate) const fn in_space(self, unit: &'static str) -> Self {
+    pub(crate) const fn in_3d(self, unit: &'static str) -> Self {
         Self { units: [self.units[0], unit], ..self }
     }
 

@@ -3,7 +3,7 @@
 //! gravity:      f = m g c(t)
 //! centrifugal:  f = m ω² (x − p),  ω = ω₀ c(t),  with the current position x
 //!
-//! with a factor c(t) of a curve. A body of revolution turns about its axis: m ω² x along x alone. The
+//! with a factor c(t) of a curve. A axisymmetric body turns about its axis: m ω² x along x alone. The
 //! centrifugal force is that of a frame that turns with ω about p, in which a part at rest is seen;
 //! velocities are those seen in the frame, and are meant to be small: there is no Coriolis force, and none of
 //! ω̇. Each part gives its share of a node's mass. Works are external.
@@ -47,7 +47,7 @@ enum Field<const D: usize> {
         axis: [f64; 3],
         speed: f64,
     },
-    /// About the axis of a body of revolution.
+    /// About the axis of an axisymmetric body.
     Axial {
         speed: f64,
     },

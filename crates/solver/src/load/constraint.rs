@@ -17,13 +17,13 @@ use crate::vector::{self, dot, first, minus, unit};
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Held<const D: usize> {
+pub struct NodeConstraint<const D: usize> {
     /// Unit direction and prescribed velocity along it in v^{n+½}, m/s.
     directions: Vec<([f64; D], f64)>,
     /// What prescribes the velocity of each direction.
     speeds: Vec<Speed>,
     /// Which condition gave each direction: index into [`Constraints::conditions`].
-    givers: Vec<u32>,
+    sources: Vec<u32>,
     /// Which of [`Constraints::turns`] leads it around, along all directions.
     turn: Option<u32>,
 }
@@ -33,10 +33,10 @@ struct Contradiction {
     /// Velocity that is prescribed along it already.
     earlier: Speed,
     /// The conditions that do so.
-    givers: Vec<u32>,
+    sources: Vec<u32>,
 }
 
-impl<const D: usize> Held<D> {
+impl<const D: usize> NodeConstraint<D> {
     /// Adds a direction of rest; nothing where all of it rests already.
     pub(crate) fn rest(&mut self, direction: [f64; D]) {
         // Rest contradicts nothing that rests.
@@ -54,15 +54,15 @@ impl<const D: usize> Held<D> {
     }
 
     /// Adds a direction, unless the earlier directions prescribe another velocity along it.
-    fn add(&mut self, direction: [f64; D], velocity: &Speed, giver: u32) -> Result<(), Contradiction> {
+    fn add(&mut self, direction: [f64; D], velocity: &Speed, source: u32) -> Result<(), Contradiction> {
         let (mut rest, mut speed, mut largest) = (direction, velocity.clone(), velocity.size());
-        let mut givers = Vec::new();
-        for (((held, _), held_speed), giver) in self.directions.iter().zip(&self.speeds).zip(&self.givers) {
+        let mut sources = Vec::new();
+        for (((held, _), held_speed), source) in self.directions.iter().zip(&self.speeds).zip(&self.sources) {
             let along: f64 = (0..D).map(|d| held[d] * direction[d]).sum();
             speed = speed.plus(-along, held_speed);
             largest = largest.max(held_speed.size());
-            if along.abs() > 1e-9 && !givers.contains(giver) {
-                givers.push(*giver);
+            if along.abs() > 1e-9 && !sources.contains(source) {
+                sources.push(*source);
             }
             for d in 0..D {
                 rest[d] -= along * held[d];
@@ -73,12 +73,12 @@ impl<const D: usize> Held<D> {
             let speed = speed.times(1.0 / length);
             self.directions.push((rest.map(|r| r / length), speed.as_constant().unwrap_or(0.0)));
             self.speeds.push(speed);
-            self.givers.push(giver);
+            self.sources.push(source);
             Ok(())
         } else if speed.is_round_off(largest) {
             Ok(())
         } else {
-            Err(Contradiction { earlier: velocity.plus(-1.0, &speed), givers })
+            Err(Contradiction { earlier: velocity.plus(-1.0, &speed), sources })
         }
     }
 
@@ -143,7 +143,7 @@ impl<const D: usize> Held<D> {
 pub struct Constraints<const D: usize> {
     /// Index into `held` per node; `u32::MAX`: free. Empty when nothing is held.
     index: Vec<u32>,
-    held: Vec<Held<D>>,
+    held: Vec<NodeConstraint<D>>,
     /// Those in `held` whose velocity changes with time, and their nodes.
     driven: Vec<(u32, u32)>,
     /// Nodes on symmetry lines, ascending.
@@ -172,8 +172,8 @@ struct Turn<const D: usize> {
     speed: Speed,
 }
 
-/// At most so many contradictions of a condition are told one by one.
-const TOLD: usize = 20;
+/// At most so many contradictions of a condition are reported one by one.
+const REPORTED_MAX: usize = 20;
 
 impl<const D: usize> Constraints<D>
 where
@@ -181,7 +181,7 @@ where
 {
     /// From the symmetries and constraints of a model.
     ///
-    /// `joins` tells which nodes move as one: what holds one of them holds its leader.
+    /// `joins` says which nodes move as one: what holds one of them holds its leader.
     ///
     /// # Errors
     /// Names without nodes, symmetry lines that hold no node, motions that contradict each other on a node.
@@ -201,7 +201,7 @@ where
             result.constrain(i, constraint, place, curves, &mut faults);
         }
         result.fix_tips(place, &mut faults);
-        let changes = |held: &Held<D>| held.turn.is_some() || held.speeds.iter().any(|speed| speed.as_constant().is_none());
+        let changes = |held: &NodeConstraint<D>| held.turn.is_some() || held.speeds.iter().any(|speed| speed.as_constant().is_none());
         for (node, &index) in (0..).zip(&result.index) {
             if result.held.get(index as usize).is_some_and(changes) {
                 result.driven.push((index, node));
@@ -226,7 +226,7 @@ where
             self.mirrors.push(Mirror { node, line: i, normal });
             self.hold(node, normal, &Speed::constant(0.0), place, &mut found);
         }
-        found.tell(faults);
+        found.report(faults);
     }
 
     /// Holds the nodes of a constraint.
@@ -272,7 +272,7 @@ where
                 }
             }
         }
-        found.tell(faults);
+        found.report(faults);
     }
 
     /// Holds the nodes that a rotation leads to themselves.
@@ -284,42 +284,42 @@ where
                 self.hold(group.members[0].node, direction, &Speed::constant(0.0), place, &mut found);
             }
         }
-        found.tell(faults);
+        found.report(faults);
     }
 
-    fn slot(&mut self, node: u32) -> &mut Held<D> {
+    fn slot(&mut self, node: u32) -> &mut NodeConstraint<D> {
         let slot = &mut self.index[node as usize];
         if *slot == u32::MAX {
             *slot = self.held.len() as u32;
-            self.held.push(Held::default());
+            self.held.push(NodeConstraint::default());
         }
         &mut self.held[*slot as usize]
     }
 
     /// Prescribes a velocity along a direction, by the last of the conditions.
     fn hold(&mut self, node: u32, direction: [f64; D], velocity: &Speed, place: Place<'_, D>, found: &mut Telling) {
-        let giver = self.conditions.len() as u32 - 1;
+        let source = self.conditions.len() as u32 - 1;
         let (leader, turn) = place.joins.leader(node);
         let direction = back(turn, direction);
         let held = self.slot(leader);
-        let told = |speed: &Speed| speed.as_constant().map_or("as a curve says".to_string(), |velocity| format!("at {velocity} m/s"));
+        let reported = |speed: &Speed| speed.as_constant().map_or("as a curve says".to_string(), |velocity| format!("at {velocity} m/s"));
         if held.turn.is_some() {
-            let others = held.givers.clone();
+            let others = held.sources.clone();
             found.note(
                 place.mesh.positions[node as usize],
-                &format!("shall move {}", told(velocity)),
+                &format!("shall move {}", reported(velocity)),
                 &self.names(&others),
                 "leads it around a point",
             );
-        } else if let Err(Contradiction { earlier, givers }) = held.add(direction, velocity, giver) {
-            let does = format!("already moves it {} there", told(&earlier));
-            found.note(place.mesh.positions[node as usize], &format!("shall move {}", told(velocity)), &self.names(&givers), &does);
+        } else if let Err(Contradiction { earlier, sources }) = held.add(direction, velocity, source) {
+            let does = format!("already moves it {} there", reported(&earlier));
+            found.note(place.mesh.positions[node as usize], &format!("shall move {}", reported(velocity)), &self.names(&sources), &does);
         }
     }
 
     /// Leads a node around by the last of the turns.
     fn turn(&mut self, node: u32, place: Place<'_, D>, found: &mut Telling) {
-        let (giver, turn) = (self.conditions.len() as u32 - 1, self.turns.len() as u32 - 1);
+        let (source, turn) = (self.conditions.len() as u32 - 1, self.turns.len() as u32 - 1);
         let x = place.mesh.positions[node as usize];
         let at_centre = self.turns.last().is_some_and(|turn| <Dim<D>>::perpendicular(minus(x, turn.centre), turn.axis) == [0.0; D]);
         if at_centre {
@@ -339,13 +339,13 @@ where
         if held.turn == Some(turn) {
             return; // through another node of the group
         }
-        if held.givers.is_empty() {
+        if held.sources.is_empty() {
             held.directions = unit_matrix::<D>().map(|direction| (direction, 0.0)).into();
             held.speeds = vec![Speed::default(); D];
-            held.givers = vec![giver; D];
+            held.sources = vec![source; D];
             held.turn = Some(turn);
         } else {
-            let others = held.givers.clone();
+            let others = held.sources.clone();
             found.note(
                 place.mesh.positions[node as usize],
                 "shall be led around a point",
@@ -356,10 +356,10 @@ where
     }
 
     /// What conditions are called.
-    fn names(&self, givers: &[u32]) -> String {
-        let mut givers = givers.to_vec();
-        givers.dedup();
-        givers.iter().map(|&giver| self.conditions[giver as usize].as_str()).collect::<Vec<_>>().join(" and ")
+    fn names(&self, sources: &[u32]) -> String {
+        let mut sources = sources.to_vec();
+        sources.dedup();
+        sources.iter().map(|&source| self.conditions[source as usize].as_str()).collect::<Vec<_>>().join(" and ")
     }
 
     /// Takes the velocities that change with time, as their mean between two times, s; `positions` at the
@@ -379,7 +379,7 @@ where
         }
     }
 
-    /// Tells what accelerates from which velocities (m/s) it begins.
+    /// Reports what accelerates from which velocities (m/s) it begins.
     pub fn begin(&mut self, velocities: &[[f64; D]]) {
         for &(index, node) in &self.driven {
             for speed in &mut self.held[index as usize].speeds {
@@ -413,16 +413,16 @@ impl Telling {
 
     fn note<const D: usize>(&mut self, x: [f64; D], shall: &str, others: &str, does: &str) {
         self.count += 1;
-        if self.count <= TOLD {
+        if self.count <= REPORTED_MAX {
             let message = format!("the node at {} m {shall}, but {others} {does}", vector::place(x));
             self.faults.push(Fault::new(&HELD_TWICE, &self.path, message, "take the node out of one of the two"));
         }
     }
 
-    fn tell(self, faults: &mut Vec<Fault>) {
+    fn report(self, faults: &mut Vec<Fault>) {
         faults.extend(self.faults);
-        if self.count > TOLD {
-            faults.push(Fault::new(&HELD_TWICE, self.path, format!("and so on at {} more nodes", self.count - TOLD), ""));
+        if self.count > REPORTED_MAX {
+            faults.push(Fault::new(&HELD_TWICE, self.path, format!("and so on at {} more nodes", self.count - REPORTED_MAX), ""));
         }
     }
 }
@@ -431,7 +431,7 @@ impl<const D: usize> Constraints<D> {
     /// What holds `node`, if anything.
     #[inline]
     #[must_use]
-    pub fn of(&self, node: usize) -> Option<&Held<D>> {
+    pub fn of(&self, node: usize) -> Option<&NodeConstraint<D>> {
         self.held.get(*self.index.get(node)? as usize)
     }
 
@@ -458,7 +458,7 @@ impl<const D: usize> Constraints<D> {
     }
 
     /// Part of a node that belongs to the model: a half on a symmetry line, a quarter where two lines meet
-    /// (in space: planes; an eighth where three do).
+    /// (in 3D: planes; an eighth where three do).
     #[must_use]
     pub fn share(&self, node: u32) -> f64 {
         let mut different: Vec<[f64; D]> = Vec::new();
@@ -470,13 +470,13 @@ impl<const D: usize> Constraints<D> {
         0.5f64.powi(different.len().min(D) as i32)
     }
 
-    /// Whether all nodes of a segment or facet lie on the same symmetry line (in space: plane).
+    /// Whether all nodes of a segment or facet lie on the same symmetry line (in 3D: plane).
     #[must_use]
     pub fn is_mirror(&self, facet: impl Corners) -> bool {
         self.common_mirrors(facet.corners()).next().is_some()
     }
 
-    /// Normals of the symmetry lines (in space: planes) on which all these nodes lie.
+    /// Normals of the symmetry lines (in 3D: planes) on which all these nodes lie.
     pub fn common_mirrors<'a>(&'a self, nodes: &'a [u32]) -> impl Iterator<Item = [f64; D]> + 'a {
         let (first, others) = nodes.split_first().map_or((u32::MAX, nodes), |(&first, others)| (first, others));
         let is_common = |a: &&Mirror<D>| others.iter().all(|&node| self.mirrors_of(node).any(|b| a.line == b.line));

@@ -9,8 +9,8 @@ pub mod expression;
 pub mod sine;
 pub mod table;
 
-use crate::archive::{Archive, Keep, Kept};
-use crate::model::in_space;
+use crate::archive::{Archive, ArchiveResult, Persist};
+use crate::model::in_3d;
 use crate::model::{self, CurveShape, Drive, Model, Sine};
 use crate::vector::{dot, plus, times};
 use expression::Expression;
@@ -134,10 +134,10 @@ struct Term {
     meaning: Meaning,
 }
 
-impl Keep for Curves {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for Curves {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { list: _, names: _, integrals, short: _ } = self;
-        integrals[..].keep(archive)
+        integrals[..].persist(archive)
     }
 }
 
@@ -202,7 +202,7 @@ impl Curves {
         }
     }
 
-    /// Notes that the time goes on.
+    /// Notes that the time continues.
     pub fn pass(&mut self, from: f64, to: f64) {
         for (integral, curve) in self.integrals.iter_mut().zip(&self.list) {
             *integral += (to - from) * curve.mean(from, to);
@@ -226,13 +226,13 @@ impl Speed {
     /// This velocity plus `share` of a node's initial velocity.
     #[must_use]
     pub fn from_initial<const D: usize>(mut self, share: [f64; D]) -> Self {
-        self.initial = plus(self.initial, in_space(share));
+        self.initial = plus(self.initial, in_3d(share));
         self
     }
 
     /// Takes the node's initial velocity, m/s.
     pub fn begin<const D: usize>(&mut self, velocity: [f64; D]) {
-        self.constant += dot(self.initial, in_space(velocity));
+        self.constant += dot(self.initial, in_3d(velocity));
         self.initial = [0.0; 3];
     }
 

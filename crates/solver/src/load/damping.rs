@@ -75,7 +75,7 @@ impl Damping {
     }
 
     /// What acts at `time` (s) in an update over `time_step` = ½ (dt^{n−1} + dt^n), s, on so many nodes.
-    /// Tells whether rates have changed.
+    /// Reports whether rates have changed.
     pub fn prepare(&mut self, time: f64, time_step: f64, nodes: usize) -> bool {
         // Its rate changes from step to step.
         let mut changed = self.relaxation.is_some();

@@ -7,7 +7,7 @@
 //! with a factor c(t) of a curve. Works are external. A closed surface under pressure feels no resultant.
 
 use super::curve::Curves;
-use crate::archive::{Archive, Keep, Kept};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::error::Fault;
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::tributary::{self, Depth, Tributary};
@@ -58,7 +58,7 @@ impl<const D: usize> Forces<D>
 where
     Dim<D>: CellGeometry<D> + Rotate<D>,
 {
-    /// `is_mirror` tells which segments lie on a symmetry line: they are no surface.
+    /// `is_mirror` says which segments lie on a symmetry line: they are no surface.
     ///
     /// # Errors
     /// Names of nothing, or of what is no surface.
@@ -133,14 +133,14 @@ where
     }
 
     /// What was given so, in a kept state.
-    pub(crate) fn keep_pushes(&mut self, archive: &mut Archive<'_>) -> Kept {
+    pub(crate) fn persist_pushes(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut count = self.pushes.len();
-        count.keep(archive)?;
+        count.persist(archive)?;
         archive.check(count <= archive.nodes, "forces act on more nodes than there are")?;
         self.pushes.resize(count, (0, [0.0; D]));
         for (node, force) in &mut self.pushes {
-            node.keep(archive)?;
-            force.keep(archive)?;
+            node.persist(archive)?;
+            force.persist(archive)?;
             archive.check((*node as usize) < archive.nodes, "a force acts on a node that is not there")?;
         }
         Ok(())

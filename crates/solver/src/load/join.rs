@@ -24,8 +24,8 @@ pub type Turn<const D: usize> = Square<D>;
 const NONE: u32 = u32::MAX;
 /// Distance at which nodes still coincide, fraction of the model's extent.
 const TOLERANCE: f64 = 1e-6;
-/// At most so many nodes without a partner are told one by one.
-const TOLD: usize = 20;
+/// At most so many nodes without a partner are reported one by one.
+const REPORTED_MAX: usize = 20;
 
 /// The groups of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -230,7 +230,7 @@ where
             partners(second.iter().map(|&node| (node, place(node))), first.iter().map(|&node| (node, image(place(node)))), tolerance);
         lonely.extend(other.into_iter().filter(|pair| pair.partner.is_none()).map(|pair| Lonely { pair, side: 1 }));
     }
-    tell(path, join, &lonely, mesh, faults);
+    report(path, join, &lonely, mesh, faults);
     let moves = |pair: &Pair| pair.partner.is_some_and(|partner| partner != pair.node || turn != unit_matrix());
     links.extend(pairs.iter().filter(|pair| moves(pair)).map(|pair| Link { nodes: [pair.node, pair.partner.unwrap_or(pair.node)], turn }));
 }
@@ -276,11 +276,11 @@ fn partners<const D: usize>(
         .collect()
 }
 
-fn tell<const D: usize>(path: &str, join: &Join, lonely: &[Lonely], mesh: &Mesh<D>, faults: &mut Vec<Fault>)
+fn report<const D: usize>(path: &str, join: &Join, lonely: &[Lonely], mesh: &Mesh<D>, faults: &mut Vec<Fault>)
 where
     Dim<D>: CellGeometry<D> + Rotate<D>,
 {
-    for Lonely { pair, side } in lonely.iter().take(TOLD) {
+    for Lonely { pair, side } in lonely.iter().take(REPORTED_MAX) {
         let at = place(mesh.positions[pair.node as usize]);
         let (own, other) = (&join.between[*side], &join.between[1 - side]);
         let what = if join.image == Image::Same { "" } else { " of the image" };
@@ -295,11 +295,11 @@ where
             "mesh the two alike, or give a larger `tolerance`; a tied contact joins meshes that differ",
         ));
     }
-    if lonely.len() > TOLD {
+    if lonely.len() > REPORTED_MAX {
         faults.push(Fault::new(
             &NO_PARTNER,
             format!("{path}.between"),
-            format!("and {} more nodes without a partner", lonely.len() - TOLD),
+            format!("and {} more nodes without a partner", lonely.len() - REPORTED_MAX),
             "",
         ));
     }

@@ -24,7 +24,7 @@ pub(crate) static CURVE: Message = Message {
     title: "a curve that can't be one",
     example: Example::Model("[curve.free]\ntime = [0]\nvalue = [\"1 m/s\"]\n"),
     cause: "It has no point, or a name that means something else: `free`, or one that begins like a number.",
-    cure: "Give at least one time with its value, and a name that begins with a letter.",
+    remedy: "Give at least one time with its value, and a name that begins with a letter.",
 };
 
 pub(crate) static EXPRESSION: Message = Message {
@@ -32,7 +32,7 @@ pub(crate) static EXPRESSION: Message = Message {
     title: "a formula that can't be computed",
     example: Example::Model("[curve.push]\nexpression = \"2*sin(3*t\"\n"),
     cause: "The text is no formula of the time t, or its value is not finite at some time of the run.",
-    cure: "Write it like \"2*sin(3*t) + exp(-t)\", with the time t in s; the message counts characters from 1.",
+    remedy: "Write it like \"2*sin(3*t) + exp(-t)\", with the time t in s; the message counts characters from 1.",
 };
 
 pub(crate) static CURVE_DIMENSION: Message = Message {
@@ -42,7 +42,7 @@ pub(crate) static CURVE_DIMENSION: Message = Message {
         "[curve.push]\ntime = [0, \"1 ms\"]\nvalue = [0, \"1 mm\"]\n\n[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"push\" }\n",
     ),
     cause: "The values of the curve have units of another quantity than the key that it drives.",
-    cure: "Take a curve of the right quantity, or give its values as numbers without units.",
+    remedy: "Take a curve of the right quantity, or give its values as numbers without units.",
 };
 
 pub(crate) static BEGINNING: Message = Message {
@@ -53,7 +53,7 @@ pub(crate) static BEGINNING: Message = Message {
          [[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n",
     ),
     cause: "The motion is prescribed from the first step on, so there is nothing to begin with.",
-    cure: "Leave the initial velocity out, or let the axis be free.",
+    remedy: "Leave the initial velocity out, or let the axis be free.",
 };
 
 pub(crate) static INERTIA: Message = Message {
@@ -62,8 +62,9 @@ pub(crate) static INERTIA: Message = Message {
     example: Example::Model(
         "[[obstacle]]\nname = \"ram\"\nplane = { point = [0, \"11 mm\"], normal = [0, -1] }\nmotion = { y = \"free\" }\n",
     ),
-    cause: "An obstacle that is free to move needs a mass, one that is free to turn an inertia; where its motion is prescribed they change nothing.",
-    cure: "Add the key, or leave it out, as the message says.",
+    cause: "An obstacle that is free to move needs a mass, one that is free to turn an inertia; where its motion is \
+        prescribed they change nothing.",
+    remedy: "Add the key, or leave it out, as the message says.",
 };
 
 pub(crate) static RIGID: Message = Message {
@@ -75,15 +76,16 @@ pub(crate) static RIGID: Message = Message {
          [[constraint]]\non = \"block.left\"\nfixed = \"x\"\n",
     ),
     cause: "The nodes of a rigid part move with it as one, so nothing else can say how one of them moves.",
-    cure: "Prescribe the motion of the part by `rigid`; bind other parts to it by a tied contact.",
+    remedy: "Prescribe the motion of the part by `rigid`; bind other parts to it by a tied contact.",
 };
 
 pub(crate) static PRESCRIBED_TWICE: Message = Message {
     code: "E0507",
     title: "one motion prescribed twice",
     example: Example::Model("[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"1 m/s\" }\nacceleration = { x = \"1 m/s^2\" }\n"),
-    cause: "Two keys say how the same nodes move along the same axis, or nodes that are led around a point shall move along x or y as well.",
-    cure: "Leave one of the two out.",
+    cause: "Two keys say how the same nodes move along the same axis, or nodes with a prescribed rotation have a \
+        prescribed motion along x or y as well.",
+    remedy: "Leave one of the two out.",
 };
 
 pub(crate) static NO_EFFECT: Message = Message {
@@ -91,7 +93,7 @@ pub(crate) static NO_EFFECT: Message = Message {
     title: "a condition that does nothing",
     example: Example::Model("[[join]]\nbetween = [\"block.right\", \"wall.left\"]\ntranslation = [0, 0]\n"),
     cause: "A constraint that holds nothing, or an image that moves its set by nothing.",
-    cure: "Say what it holds, such as `fixed = \"x\"`, or leave it out.",
+    remedy: "Say what it holds, such as `fixed = \"x\"`, or leave it out.",
 };
 
 pub(crate) static JUMP: Message = Message {
@@ -99,7 +101,7 @@ pub(crate) static JUMP: Message = Message {
     title: "a displacement that jumps at the start",
     example: Example::Model("[[constraint]]\non = \"wall.right\"\ndisplacement = { x = \"1 mm\" }\n"),
     cause: "Nodes begin where they are; a displacement that is not zero at time 0 would move them at once, with an infinite velocity.",
-    cure: "Name a curve that begins with 0.",
+    remedy: "Name a curve that begins with 0.",
 };
 
 pub(crate) static FORCE_ON_PART: Message = Message {
@@ -107,7 +109,7 @@ pub(crate) static FORCE_ON_PART: Message = Message {
     title: "a force on a whole part",
     example: Example::Model("[[load]]\non = \"block\"\nforce = [\"1 kN/m\", 0]\n"),
     cause: "A force acts on the nodes of a side or group; over a whole part it could be shared in many ways.",
-    cure: "Name a side as part.side or a group; `gravity` acts on whole parts.",
+    remedy: "Name a side as part.side or a group; `gravity` acts on whole parts.",
 };
 
 pub(crate) static TO_ITSELF: Message = Message {
@@ -115,7 +117,7 @@ pub(crate) static TO_ITSELF: Message = Message {
     title: "a set that is bound to itself",
     example: Example::Model("[[spring]]\nname = \"s\"\nbetween = [\"block.left\", \"block.left\"]\nstiffness = \"1 MN/m/m\"\n"),
     cause: "A spring or a join names the same nodes on both sides.",
-    cure: "Name two sets without common nodes.",
+    remedy: "Name two sets without common nodes.",
 };
 
 pub(crate) static NO_PARTNER: Message = Message {
@@ -123,17 +125,18 @@ pub(crate) static NO_PARTNER: Message = Message {
     title: "a node without a partner to be joined to",
     example: Example::Model("[[join]]\nbetween = [\"block.right\", \"wall.left\"]\n"),
     cause: "Joined sets must have their nodes in the same places, or where their image is, within the tolerance.",
-    cure: "Mesh the two alike, or give a larger `tolerance`; a tied contact joins meshes that differ.",
+    remedy: "Mesh the two alike, or give a larger `tolerance`; a tied contact joins meshes that differ.",
 };
 
 pub(crate) static HELD_TWICE: Message = Message {
     code: "E0513",
     title: "a node that two conditions move differently",
     example: Example::Model(
-        "[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"1 m/s\" }\n\n[[constraint]]\non = \"wall.bottom\"\nfixed = [\"x\", \"y\"]\n",
+        "[[constraint]]\non = \"wall.right\"\nvelocity = { x = \"1 m/s\" }\n\n[[constraint]]\non = \"wall.bottom\"\nfixed \
+            = [\"x\", \"y\"]\n",
     ),
     cause: "Constraints, symmetry lines and joins meet at a node and say different things about it.",
-    cure: "Take the node out of one of the two.",
+    remedy: "Take the node out of one of the two.",
 };
 
 pub(crate) static OFF_SYMMETRY: Message = Message {
@@ -141,5 +144,5 @@ pub(crate) static OFF_SYMMETRY: Message = Message {
     title: "a symmetry line that no node lies on",
     example: Example::Model("[[symmetry]]\npoint = [\"-1 mm\", 0]\nnormal = [1, 0]\n"),
     cause: "Nodes must lie on the line within 1e-9 of the model's extent; so nothing would be held.",
-    cure: "Move the line or the bodies.",
+    remedy: "Move the line or the bodies.",
 };

@@ -1,9 +1,9 @@
-//! Boundaries that reflect nothing: dashpots on a surface that take a plane wave up as if the body went on
+//! Boundaries that reflect nothing: dashpots on a surface that take a plane wave up as if the body continued
 //! (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859-877).
 //!
 //! traction t = −ρ c_p (v·n) n − ρ c_s (v − (v·n) n),   c_p² = (K + 4µ/3)/ρ,   c_s² = µ/ρ
 //!
-//! on the tributary length (in space: area) of each node, normals and sizes as they are at the start. With C
+//! on the tributary length (in 3D: area) of each node, normals and sizes as they are at the start. With C
 //! the sum over a node's pieces of the surface, the force −C v̄ acts on the mean velocity of the update,
 //! v̄ = ½ (v^{n−½} + v^{n+½}): it only takes energy, whatever the step, and shortens none. A node gives way
 //! to an impulse J by (m + ½ Δt C)⁻¹ J with Δt = ½ (dt^{n−1} + dt^n).
@@ -37,7 +37,7 @@ impl<const D: usize> NonReflecting<D>
 where
     Dim<D>: CellGeometry<D> + Rotate<D>,
 {
-    /// `behind` tells what is behind a piece of a surface, `is_mirror` which pieces lie on a symmetry line or
+    /// `behind` says what is behind a piece of a surface, `is_mirror` which pieces lie on a symmetry line or
     /// plane: they are no boundary.
     ///
     /// # Errors

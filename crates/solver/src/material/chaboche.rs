@@ -286,9 +286,9 @@ impl Chaboche {
             let live = newton.live();
             // q(η) turns within q over the moduli.
             let reach = L::splat(self.reach).min(q * L::splat(1.0 / (3.0 * modulus)));
-            let goes_on = newton.next_curved(value, slope, bend - (end.modulus_curvature + flow.curvature), reach);
+            let continues = newton.next_curved(value, slope, bend - (end.modulus_curvature + flow.curvature), reach);
             isotropic = flow.after(newton.moved, live, isotropic);
-            if !goes_on {
+            if !continues {
                 break;
             }
         }

@@ -177,10 +177,10 @@ impl CrushableFoam {
             // They change within 1/4k of g, and so within that of Δε̂ = c Y g.
             let reach = curve.stress * stiffer;
             let live = newton.live();
-            let goes_on = newton.next_curved(value, change, curvature, reach.min(curve.reach));
+            let continues = newton.next_curved(value, change, curvature, reach.min(curve.reach));
             let after = own + newton.moved * (growth + L::splat(0.5) * growth_slope * newton.moved);
             g = L::select(live, after, g);
-            if !goes_on {
+            if !continues {
                 break;
             }
         }

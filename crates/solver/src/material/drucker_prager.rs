@@ -46,7 +46,8 @@ impl Law for DruckerPrager {
     const KIND: LawKind = LawKind {
         name: "drucker_prager",
         doc: "soil, rock or concrete: perfectly plastic with friction and dilation, the cone of Drucker and Prager",
-        source: "Drucker and Prager, Q. Appl. Math. 10 (1952) 157-165; de Souza Neto et al., Computational Methods for Plasticity (2008), 8.3",
+        source: "Drucker and Prager, Q. Appl. Math. 10 (1952) 157-165; de Souza Neto et al., Computational Methods \
+            for Plasticity (2008), 8.3",
         parameters: &[
             DENSITY,
             YOUNG,

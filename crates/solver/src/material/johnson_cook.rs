@@ -176,8 +176,9 @@ impl Law for JohnsonCook {
             let q = trial.square.sqrt();
             let (inverse, stiffness) = (one / q, L::splat(3.0 * self.shear));
             let unit = (L::splat(self.rate_reference) * kinematics.time_step).max(L::splat(1e-100));
-            // At the yield stress of the rate 0; and where it flows already, about as fast as the strain goes
-            // on.
+            // At the yield stress of the rate 0; and where it flows already, about as fast as the strain
+            // continues
+            //.
             let start = one / (stiffness + slope);
             let (slow, along) = ((q - flow) * start, trial.along(kinematics.strain_increment, inverse) * stiffness * start);
             let start = L::select(zero.less(along), slow.min(along), slow);
@@ -241,9 +242,9 @@ impl JohnsonCook {
             let slope = -(stiffness + flow.slope * rate + flow.stress * rate_slope);
             let curvature = flow.stress * rate_curvature - (flow.curvature * rate + two * flow.slope * rate_slope);
             let live = newton.live();
-            let goes_on = newton.next_curved(value, slope, curvature, reach.min(flow.reach));
+            let continues = newton.next_curved(value, slope, curvature, reach.min(flow.reach));
             end = power.after(newton.moved, live, end);
-            if !goes_on {
+            if !continues {
                 break;
             }
         }

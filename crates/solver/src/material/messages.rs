@@ -22,7 +22,7 @@ pub(crate) static PARAMETER_MISSING: Message = Message {
     title: "a law lacks a parameter",
     example: Example::Words("A program that makes its models itself leaves out a parameter of a law; of a model file that is E0107."),
     cause: "Every parameter without a default must be given.",
-    cure: "Add it; `embate list laws` names all with their units.",
+    remedy: "Add it; `embate list laws` names all with their units.",
 };
 
 pub(crate) static PARAMETER_UNKNOWN: Message = Message {
@@ -32,27 +32,30 @@ pub(crate) static PARAMETER_UNKNOWN: Message = Message {
         "A program that makes its models itself gives a parameter that the law has not; of a model file that is E0106.",
     ),
     cause: "The parameter belongs to another law or to an equation of state, or its name is misspelt.",
-    cure: "Leave it out, or take the law that has it; `embate list laws` names all.",
+    remedy: "Leave it out, or take the law that has it; `embate list laws` names all.",
 };
 
 pub(crate) static EQUATION_OF_STATE: Message = Message {
     code: "E0303",
     title: "a law and an equation of state that don't go together",
     example: Example::Model(
-        "[material.steel]\nlaw = \"null\"\n\n[material.rubber]\nlaw = \"neo_hookean\"\ndensity = 1000\nshear = \"1 MPa\"\nbulk = \"1 GPa\"\neos = \"linear\"\n",
+        "[material.steel]\nlaw = \"null\"\n\n[material.rubber]\nlaw = \"neo_hookean\"\ndensity = 1000\nshear = \"1 \
+            MPa\"\nbulk = \"1 GPa\"\neos = \"linear\"\n",
     ),
-    cause: "Fluids have no pressure of their own and need an equation of state; rubbers and laws that flow in volume have one, which it would contradict.",
-    cure: "Give `eos` to a fluid, and leave it out where the law has a pressure.",
+    cause: "Fluids have no pressure of their own and need an equation of state; rubbers and laws that flow in volume \
+        have one, which it would contradict.",
+    remedy: "Give `eos` to a fluid, and leave it out where the law has a pressure.",
 };
 
 pub(crate) static PARAMETERS: Message = Message {
     code: "E0304",
     title: "parameters of a law contradict each other",
     example: Example::Model(
-        "[material.soil]\nlaw = \"drucker_prager\"\ndensity = 2000\nyoung = \"50 MPa\"\npoisson = 0.3\ncohesion = \"10 kPa\"\nfriction_angle = 0.35\ndilation_angle = 0.5\n",
+        "[material.soil]\nlaw = \"drucker_prager\"\ndensity = 2000\nyoung = \"50 MPa\"\npoisson = 0.3\ncohesion = \"10 \
+            kPa\"\nfriction_angle = 0.35\ndilation_angle = 0.5\n",
     ),
     cause: "Each is within its range, but together they make a material that gives energy for nothing, has no stiffness or no strength.",
-    cure: "Look at signs, units and the order in which they are given; the message says what must hold.",
+    remedy: "Look at signs, units and the order in which they are given; the message says what must hold.",
 };
 
 pub(crate) static SOFTENS_TOO_STEEPLY: Message = Message {
@@ -60,7 +63,7 @@ pub(crate) static SOFTENS_TOO_STEEPLY: Message = Message {
     title: "a flow stress that falls too steeply",
     example: Example::Model("[material.steel]\nlaw = \"j2\"\nyield = \"300 MPa\"\nhardening = \"-240 GPa\"\n"),
     cause: "The flow stress falls by more per plastic strain than elastic unloading gives back: strain has no sound answer there.",
-    cure: "Let it fall more slowly, or let elements fail by `failure`.",
+    remedy: "Let it fall more slowly, or let elements fail by `failure`.",
 };
 
 pub(crate) static INITIAL_STATE: Message = Message {
@@ -70,8 +73,9 @@ pub(crate) static INITIAL_STATE: Message = Message {
         "[[part]]\nname = \"block\"\nmaterial = \"steel\"\ntemperature_initial = \"400 K\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
          [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "The law has no temperature, keeps its stress in a way that can't be given from outside, or would flow at once under the stress; or the part is rigid.",
-    cure: "Leave the initial state out, give less stress, or take another law.",
+    cause: "The law has no temperature, keeps its stress in a way that can't be given from outside, or would flow at \
+        once under the stress; or the part is rigid.",
+    remedy: "Leave the initial state out, give less stress, or take another law.",
 };
 
 pub(crate) static CRITERION: Message = Message {
@@ -79,7 +83,7 @@ pub(crate) static CRITERION: Message = Message {
     title: "a failure criterion that the law can't feed",
     example: Example::Model("[material.steel]\nfailure = { plastic_strain = 0.3 }\n"),
     cause: "The criterion looks at a quantity that the law does not compute: plastic strain of an elastic law, damage of one without.",
-    cure: "Take another criterion, or a law that has the quantity.",
+    remedy: "Take another criterion, or a law that has the quantity.",
 };
 
 pub(crate) static NO_STIFFNESS: Message = Message {
@@ -89,35 +93,42 @@ pub(crate) static NO_STIFFNESS: Message = Message {
         "[material.steel]\nlaw = \"neo_hookean\"\nshear = \"1 MPa\"\nbulk = \"100 MPa\"\n\n[[load]]\ndamping_stiffness = \"1 us\"\n",
     ),
     cause: "`damping_stiffness` needs an isotropic law in rate form, such as `elastic` or `j2`.",
-    cure: "Name the parts that have such a law in `parts`; damp rubber by `damping`, or take `viscoelastic`.",
+    remedy: "Name the parts that have such a law in `parts`; damp rubber by `damping`, or take `viscoelastic`.",
 };
 
 pub(crate) static SOFTENING: Message = Message {
     code: "W0301",
     title: "a flow stress that falls",
     example: Example::Model("[material.steel]\nlaw = \"j2\"\nyield = \"300 MPa\"\nhardening = \"-1 GPa\"\n"),
-    cause: "Where the flow stress falls the equations lose ellipticity: strain gathers in one row of elements, so that results depend on their size.",
-    cure: "Fit the fall to the size of the elements, or let the flow stress stay at its peak and elements fail by `failure`.",
+    cause: "Where the flow stress falls the equations lose ellipticity: strain gathers in one row of elements, so \
+        that results depend on their size.",
+    remedy: "Fit the fall to the size of the elements, or let the flow stress stay at its peak and elements fail by `failure`.",
 };
 
 pub(crate) static LOCKING: Message = Message {
     code: "W0302",
     title: "elements that lock",
     example: Example::Model(
-        "[material.steel]\npoisson = 0.499\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nelement = \"quad4_full\"\nvelocity = [1, 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+        "[material.steel]\npoisson = 0.499\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nelement = \"quad4_full\"\nvelocity \
+            = [1, 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] \
+            }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "A nearly incompressible material in elements that hold the volume at each of their points: bending and shear are several times too stiff.",
-    cure: "Take `quad4`, or `tri3_anp` for triangles.",
+    cause: "A nearly incompressible material in elements that hold the volume at each of their points: bending and \
+        shear are several times too stiff.",
+    remedy: "Take `quad4`, or `tri3_anp` for triangles.",
 };
 
 pub(crate) static FLUID: Message = Message {
     code: "W0303",
     title: "a fluid in elements that can't hold their shape",
     example: Example::Model(
-        "[material.water]\nlaw = \"null\"\ndensity = 1000\neos = \"linear\"\nbulk_modulus = \"2 GPa\"\n\n[[part]]\nname = \"pool\"\nmaterial = \"water\"\nvelocity = [1, 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+        "[material.water]\nlaw = \"null\"\ndensity = 1000\neos = \"linear\"\nbulk_modulus = \"2 \
+            GPa\"\n\n[[part]]\nname = \"pool\"\nmaterial = \"water\"\nvelocity = [1, 0]\nrectangle = { corner = [0, \
+            0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "Without viscosity there is a pressure only, one for the whole element, which holds none of the shapes that keep the volume: elements fold.",
-    cure: "Take `quad4_reduced`, whose hourglass control holds them, or give the fluid a `viscosity`.",
+    cause: "Without viscosity there is a pressure only, one for the whole element, which holds none of the shapes \
+        that keep the volume: elements fold.",
+    remedy: "Take `quad4_reduced`, whose hourglass control holds them, or give the fluid a `viscosity`.",
 };
 
 pub(crate) static UNSTABLE_RUBBER: Message = Message {
@@ -125,5 +136,6 @@ pub(crate) static UNSTABLE_RUBBER: Message = Message {
     title: "a rubber that would soften to nothing",
     example: Example::Model("[material.rubber]\nlaw = \"ogden\"\ndensity = 1000\nbulk = \"1 GPa\"\nmu = [\"1 MPa\"]\nalpha = [-2]\n"),
     cause: "The constants, often of a fit, make an energy that falls with stretch: the rubber is unstable beyond some point.",
-    cure: "Give each modulus the sign of its exponent, raise the coefficients that the message names, or fit again with that as a condition.",
+    remedy: "Give each modulus the sign of its exponent, raise the coefficients that the message names, or fit again \
+        with that as a condition.",
 };

@@ -14,7 +14,7 @@ mod rubber;
 mod softening;
 mod state;
 mod trial;
-mod unloaded;
+mod stress_constrained;
 pub mod variable;
 
 pub use j2::J2With;
@@ -52,7 +52,7 @@ pub enum Family {
     Hyperelastic,
 }
 
-/// What the block tells a law about one point; only the measures of its family, and those that it asks for,
+/// What the block reports a law about one point; only the measures of its family, and those that it asks for,
 /// are set.
 #[derive(Clone, Copy, Debug)]
 pub struct Kinematics<L: Lane, T: SymmetricTensor<L>> {
@@ -125,7 +125,7 @@ pub trait Law: Copy + Send + Sync + 'static {
     /// Whether it has no pressure of its own.
     const NEEDS_EQUATION_OF_STATE: bool = false;
 
-    /// Kinds of messages that it alone tells.
+    /// Kinds of messages that it alone reports.
     const MESSAGES: &'static [&'static Message] = &[];
 
     /// Reads its parameters, which have been checked against [`Law::KIND`].

@@ -68,7 +68,8 @@ impl Law for Ogden {
             kind: &UNSTABLE_RUBBER,
             name: "mu",
             message: format!(
-                "term {} has mu = {mu} Pa and alpha = {alpha}: their product must be above 0, else the rubber is unstable, and |alpha| at most 60",
+                "term {} has mu = {mu} Pa and alpha = {alpha}: their product must be above 0, else the rubber is \
+                    unstable, and |alpha| at most 60",
                 k + 1
             ),
             help: "give the modulus the sign of its exponent; fits with other signs need another law".into(),

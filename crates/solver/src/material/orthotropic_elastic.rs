@@ -31,7 +31,7 @@ static NOT_POSITIVE: Message = Message {
          poisson_12 = 0.3\npoisson_23 = 0.02\npoisson_31 = 0.3\nshear_12 = \"5 GPa\"\nshear_23 = \"5 GPa\"\nshear_31 = \"3 GPa\"\n",
     ),
     cause: "With these ratios some strain would release energy. Often one ratio is meant the other way round: nu_ij / E_i = nu_ji / E_j.",
-    cure: "Convert the ratio (nu_ij = nu_ji E_i / E_j), or lower it.",
+    remedy: "Convert the ratio (nu_ij = nu_ji E_i / E_j), or lower it.",
 };
 
 /// The law with its stiffness.
@@ -141,7 +141,8 @@ impl Law for OrthotropicElastic {
         let definite = definiteness(young, poisson);
         if faults.is_empty() && definite <= 0.0 {
             let message = format!(
-                "the three ratios together make a stiffness that is not positive definite (1 - Σ nu_ij nu_ji - 2 nu_12 nu_23 nu_31 = {definite}, must be above 0)"
+                "the three ratios together make a stiffness that is not positive definite (1 - Σ nu_ij nu_ji - 2 \
+                    nu_12 nu_23 nu_31 = {definite}, must be above 0)"
             );
             faults.push(ParameterFault {
                 kind: &NOT_POSITIVE,

@@ -32,19 +32,19 @@ pub struct Points<'a> {
     /// volume, J/m³; bulk and shear stiffness, Pa.
     pub response: &'a mut [Batch],
     /// Room that adapters may use.
-    pub room: &'a mut Room,
+    pub scratch: &'a mut Scratch,
 }
 
 /// Room of an adapter around a law, and of what it is around; it keeps its size from step to step.
 #[derive(Debug, Default)]
-pub struct Room {
+pub struct Scratch {
     own: Vec<Batch>,
-    inner: Option<Box<Room>>,
+    inner: Option<Box<Scratch>>,
 }
 
-impl Room {
+impl Scratch {
     /// `length` batches for the adapter, with whatever they held, and the room of what it is around.
-    pub fn split(&mut self, length: usize) -> (&mut [Batch], &mut Room) {
+    pub fn split(&mut self, length: usize) -> (&mut [Batch], &mut Scratch) {
         self.own.resize(length, Batch::default());
         (&mut self.own, self.inner.get_or_insert_default())
     }
@@ -90,7 +90,7 @@ pub trait PointLaw: Send + Sync {
     fn respond(&self, level: Level, points: Points<'_>);
 }
 
-/// The law of a material for points of the plane or of space, with its equation of state; `None` when one of
+/// The law of a material for points in 2D or 3D, with its equation of state; `None` when one of
 /// them is unknown.
 #[must_use]
 pub fn of<const D: usize>(material: &Material) -> Option<Box<dyn PointLaw>>
@@ -105,13 +105,13 @@ where
         type Output = Box<dyn PointLaw>;
         fn visit<M: Law>(self) -> Self::Output {
             let law = M::new(&Parameters::new(M::KIND.parameters, &self.0.parameters, &self.0.lists));
-            Box::new(Erased::<M, D> { law })
+            Box::new(DynLaw::<M, D> { law })
         }
     }
     super::eos::around::<D>(with_law(&material.law, Make::<D>(material))?, material)
 }
 
-/// The law of a material for points of the plane: [`of`] it.
+/// The law of a material for points in 2D: [`of`] it.
 #[must_use]
 pub fn plane(material: &Material) -> Option<Box<dyn PointLaw>> {
     of::<2>(material)
@@ -120,23 +120,23 @@ pub fn plane(material: &Material) -> Option<Box<dyn PointLaw>> {
 /// The law of a material for points in plane stress.
 #[must_use]
 pub fn plane_stress(material: &Material) -> Option<Box<dyn PointLaw>> {
-    plane(material).map(|law| Box::new(super::unloaded::Unloaded::plane_stress(law)) as Box<dyn PointLaw>)
+    plane(material).map(|law| Box::new(super::stress_constrained::StressConstrained::plane_stress(law)) as Box<dyn PointLaw>)
 }
 
 /// The law of a material for points under uniaxial stress along x: of bars, whose own axis x is.
 #[must_use]
 pub fn uniaxial(material: &Material) -> Option<Box<dyn PointLaw>> {
-    plane(material).map(|law| Box::new(super::unloaded::Unloaded::uniaxial(law)) as Box<dyn PointLaw>)
+    plane(material).map(|law| Box::new(super::stress_constrained::StressConstrained::uniaxial(law)) as Box<dyn PointLaw>)
 }
 
-struct Erased<M, const D: usize> {
+struct DynLaw<M, const D: usize> {
     law: M,
 }
 
 type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
 type Rotation<const D: usize, L> = <Tensor<D, L> as SymmetricTensor<L>>::Rotation;
 
-impl<M: Law, const D: usize> PointLaw for Erased<M, D>
+impl<M: Law, const D: usize> PointLaw for DynLaw<M, D>
 where
     Dim<D>: Space<D>,
 {
@@ -233,5 +233,5 @@ where
     }
 }
 
-/// Components of a tensor of the plane.
+/// Components of a tensor in 2D.
 pub(in crate::material) const PLANE: usize = <Plane<f64> as SymmetricTensor<f64>>::COMPONENTS;

@@ -43,8 +43,8 @@ pub trait Meshed<const D: usize> {
     /// As [`PlaneSurface::new`] and [`SpaceSurface::new`].
     fn surface<'a>(facets: Vec<Self::Facet>, cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Self::Surface, Fault>;
 
-    /// The components of a point of space that this dimension has.
-    fn of_space(point: [f64; 3]) -> [f64; D];
+    /// The components of a point in 3D that this dimension has.
+    fn of_3d(point: [f64; 3]) -> [f64; D];
 
     /// Body of a part with a built-in shape, placed; `None` for a group of a mesh file.
     ///
@@ -63,12 +63,12 @@ pub trait Meshed<const D: usize> {
     fn along_curve(cell: [u32; D]) -> u64;
 
     /// Adds to `sums`, at each node of an element, what gives zero when the node is inside and the elements
-    /// all around it have added theirs. (Where two fans meet in a point of the plane it may look as if it
+    /// all around it have added theirs. (Where two fans meet in a point in 2D it may look as if it
     /// were inside: it only lies elsewhere in memory.)
     fn add_around(cell: Cell<'_>, sums: &mut [u64]);
 }
 
-const MEND: &str = "mend the mesh there";
+const MEND: &str = "fix the mesh there";
 
 impl Meshed<2> for Dim<2> {
     type Facet = [u32; 2];
@@ -90,7 +90,7 @@ impl Meshed<2> for Dim<2> {
         PlaneSurface::new(segments, cells)
     }
 
-    fn of_space([x, y, _]: [f64; 3]) -> [f64; 2] {
+    fn of_3d([x, y, _]: [f64; 3]) -> [f64; 2] {
         [x, y]
     }
 
@@ -155,7 +155,7 @@ impl Meshed<3> for Dim<3> {
         SpaceSurface::new(facets, cells)
     }
 
-    fn of_space(point: [f64; 3]) -> [f64; 3] {
+    fn of_3d(point: [f64; 3]) -> [f64; 3] {
         point
     }
 
@@ -181,7 +181,7 @@ impl Meshed<3> for Dim<3> {
     }
 
     fn along_curve(cell: [u32; 3]) -> u64 {
-        super::order::hilbert_in_space(cell)
+        super::order::hilbert_in_3d(cell)
     }
 
     fn add_around(cell: Cell<'_>, sums: &mut [u64]) {

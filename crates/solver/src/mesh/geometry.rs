@@ -12,7 +12,7 @@ use crate::tensor::Dim;
 /// Geometry of cells.
 pub trait CellGeometry<const D: usize>: Meshed<D> + Tributary<D> {
     /// Smallest Jacobian determinant of a cell, times that of its natural corner, over its corners (m², in
-    /// space m³): positive in all of them where the cell is sound; `None` of lines.
+    /// 3D m³): positive in all of them where the cell is sound; `None` of lines.
     fn min_corner_jacobian(cell: Cell<'_>, positions: &[[f64; D]]) -> Option<f64>;
     /// That over the square (in 3D: the third power) of the longest side: 1 of squares and cubes, less of
     /// what is long, sheared or folded; lines have the best.

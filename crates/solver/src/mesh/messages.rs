@@ -25,8 +25,9 @@ pub(crate) static SHAPE: Message = Message {
         "[[part]]\nname = \"ring\"\nmaterial = \"steel\"\nring = { centre = [0, 0], inner = \"50 mm\", outer = \"44 mm\", elements = [2, 16] }\n\n\
          [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "There is no body with these dimensions: an inner radius larger than the outer one, an outline that crosses itself, two points in one place.",
-    cure: "Correct the key that the message names.",
+    cause: "There is no body with these dimensions: an inner radius larger than the outer one, an outline that \
+        crosses itself, two points in one place.",
+    remedy: "Correct the key that the message names.",
 };
 
 pub(crate) static UNMESHABLE: Message = Message {
@@ -38,27 +39,29 @@ pub(crate) static UNMESHABLE: Message = Message {
          [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
     cause: "The outline is sound, but elements fold over or become too many or too small in it.",
-    cure: "Move the points apart, take smaller radii, or mesh the body with Gmsh.",
+    remedy: "Move the points apart, take smaller radii, or mesh the body with Gmsh.",
 };
 
 pub(crate) static TOO_MANY: Message = Message {
     code: "E0203",
     title: "too many elements or nodes",
     example: Example::Model(
-        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"1 mm\", \"1 mm\"], elements = [20000, 20000] }\n",
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"1 mm\", \"1 \
+            mm\"], elements = [20000, 20000] }\n",
     ),
     cause: "The model has more elements than the program takes.",
-    cure: "Take larger elements; fine ones only where something happens (`grading`).",
+    remedy: "Take larger elements; fine ones only where something happens (`grading`).",
 };
 
 pub(crate) static NO_ELEMENT: Message = Message {
     code: "E0204",
     title: "an element that does not fit the mesh",
     example: Example::Model(
-        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nelement = \"bar2\"\narea = \"1 mm\"\nrectangle = { corner = [0, 0], size = [\"1 mm\", \"1 mm\"], elements = [2, 2] }\n",
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nelement = \"bar2\"\narea = \"1 mm\"\nrectangle = { corner \
+            = [0, 0], size = [\"1 mm\", \"1 mm\"], elements = [2, 2] }\n",
     ),
     cause: "The mesh of the part has cells with another number of corners than its element has.",
-    cure: "Take an element with as many corners (`embate list elements`), or leave `element` out.",
+    remedy: "Take an element with as many corners (`embate list elements`), or leave `element` out.",
 };
 
 pub(crate) static SAME_PLACE: Message = Message {
@@ -69,17 +72,18 @@ pub(crate) static SAME_PLACE: Message = Message {
          copies = { count = 3, angle = \"180 deg\" }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
     cause: "Without a translation, after a full turn a copy is where the first body is.",
-    cure: "Take fewer copies, another angle, or a translation.",
+    remedy: "Take fewer copies, another angle, or a translation.",
 };
 
 pub(crate) static GROUP: Message = Message {
     code: "E0206",
     title: "a group of a mesh file can't be a body",
     example: Example::Gmsh(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"block\"\n2 2 \"body\"\n$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n2\n1 1 2 1 1 1 2\n2 2 2 2 1 1 2 3\n$EndElements\n",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"block\"\n2 2 \"body\"\n$EndPhysicalNames\n$Nodes\n3\n1 \
+            0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n$Elements\n2\n1 1 2 1 1 1 2\n2 2 2 2 1 1 2 3\n$EndElements\n",
     ),
     cause: "Parts are made of groups of surfaces, parts of bars of groups of lines.",
-    cure: "Name another group, or correct the physical groups in Gmsh and mesh again.",
+    remedy: "Name another group, or correct the physical groups in Gmsh and mesh again.",
 };
 
 pub(crate) static BAD_ELEMENT: Message = Message {
@@ -90,27 +94,30 @@ pub(crate) static BAD_ELEMENT: Message = Message {
          $Nodes\n4\n1 0 0 0\n2 10 0 0\n3 2 2 0\n4 0 10 0\n$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n",
     ),
     cause: "Corners of an element do not turn counter-clockwise everywhere, so that its map has no positive volume at some point.",
-    cure: "Mend the mesh at the place that the message names: other corners, more elements, or triangles.",
+    remedy: "Fix the mesh at the place that the message names: other corners, more elements, or triangles.",
 };
 
 pub(crate) static NOT_A_SURFACE: Message = Message {
     code: "E0208",
     title: "lines that are no surface of a body",
     example: Example::Words(
-        "A program that makes its meshes itself calls a line inside of a body a surface, or names one twice; of a mesh file such lines are a set of nodes.",
+        "A program that makes its meshes itself calls a line inside of a body a surface, or names one twice; of a \
+            mesh file such lines are a set of nodes.",
     ),
     cause: "Contact, pressure and boundaries act on the outside of bodies: lines that bound the elements of one part, each once.",
-    cure: "Name a side of a part, or a group of lines on its outside.",
+    remedy: "Name a side of a part, or a group of lines on its outside.",
 };
 
 pub(crate) static OVERLAP: Message = Message {
     code: "E0209",
     title: "elements that overlap",
     example: Example::Gmsh(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 2 0 0\n3 1 1 0\n4 1 2 0\n5 1 -1 0\n$EndNodes\n$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 2 4\n3 2 2 1 1 2 1 5\n$EndElements\n",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 \
+            0\n2 2 0 0\n3 1 1 0\n4 1 2 0\n5 1 -1 0\n$EndNodes\n$Elements\n3\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 2 4\n3 2 2 \
+            1 1 2 1 5\n$EndElements\n",
     ),
-    cause: "An edge of the plane, and a facet of space, belongs to two elements at most, which lie on its two sides.",
-    cure: "Remove elements that are there twice, and turn those that are clockwise or inside out.",
+    cause: "An edge in 2D, and a facet in 3D, belongs to two elements at most, which lie on its two sides.",
+    remedy: "Remove elements that are there twice, and turn those that are clockwise or inside out.",
 };
 
 pub(crate) static BARS: Message = Message {
@@ -121,7 +128,7 @@ pub(crate) static BARS: Message = Message {
          [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
     cause: "Bars have a cross-section, a stress along their line and no other, and no surface that something could touch.",
-    cure: "Give `area`, an isotropic solid as the law, and name other parts in contacts, obstacles and pressures.",
+    remedy: "Give `area`, an isotropic solid as the law, and name other parts in contacts, obstacles and pressures.",
 };
 
 pub(crate) static NEGATIVE_RADIUS: Message = Message {
@@ -132,19 +139,20 @@ pub(crate) static NEGATIVE_RADIUS: Message = Message {
          [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
     cause: "In an axisymmetric model x is the radius, which is never negative.",
-    cure: "Move the part to the right of the axis x = 0; only one half of the section is modelled.",
+    remedy: "Move the part to the right of the axis x = 0; only one half of the section is modelled.",
 };
 
 pub(crate) static DIMENSION: Message = Message {
     code: "E0212",
-    title: "parts of the plane and of space in one model",
+    title: "2D and 3D parts in one model",
     example: Example::Model(
         "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
          [[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [0, \"-20 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\
          extrude = { length = \"5 mm\", elements = 1 }\n\n[[contact]]\nname = \"hit\"\nbodies = \"all\"\n",
     ),
-    cause: "A model is of the plane, with forces per metre of depth, or of space. A part is a solid if its shape is one (`box`, `cylinder`, `tube`, `sphere`, a group of volumes of a mesh file), or by `extrude` or `revolve`.",
-    cure: "Make all parts solids, or none.",
+    cause: "A model is 2D, with forces per metre of depth, or 3D. A part is a solid if its shape is one (`box`, \
+        `cylinder`, `tube`, `sphere`, a group of volumes of a mesh file), or by `extrude` or `revolve`.",
+    remedy: "Make all parts solids, or none.",
 };
 
 pub(crate) static TINY_STEP: Message = Message {
@@ -155,6 +163,7 @@ pub(crate) static TINY_STEP: Message = Message {
          polygon = { outline = [[\"40 mm\", 0], [\"50 mm\", 0], [\"45 mm\", \"1 nm\"], [\"40 mm\", \"10 mm\"]], size = \"2 mm\" }\n\n\
          [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "All elements wait for the one with the shortest stable step, which goes with its smallest height: a corner or a node just beside an edge makes a sliver. Told from a factor of 1000 on.",
-    cure: "Mend the outline or the mesh at the place that the message names; or make such elements heavier with `run.mass_scaling`.",
+    cause: "All elements wait for the one with the shortest stable step, which goes with its smallest height: a \
+        corner or a node just beside an edge makes a sliver. Reported from a factor of 1000 on.",
+    remedy: "Fix the outline or the mesh at the place that the message names; or make such elements heavier with `run.mass_scaling`.",
 };

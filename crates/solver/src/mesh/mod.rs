@@ -154,13 +154,13 @@ where
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are
     /// numbered first.
     outlines: Vec<bool>,
-    /// Named pieces of the outside: `part.side`, and groups of lines in the plane, of surfaces in space.
+    /// Named pieces of the outside: `part.side`, and groups of lines in 2D, of surfaces in 3D.
     sides: BTreeMap<String, Vec<Facet<D>>>,
     /// Named nodes: all other groups.
     points: BTreeMap<String, Vec<u32>>,
 }
 
-/// A mesh file's mesh of the plane, swept: the numbers that its nodes have here (`u32::MAX`: not yet used).
+/// A mesh file's mesh in 2D, swept: the numbers that its nodes have here (`u32::MAX`: not yet used).
 struct Swept {
     file: usize,
     sweep: Sweep,
@@ -168,8 +168,8 @@ struct Swept {
     numbers: Vec<u32>,
 }
 
-/// At most so many faults of one kind are told one by one.
-const TOLD: usize = 20;
+/// At most so many faults of one kind are reported one by one.
+const REPORTED_MAX: usize = 20;
 
 impl<const D: usize> Mesh<D>
 where
@@ -272,7 +272,7 @@ where
             let number = &mut numbers[node as usize];
             if *number == u32::MAX {
                 *number = self.positions.len() as u32;
-                self.positions.push(Dim::<D>::of_space(source.positions[node as usize]));
+                self.positions.push(Dim::<D>::of_3d(source.positions[node as usize]));
             }
         }
         let number = |node: &u32| numbers[*node as usize];
@@ -280,7 +280,7 @@ where
         self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)) });
     }
 
-    /// Adds a group of a mesh of the plane that is swept; parts of one file that are swept alike share their
+    /// Adds a group of a mesh in 2D that is swept; parts of one file that are swept alike share their
     /// nodes.
     fn add_swept(&mut self, model: &Model, part: &Part, file: usize, all: &mut Vec<Swept>, faults: &mut Vec<Fault>) {
         let (Shape::Group { group, .. }, Some(sweep)) = (&part.shape, &part.sweep) else { return };
@@ -299,7 +299,7 @@ where
         let Swept { made, numbers, .. } = &mut all[at];
         if made.mesh.positions.is_empty() {
             self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
-            return; // its fault is told
+            return; // its fault is reported
         }
         self.add_group(&made.mesh, group, part, numbers, faults);
         for (_, ends) in made.ends.iter().filter(|(name, _)| name == group) {
@@ -358,16 +358,16 @@ where
         let mut bad: Vec<(u32, &[u32], [&str; 2])> =
             cells.filter_map(|(&user, cell)| Some((user, cell.nodes, self.what_is_wrong_with(cell)?))).collect();
         bad.sort_unstable();
-        for &(user, cell, [wrong, help]) in bad.iter().take(TOLD) {
+        for &(user, cell, [wrong, help]) in bad.iter().take(REPORTED_MAX) {
             let place = self.positions[cell[0] as usize].map(|x| format!("{x:.6e}")).join(", ");
             let message = format!("element {user} of part \"{name}\" at ({place}) {wrong}");
             faults.push(Fault::new(&BAD_ELEMENT, format!("part[{part}]"), message, help));
         }
-        if bad.len() > TOLD {
+        if bad.len() > REPORTED_MAX {
             faults.push(Fault::new(
                 &BAD_ELEMENT,
                 format!("part[{part}]"),
-                format!("and {} more elements like these", bad.len() - TOLD),
+                format!("and {} more elements like these", bad.len() - REPORTED_MAX),
                 "",
             ));
         }
@@ -448,7 +448,7 @@ where
         Dim::<D>::outside_without(self.cells(parts), leave_out)
     }
 
-    /// Surface of a part (its whole outside), a `part.side` or a group of lines (in space of surfaces),
+    /// Surface of a part (its whole outside), a `part.side` or a group of lines (in 3D of surfaces),
     /// without the segments or facets that `leave_out` names (those on a symmetry, which are no outside of
     /// the whole body).
     ///

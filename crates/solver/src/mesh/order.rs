@@ -1,7 +1,7 @@
 //! The order in which nodes and elements are stored and summed: along a Hilbert curve through the initial
 //! positions.
 //!
-//! Neighbours in space are neighbours in memory, and the order depends on the bodies alone, not on who
+//! Neighbours in 3D are neighbours in memory, and the order depends on the bodies alone, not on who
 //! numbered them: the same positions from a shape and from a mesh file give the same results to the last bit.
 //! Outputs and messages speak the user's numbering.
 //!
@@ -12,7 +12,7 @@ use super::surface::Corners;
 use super::{Dim, ElementGroup, Mesh, Meshed};
 use std::cmp::Ordering;
 
-/// Bits per coordinate of the curve in the plane.
+/// Bits per coordinate of the curve in 2D.
 const BITS: u32 = <Dim<2> as Meshed<2>>::CURVE_BITS;
 
 impl<const D: usize> Mesh<D>
@@ -137,7 +137,7 @@ where
             high[d] = high[d].max(point[d]);
         }
     }
-    // One scale for all directions, so that neighbours along the curve are near in space.
+    // One scale for all directions, so that neighbours along the curve are near in 3D.
     let size = (1..D).fold(high[0] - low[0], |size, d| size.max(high[d] - low[d]));
     let scale = if size > 0.0 { f64::from((1u32 << Dim::<D>::CURVE_BITS) - 1) / size } else { 0.0 };
     // A float becomes a whole number by rounding towards zero; NaN becomes 0.
@@ -164,7 +164,7 @@ pub(super) fn hilbert([x, y]: [u32; 2]) -> u64 {
 
 /// Distance along a Hilbert curve of the cell (x, y, z) of a grid of 2^21 cells in each direction:
 /// coordinates are turned into the curve's digits in place. Skilling, AIP Conf. Proc. 707 (2004) 381-387.
-pub(super) fn hilbert_in_space(mut cell: [u32; 3]) -> u64 {
+pub(super) fn hilbert_in_3d(mut cell: [u32; 3]) -> u64 {
     const HIGHEST: u32 = 1 << (<Dim<3> as Meshed<3>>::CURVE_BITS - 1);
     // Each cube of the curve is the whole one, turned and mirrored: undone from the largest cubes to the
     // smallest.
@@ -237,7 +237,7 @@ mod tests {
     use crate::model::{Model, Part, Rectangle, Shape};
 
     #[test]
-    fn neighbours_on_the_curve_are_neighbours_in_space() {
+    fn neighbours_on_the_curve_are_neighbours_in_3d() {
         let n = 16;
         let mut cells: Vec<[u32; 2]> = (0..n * n).map(|k| [k % n, k / n]).collect();
         let shift = BITS - 4;
@@ -248,16 +248,16 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_on_the_curve_are_neighbours_in_space_also_in_three_dimensions() {
+    fn neighbours_on_the_curve_are_neighbours_in_3d_also_in_three_dimensions() {
         let n = 8;
         let mut cells: Vec<[u32; 3]> = (0..n * n * n).map(|k| [k % n, k / n % n, k / n / n]).collect();
         for shift in [0, <Dim<3> as Meshed<3>>::CURVE_BITS - 3] {
-            cells.sort_by_key(|cell| hilbert_in_space(cell.map(|x| x << shift)));
+            cells.sort_by_key(|cell| hilbert_in_3d(cell.map(|x| x << shift)));
             for pair in cells.windows(2) {
                 assert_eq!((0..3).map(|d| pair[0][d].abs_diff(pair[1][d])).sum::<u32>(), 1, "{pair:?}");
             }
         }
-        assert_eq!(hilbert_in_space([0; 3]), 0);
+        assert_eq!(hilbert_in_3d([0; 3]), 0);
     }
 
     #[test]

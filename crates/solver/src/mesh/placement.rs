@@ -1,7 +1,7 @@
 //! Where the body of a built-in shape goes: mirrored, turned, moved, copied.
 //!
 //! Bodies come from the shapes, placements from the model; placed bodies go to the mesh. Turns use the
-//! shapes' own sine: the same bits everywhere. In the plane the third components are zero, and turns are
+//! shapes' own sine: the same bits everywhere. In 2D the third components are zero, and turns are
 //! about z.
 
 use super::shapes::{Body, cos_sin, quarters, unit};
@@ -62,8 +62,8 @@ impl<const D: usize> Body<D>
 where
     Dim<D>: Meshed<D>,
 {
-    /// Numbers the nodes of elements and sides anew after positions were mirrored: what was on the left is on
-    /// the right now.
+    /// Numbers the nodes of elements and sides again after positions were mirrored: what was on the left is
+    /// on the right now.
     fn turn_over(&mut self) {
         for (kind, nodes) in &mut self.elements {
             nodes.chunks_exact_mut(kind.nodes()).for_each(|cell| kind.reflect(cell));

@@ -3,7 +3,7 @@
 //! Values come from the model file, checked by [`super::check`]; contacts are made of them by
 //! [`crate::build`].
 
-use super::in_space;
+use super::in_3d;
 use super::motion::Motion;
 use super::triangles::TriangleSurface;
 use std::sync::Arc;
@@ -210,7 +210,7 @@ impl Contact {
 /// Shape of a rigid obstacle. Its free side is where the normal points.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ObstacleShape {
-    /// A straight line; in space a plane without end.
+    /// A straight line; in 3D a plane without end.
     Plane {
         /// A point of the line, m; its middle where it has a length.
         point: [f64; 3],
@@ -228,7 +228,7 @@ pub enum ObstacleShape {
         /// Whether bodies are inside of it.
         hollow: bool,
     },
-    /// In space: a sphere.
+    /// In 3D: a sphere.
     Sphere {
         /// Centre, m.
         centre: [f64; 3],
@@ -237,7 +237,7 @@ pub enum ObstacleShape {
         /// Whether bodies are inside of it.
         hollow: bool,
     },
-    /// In space: a cylinder without ends.
+    /// In 3D: a cylinder without ends.
     Cylinder {
         /// A point of its axis, m.
         point: [f64; 3],
@@ -253,7 +253,7 @@ pub enum ObstacleShape {
         /// Points, m; the first once more at the end: closed.
         points: Vec<[f64; 2]>,
     },
-    /// In space: triangles, counter-clockwise seen from the side on which bodies are.
+    /// In 3D: triangles, counter-clockwise seen from the side on which bodies are.
     Triangles(Arc<TriangleSurface>),
 }
 
@@ -288,7 +288,7 @@ impl Obstacle {
     /// three components.
     #[must_use]
     pub fn wall<const D: usize>(name: &str, point: [f64; D], normal: [f64; D]) -> Self {
-        Self::fixed(name, ObstacleShape::Plane { point: in_space(point), normal: in_space(normal), length: None })
+        Self::fixed(name, ObstacleShape::Plane { point: in_3d(point), normal: in_3d(normal), length: None })
     }
 
     /// A fixed obstacle that stops all parts.

@@ -1,6 +1,6 @@
 //! Springs, dampers and point masses, as plain data.
 
-/// `[[spring]]`: a spring, a damper or both between each pair of nodes of two sets; in space without the
+/// `[[spring]]`: a spring, a damper or both between each pair of nodes of two sets; in 3D without the
 /// metre of depth.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spring {

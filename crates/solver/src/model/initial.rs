@@ -1,5 +1,5 @@
-//! What a part holds at the start besides its motion, as plain data: stress that varies linearly in the
-//! plane.
+//! What a part holds at the start besides its motion, as plain data: stress that varies linearly in
+//! 2D.
 //!
 //! Part of [`super::Part`]; blocks take it over in `block/initial.rs`.
 

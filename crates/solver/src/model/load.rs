@@ -1,16 +1,16 @@
 //! What holds, moves and loads bodies from outside, as plain data: symmetry, constraints, loads, boundaries
-//! that reflect nothing, joins. Vectors have three components; in the plane the third is zero.
+//! that reflect nothing, joins. Vectors have three components; in 2D the third is zero.
 //!
 //! Part of the [`Model`](super::Model); curves and rigid motion are in `mod.rs`.
 
-use super::{Drive, in_space};
+use super::{Drive, in_3d};
 
-/// `[[symmetry]]`: nodes that lie on a line (in space: on a plane) at the start stay on it.
+/// `[[symmetry]]`: nodes that lie on a line (in 3D: on a plane) at the start stay on it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Symmetry {
     /// Parts; empty: all.
     pub parts: Vec<String>,
-    /// A point of the line (in space: of the plane), m.
+    /// A point of the line (in 3D: of the plane), m.
     pub point: [f64; 3],
     /// Its normal; any length.
     pub normal: [f64; 3],
@@ -40,7 +40,7 @@ pub struct Rotation {
     pub speed: Drive,
 }
 
-/// What something turns about: in the plane a point, in space the line through it along a direction.
+/// What something turns about: in 2D a point, in 3D the line through it along a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     /// A point of it, m.
@@ -53,7 +53,7 @@ impl Axis {
     /// Along z through a point, m.
     #[must_use]
     pub fn through<const D: usize>(centre: [f64; D]) -> Self {
-        Self { centre: in_space(centre), direction: [0.0, 0.0, 1.0] }
+        Self { centre: in_3d(centre), direction: [0.0, 0.0, 1.0] }
     }
 }
 
@@ -125,7 +125,7 @@ pub enum Load {
     },
 }
 
-/// `[[non_reflecting]]`: a surface that takes waves up as if the body went on.
+/// `[[non_reflecting]]`: a surface that takes waves up as if the body continued.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NonReflecting {
     /// `part.side`, a part (its whole outside), or a one-dimensional group of a mesh file.

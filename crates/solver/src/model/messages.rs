@@ -26,7 +26,7 @@ pub static RANGE: Message = Message {
     title: "a number is out of its range",
     example: Example::Model("[run]\nsafety = 1.5\n"),
     cause: "The value is not one that the quantity can have: a negative density, Poisson's ratio of 0.5, a number that is not finite.",
-    cure: "Give a value within the range that the message names; look at the sign, the power of ten and the unit.",
+    remedy: "Give a value within the range that the message names; look at the sign, the power of ten and the unit.",
 };
 
 /// A name can't be one.
@@ -35,7 +35,7 @@ pub static NAME: Message = Message {
     title: "a name can't be one",
     example: Example::Model("[material.\"mild steel\"]\nlaw = \"elastic\"\ndensity = 7800\nyoung = \"200 GPa\"\npoisson = 0.3\n"),
     cause: "Names become columns of tables, file names, and the first half of `part.side`; so they are plain.",
-    cure: "Use letters, digits, `_` and `-`, at most 64 of them.",
+    remedy: "Use letters, digits, `_` and `-`, at most 64 of them.",
 };
 
 /// Nothing has this name.
@@ -43,8 +43,9 @@ pub static UNKNOWN_NAME: Message = Message {
     code: "E0116",
     title: "nothing that could stand here has this name",
     example: Example::Model("[[contact]]\nname = \"hit\"\nbetween = [\"block.rigth\", \"wall.left\"]\n"),
-    cause: "A key refers to a part, side, group, material, curve, law or field by a name that nothing has, that several things have, or that belongs to a thing of another kind.",
-    cure: "Take the name that the message suggests, or look at `embate list` for those of laws, elements, searches and fields.",
+    cause: "A key refers to a part, side, group, material, curve, law or field by a name that nothing has, that \
+        several things have, or that belongs to a thing of another kind.",
+    remedy: "Take the name that the message suggests, or look at `embate list` for those of laws, elements, searches and fields.",
 };
 
 pub(crate) static TWICE: Message = Message {
@@ -52,7 +53,7 @@ pub(crate) static TWICE: Message = Message {
     title: "the same name twice",
     example: Example::Model("[[contact]]\nname = \"hit\"\nbodies = [\"block\", \"block\"]\n"),
     cause: "Two things of one kind have one name, or a list names one thing twice.",
-    cure: "Give each thing its own name, and name each once.",
+    remedy: "Give each thing its own name, and name each once.",
 };
 
 /// Keys that contradict each other.
@@ -61,7 +62,7 @@ pub static CLASH: Message = Message {
     title: "keys that don't go together",
     example: Example::Model("[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nbodies = \"all\"\n"),
     cause: "Keys of one table contradict each other, or one of them needs another that is missing.",
-    cure: "Leave out one of those that contradict, or add the one that is missing; the message names them.",
+    remedy: "Leave out one of those that contradict, or add the one that is missing; the message names them.",
 };
 
 /// A list has the wrong length.
@@ -70,23 +71,25 @@ pub static LIST_LENGTH: Message = Message {
     title: "a list has the wrong length",
     example: Example::Model("[curve.push]\ntime = [0, \"1 ms\"]\nvalue = [0, \"1 m/s\", \"2 m/s\"]\n"),
     cause: "The list is empty, has too few or too many values, or not as many as the list that it belongs to.",
-    cure: "Give as many values as the message says.",
+    remedy: "Give as many values as the message says.",
 };
 
 pub(crate) static LIST_ORDER: Message = Message {
     code: "E0118",
     title: "a list is not in order",
     example: Example::Model("[curve.push]\ntime = [0, \"2 ms\", \"1 ms\"]\nvalue = [0, \"1 m/s\", \"2 m/s\"]\n"),
-    cause: "Times of a curve, gaps of a pressure or plastic strains of a table must ascend; two equal ones would give one point two values.",
-    cure: "Give each once, in ascending order; for a jump, two times close to each other.",
+    cause: "Times of a curve, gaps of a pressure or plastic strains of a table must ascend; two equal ones would \
+        give one point two values.",
+    remedy: "Give each once, in ascending order; for a jump, two times close to each other.",
 };
 
 pub(crate) static PERIOD: Message = Message {
     code: "E0119",
     title: "an end that is not after its beginning",
     example: Example::Model("[run]\nstep_limit = \"1 ms\"\n"),
-    cause: "A time at which something ends is not after that at which it begins, or the least time step allowed is as long as the whole run.",
-    cure: "Look at the units of the two times.",
+    cause: "A time at which something ends is not after that at which it begins, or the least time step allowed is \
+        as long as the whole run.",
+    remedy: "Look at the units of the two times.",
 };
 
 pub(crate) static NO_DIRECTION: Message = Message {
@@ -94,12 +97,12 @@ pub(crate) static NO_DIRECTION: Message = Message {
     title: "a direction is a zero vector",
     example: Example::Model("[[obstacle]]\nname = \"ground\"\nplane = { point = [0, \"-1 mm\"], normal = [0, 0] }\n"),
     cause: "A normal of [0, 0] points nowhere. A camera whose `up` is the direction from which it looks does not know what is up.",
-    cure: "Give a vector such as [0, 1]; its length does not matter.",
+    remedy: "Give a vector such as [0, 1]; its length does not matter.",
 };
 
 pub(crate) static OF_REVOLUTION: Message = Message {
     code: "E0121",
-    title: "not in a body of revolution",
+    title: "not in an axisymmetric body",
     example: Example::Model(
         "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nstress_state = \"axisymmetric\"\nspin = \"10 rad/s\"\n\
          rectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
@@ -107,8 +110,9 @@ pub(crate) static OF_REVOLUTION: Message = Message {
          rectangle = { corner = [0, \"-20 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
          [[contact]]\nname = \"hit\"\nbodies = \"all\"\n",
     ),
-    cause: "An axisymmetric model is the same all around the axis x = 0: nothing can act across the axis or turn in the plane, and all parts must be axisymmetric.",
-    cure: "Let it act along the axis y, or compute a plane model.",
+    cause: "An axisymmetric model is the same all around the axis x = 0: nothing can act across the axis or rotate \
+        in the plane, and all parts must be axisymmetric.",
+    remedy: "Let it act along the axis y, or compute a plane model.",
 };
 
 pub(crate) static OUTPUT_TOO_MUCH: Message = Message {
@@ -116,7 +120,7 @@ pub(crate) static OUTPUT_TOO_MUCH: Message = Message {
     title: "more output than any disk holds",
     example: Example::Model("[output]\nfields = \"1 fs\"\n"),
     cause: "The interval is so short that there would be more than a million field files or a hundred million rows.",
-    cure: "Give a smaller count or a longer interval; look at its unit.",
+    remedy: "Give a smaller count or a longer interval; look at its unit.",
 };
 
 pub(crate) static NOTHING: Message = Message {
@@ -124,25 +128,25 @@ pub(crate) static NOTHING: Message = Message {
     title: "there must be at least one",
     example: Example::Words("A program that makes its models itself leaves out all parts; of a model file that is E0104."),
     cause: "A model without parts, a part without elements, or a count of 0.",
-    cure: "Give at least one.",
+    remedy: "Give at least one.",
 };
 
 pub(crate) static NOT_IN_SPACE: Message = Message {
     code: "E0125",
-    title: "models in space don't have this",
+    title: "3D models don't have this",
     example: Example::Model(
         "[[part]]\nname = \"solid\"\nmaterial = \"steel\"\nbox = { corner = [0, 0, 0], size = [1, 1, 1], elements = [1, 1, 1] }\n\n\
          [[contact]]\nname = \"hit\"\nbodies = \"all\"\n\n\
          [[obstacle]]\nname = \"ball\"\nparts = \"solid\"\ncircle = { centre = [0, -2], radius = 1 }\n",
     ),
-    cause: "A table or key is one of models of the plane, and solids don't know it.",
-    cure: "Leave it out, or do what the message proposes.",
+    cause: "A table or key belongs to 2D models; solids don't have it.",
+    remedy: "Leave it out, or do what the message proposes.",
 };
 
 pub(crate) static THIRD: Message = Message {
     code: "E0126",
-    title: "a third component in the plane",
+    title: "a third component in 2D",
     example: Example::Model("[[load]]\ngravity = [0, -9.81, 1]\n"),
-    cause: "All parts lie in the plane, but a vector has a component along z, or something is held, moved or turned out of the plane.",
-    cure: "Leave it out, or make the parts solid: `extrude` them, or give them a shape of space.",
+    cause: "All parts are 2D, but a vector has a component along z, or something is held, moved or turned out of the plane.",
+    remedy: "Leave it out, or make the parts solid: `extrude` them, or give them a 3D shape.",
 };

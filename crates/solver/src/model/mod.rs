@@ -32,10 +32,10 @@ use crate::stress_state::STRESS_STATES;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A vector of the plane or of space as the model keeps it: with three components, of which those that it
+/// A vector in 2D or 3D as the model keeps it: with three components, of which those that it
 /// lacks are zero (nothing, where they are prescribed).
 #[must_use]
-pub fn in_space<T: Default, const D: usize>(vector: [T; D]) -> [T; 3] {
+pub fn in_3d<T: Default, const D: usize>(vector: [T; D]) -> [T; 3] {
     let mut components = vector.into_iter();
     std::array::from_fn(|_| components.next().unwrap_or_default())
 }
@@ -135,14 +135,14 @@ pub struct MassScaling {
 }
 
 impl Model {
-    /// 2 in the plane, 3 in space: what its first part is whose mesh is there; the check finds models with
+    /// 2 in 2D, 3 in 3D: what its first part is whose mesh is there; the check finds models with
     /// parts of both kinds.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.parts.iter().find(|part| !self.lacks_mesh(part)).map_or(2, |part| self.dimension_of(part))
     }
 
-    /// Whether the mesh file of a part is not there, so that nobody knows its dimension.
+    /// Whether the mesh file of a part is not there, so that no one knows its dimension.
     pub(crate) fn lacks_mesh(&self, part: &Part) -> bool {
         matches!(part.shape, Shape::Group { mesh, .. } if part.sweep.is_none() && mesh >= self.meshes.len())
     }
@@ -161,8 +161,8 @@ impl ImportedMesh {
     /// 3 where it has volumes or nodes outside of the plane z = 0, else 2.
     #[must_use]
     pub fn dimension(&self) -> usize {
-        let is_of_space = self.groups.iter().any(|group| group.dimension == 3) || self.positions.iter().any(|x| x[2] != 0.0);
-        if is_of_space { 3 } else { 2 }
+        let is_of_3d = self.groups.iter().any(|group| group.dimension == 3) || self.positions.iter().any(|x| x[2] != 0.0);
+        if is_of_3d { 3 } else { 2 }
     }
 }
 
@@ -174,7 +174,7 @@ impl Model {
         self.is_axisymmetric() || self.dimension() == 3
     }
 
-    /// Whether the model is a body of revolution: its parts are all axisymmetric, or none is.
+    /// Whether the model is an axisymmetric body: its parts are all axisymmetric, or none is.
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
         self.parts.iter().any(Part::is_axisymmetric)
@@ -248,13 +248,13 @@ pub struct Part {
     pub stress_state: String,
     /// Where its elements come from.
     pub shape: Shape,
-    /// How a shape of the plane becomes a solid; `None`: it stays in the plane, or is a solid as it is.
+    /// How a shape in 2D becomes a solid; `None`: it stays in 2D, or is a solid as it is.
     pub sweep: Option<Sweep>,
     /// Where the body of a built-in shape goes.
     pub placement: Placement,
     /// Initial velocity of the centre of mass, m/s.
     pub velocity: [f64; 3],
-    /// Initial spin about the centre of mass, rad/s, counter-clockwise (in space: about the direction of z).
+    /// Initial spin about the centre of mass, rad/s, counter-clockwise (in 3D: about the direction of z).
     pub spin: f64,
     /// Stress at the start; `None`: none.
     pub stress_initial: Option<InitialStress>,
@@ -311,7 +311,7 @@ impl Part {
 pub struct ImportedMesh {
     /// Where it came from, for messages.
     pub source: String,
-    /// Node positions, m; z is zero in the plane.
+    /// Node positions, m; z is zero in 2D.
     pub positions: Vec<[f64; 3]>,
     /// Groups by name.
     pub groups: Vec<MeshGroup>,
@@ -382,7 +382,7 @@ pub struct Output {
     pub hash_steps: Option<u64>,
     /// Names of the fields to write; empty: all.
     pub include: Vec<String>,
-    /// Pictures show the mirrored half at x = 0 (the first), at y = 0 and, in space, at z = 0.
+    /// Pictures show the mirrored half at x = 0 (the first), at y = 0 and, in 3D, at z = 0.
     pub mirror: [bool; 3],
     /// Whether pictures and the animation are made.
     pub pictures: bool,
@@ -390,7 +390,7 @@ pub struct Output {
     pub picture_field: String,
     /// What pictures show; none: the bodies, and obstacles near them.
     pub picture_view: Option<PictureView>,
-    /// From where pictures of space look; none: so that three sides are seen.
+    /// From where pictures in 3D look; none: so that three sides are seen.
     pub camera: Option<Camera>,
 }
 
@@ -403,7 +403,7 @@ pub struct PictureView {
     pub size: [f64; 2],
 }
 
-/// `output.camera`: how pictures look at a model of space. Lines that are parallel stay so.
+/// `output.camera`: how pictures look at a model in 3D. Lines that are parallel stay so.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Direction from the model to the camera, of any length.

@@ -3,13 +3,13 @@
 /// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
-    /// A line, in space a plane, that it is mirrored on.
+    /// A line, in 3D a plane, that it is mirrored on.
     pub mirror: Option<Mirror>,
-    /// Angle by which it is turned, rad, counter-clockwise (in space by the right-hand rule about the axis).
+    /// Angle by which it is turned, rad, counter-clockwise (in 3D by the right-hand rule about the axis).
     pub rotation: f64,
-    /// Point about which it is turned, in space one of the axis, m.
+    /// Point about which it is turned, in 3D one of the axis, m.
     pub rotation_point: [f64; 3],
-    /// Direction of the axis about which it is turned, of any length but zero; z in the plane.
+    /// Direction of the axis about which it is turned, of any length but zero; z in 2D.
     pub rotation_axis: [f64; 3],
     /// How far it is moved, m.
     pub translation: [f64; 3],
@@ -17,7 +17,7 @@ pub struct Placement {
     pub copies: Option<Copies>,
 }
 
-/// The direction that turns of the plane are about.
+/// The direction that turns in 2D are about.
 pub(crate) const ALONG_Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl Default for Placement {
@@ -26,7 +26,7 @@ impl Default for Placement {
     }
 }
 
-/// A line, in space a plane, to mirror on.
+/// A line, in 3D a plane, to mirror on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mirror {
     /// A point of it, m.
@@ -43,12 +43,12 @@ pub struct Copies {
     pub count: usize,
     /// How far each is moved from the one before, m.
     pub translation: [f64; 3],
-    /// Angle by which each is turned from the one before, rad, counter-clockwise (in space by the right-hand
+    /// Angle by which each is turned from the one before, rad, counter-clockwise (in 3D by the right-hand
     /// rule about the axis).
     pub angle: f64,
-    /// Point about which they are turned, in space one of the axis, m.
+    /// Point about which they are turned, in 3D one of the axis, m.
     pub point: [f64; 3],
-    /// Direction of the axis about which they are turned, of any length but zero; z in the plane.
+    /// Direction of the axis about which they are turned, of any length but zero; z in 2D.
     pub axis: [f64; 3],
 }
 

@@ -32,7 +32,7 @@ pub enum Reference {
 pub enum Wanted {
     /// Any set of nodes.
     Nodes,
-    /// What has a surface: of groups those of lines in a file of the plane, of surfaces in one of space.
+    /// What has a surface: of groups those of lines in a file in 2D, of surfaces in one in 3D.
     Surface,
 }
 

@@ -1,4 +1,4 @@
-//! A surface of triangles in space, the shape of an obstacle: points, each once, and triangles that are
+//! A surface of triangles in 3D, the shape of an obstacle: points, each once, and triangles that are
 //! counter-clockwise seen from outside.
 //!
 //! Corners come from a file or from code; the surface goes to the check and to the builder, which makes

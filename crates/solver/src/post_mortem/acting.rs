@@ -1,13 +1,13 @@
-//! What acts on the neighbourhood of a culprit: keys of the model that hold, move or load its nodes. Contacts
-//! that press on them are in the trace.
+//! What acts on the neighbourhood of a failure location: keys of the model that hold, move or load its nodes.
+//! Contacts that press on them are in the trace.
 
-use super::Suspect;
+use super::FailureEntity;
 use crate::model::{Load, Model};
 use crate::simulation::Runs;
 use crate::simulation::run::Run;
 use crate::tensor::Dim;
 
-/// A table of the model that acts on the culprit or the elements next to it.
+/// A table of the model that acts on the failure location or the elements next to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Acting {
     /// Its path: `constraint[0]` for example.
@@ -20,9 +20,9 @@ impl<const D: usize> Run<D>
 where
     Dim<D>: Runs<D>,
 {
-    /// Constraints and loads of the model that act on the culprit or the elements next to it.
-    pub(crate) fn acting(&self, model: &Model, suspect: &Suspect) -> Vec<Acting> {
-        let near = self.system.near(suspect).next;
+    /// Constraints and loads of the model that act on the failure location or the elements next to it.
+    pub(crate) fn acting(&self, model: &Model, failure_entity: &FailureEntity) -> Vec<Acting> {
+        let near = self.system.near(failure_entity).next;
         let mesh = &self.system.mesh;
         let reaches = |on: &str| mesh.nodes(on).is_some_and(|nodes| nodes.iter().any(|node| near.binary_search(node).is_ok()));
         let constraints = model.constraints.iter().enumerate().map(|(k, it)| (format!("constraint[{k}]"), it.on.clone()));

@@ -1,10 +1,10 @@
 //! What mass scaling would need: of each element the mass that it must weigh more for a step, the whole as a
 //! function of the step, and the longest step within a limit.
 
-use super::{Neighbourhood, Suspect};
+use super::{FailureEntity, Neighbourhood};
 use crate::error::Error;
 use crate::mesh::geometry::CellGeometry;
-use crate::model::{MassScaling, Model, in_space};
+use crate::model::{MassScaling, Model, in_3d};
 use crate::simulation::{Either, Options, Runs, Simulation, either};
 use crate::step::System;
 use crate::tensor::Dim;
@@ -49,7 +49,7 @@ pub struct MassNeeded {
     /// The step and the limit that the model asks for.
     pub scaling: MassScaling,
     /// The worst element.
-    pub suspect: Suspect,
+    pub failure_entity: FailureEntity,
     /// The elements that need most, worst first.
     pub heaviest: Vec<Heavy>,
     /// Deformable parts that need any.
@@ -74,10 +74,10 @@ impl MassNeeded {
         let mut plain = model.clone();
         plain.run.mass_scaling = None;
         let simulation = Simulation::new(&plain, options)?;
-        let Looked { mut parts, steps, heaviest, suspect } = either!(&simulation, run => look(&run.system, model, scaling));
+        let Looked { mut parts, steps, heaviest, failure_entity } = either!(&simulation, run => look(&run.system, model, scaling));
         let mass = parts.iter().map(|part| part.mass).sum();
         parts.retain(|part| part.light > 0);
-        Ok(Some(Self { simulation, scaling, suspect, heaviest, parts, mass, steps }))
+        Ok(Some(Self { simulation, scaling, failure_entity, heaviest, parts, mass, steps }))
     }
 
     /// Mass that a step needs, as a fraction of that of the deformable parts.
@@ -111,7 +111,7 @@ struct Looked {
     parts: Vec<PartNeeds>,
     steps: Vec<(usize, usize, [f64; 2])>,
     heaviest: Vec<Heavy>,
-    suspect: Suspect,
+    failure_entity: FailureEntity,
 }
 
 /// What the elements of a model need for a step.
@@ -130,7 +130,7 @@ where
         }
         let Some(sums) = parts.last_mut() else { continue };
         for (element, cell) in group.cells().enumerate() {
-            let at = in_space(system.centre(cell.nodes));
+            let at = in_3d(system.centre(cell.nodes));
             let depth = if part.is_axisymmetric() { std::f64::consts::TAU * at[0] } else { 1.0 };
             let area = part.area.filter(|_| cell.kind.dimension() == 1).unwrap_or(1.0);
             let mass = density * area * depth * <Dim<D>>::size(cell, &system.positions) * part.mass_scale;
@@ -147,8 +147,8 @@ where
         }
     }
     needed.sort_by(|(_, a), (_, b)| b.added.total_cmp(&a.added));
-    let suspect = needed.first().map_or(Suspect::default(), |(element, _)| system.suspect_element(*element));
-    Looked { parts, steps, heaviest: needed.into_iter().take(NAMED).map(|(_, heavy)| heavy).collect(), suspect }
+    let failure_entity = needed.first().map_or(FailureEntity::default(), |(element, _)| system.failure_of_element(*element));
+    Looked { parts, steps, heaviest: needed.into_iter().take(NAMED).map(|(_, heavy)| heavy).collect(), failure_entity }
 }
 
 /// Mass that an element of a stable step and a mass needs for a step, kg/m.

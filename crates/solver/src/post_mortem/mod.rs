@@ -1,10 +1,10 @@
 //! Analysis of a failed run: the failure location, its neighbourhood, and what happened to both over the last
 //! steps.
 //!
-//! After a failure [`Simulation::suspect`] names the failure location as the state of the failure shows it. A
-//! second simulation of the same model, resumed from an earlier state, repeats the steps until the failure,
-//! to the same last bit, and follows the location step by step ([`Simulation::follow`], `trace.rs`). Values
-//! only; their page is written elsewhere.
+//! After a failure [`Simulation::failure_entity`] names the failure location as the state of the failure
+//! shows it. A second simulation of the same model, resumed from an earlier state, repeats the steps until
+//! the failure, to the same last bit, and follows the location step by step ([`Simulation::follow`],
+//! `trace.rs`). Values only; their page is written elsewhere.
 
 mod acting;
 mod mass;
@@ -20,7 +20,7 @@ pub(crate) use neighbourhood::Near;
 
 use crate::dimension::Dimension;
 use crate::error::Error;
-use crate::model::{Model, in_space};
+use crate::model::{Model, in_3d};
 use crate::simulation::run::Run;
 use crate::simulation::{Either, Runs, Simulation, either};
 use crate::step::System;
@@ -28,9 +28,9 @@ use crate::tensor::Dim;
 use crate::vector::dot;
 use std::fmt;
 
-/// Who is to blame for a failure, by the user's names and numbers.
+/// Where it failed for a failure, by the user's names and numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Culprit {
+pub enum FailureLocation {
     /// An element.
     Element {
         /// Its part.
@@ -67,7 +67,7 @@ pub enum Culprit {
     Nobody,
 }
 
-impl Culprit {
+impl FailureLocation {
     /// Where it is, m.
     #[must_use]
     pub fn at(&self) -> Option<[f64; 3]> {
@@ -87,7 +87,7 @@ impl Culprit {
     }
 }
 
-impl fmt::Display for Culprit {
+impl fmt::Display for FailureLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let of = |part: &str| if part.is_empty() { String::new() } else { format!(" of part \"{part}\"") };
         match self {
@@ -99,18 +99,18 @@ impl fmt::Display for Culprit {
     }
 }
 
-/// A culprit by the numbers of the solver: the same in every simulation of a model.
+/// A failure location by the numbers of the solver: the same in every simulation of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Suspect {
+pub struct FailureEntity {
     /// Place in the list of contacts and obstacles.
     pub(crate) contact: Option<usize>,
     pub(crate) node: Option<usize>,
-    /// Group and element in it; where a node is to blame, that of its elements which is worst off.
+    /// Group and element in it; where a node is the cause, that of its elements which is worst off.
     pub(crate) element: Option<(usize, usize)>,
 }
 
-impl Suspect {
-    /// Whether there is nobody to follow.
+impl FailureEntity {
+    /// Whether there is no one to follow.
     #[must_use]
     pub fn is_nobody(&self) -> bool {
         self.node.is_none() && self.element.is_none()
@@ -120,25 +120,25 @@ impl Suspect {
 impl Simulation {
     /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it,
     /// after every step from number `from` on.
-    pub fn follow(&mut self, suspect: &Suspect, at_failure: &Self, from: u64) {
+    pub fn follow(&mut self, failure_entity: &FailureEntity, at_failure: &Self, from: u64) {
         match (&mut self.0, &at_failure.0) {
-            (Either::Plane(run), Either::Plane(failed)) => run.follow(suspect, failed, from),
-            (Either::Space(run), Either::Space(failed)) => run.follow(suspect, failed, from),
+            (Either::Plane(run), Either::Plane(failed)) => run.follow(failure_entity, failed, from),
+            (Either::Space(run), Either::Space(failed)) => run.follow(failure_entity, failed, from),
             // Of another model, which is none of ours.
             _ => {}
         }
     }
 
-    /// Who is to blame for the failure that ended the run.
+    /// Where it failed for the failure that ended the run.
     #[must_use]
-    pub fn suspect(&self, error: &Error) -> Suspect {
-        either!(self, run => run.suspect(error))
+    pub fn failure_entity(&self, error: &Error) -> FailureEntity {
+        either!(self, run => run.failure_entity(error))
     }
 
     /// A suspect by the user's names and numbers.
     #[must_use]
-    pub fn culprit(&self, suspect: &Suspect) -> Culprit {
-        either!(self, run => run.culprit(suspect))
+    pub fn failure_location(&self, failure_entity: &FailureEntity) -> FailureLocation {
+        either!(self, run => run.failure_location(failure_entity))
     }
 
     /// What was seen since [`Simulation::follow`]; looks no more.
@@ -148,20 +148,20 @@ impl Simulation {
 
     /// The state of a failure alone.
     #[must_use]
-    pub fn trace_now(&self, suspect: &Suspect, error: Option<&Error>) -> Trace {
-        either!(self, run => run.trace_now(suspect, error))
+    pub fn trace_now(&self, failure_entity: &FailureEntity, error: Option<&Error>) -> Trace {
+        either!(self, run => run.trace_now(failure_entity, error))
     }
 
     /// What is around a suspect now.
     #[must_use]
-    pub fn neighbourhood(&self, suspect: &Suspect) -> Neighbourhood {
-        either!(self, run => run.neighbourhood(suspect))
+    pub fn neighbourhood(&self, failure_entity: &FailureEntity) -> Neighbourhood {
+        either!(self, run => run.neighbourhood(failure_entity))
     }
 
-    /// Constraints and loads of the model that act on the culprit or the elements next to it.
+    /// Constraints and loads of the model that act on the failure location or the elements next to it.
     #[must_use]
-    pub fn acting(&self, model: &Model, suspect: &Suspect) -> Vec<Acting> {
-        either!(self, run => run.acting(model, suspect))
+    pub fn acting(&self, model: &Model, failure_entity: &FailureEntity) -> Vec<Acting> {
+        either!(self, run => run.acting(model, failure_entity))
     }
 }
 
@@ -169,37 +169,37 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// Who is to blame for a failure, as the state shows it now.
-    fn suspect(&self, error: &Error) -> Suspect {
+    /// Where it failed for a failure, as the state shows it now.
+    fn failure_entity(&self, error: &Error) -> FailureEntity {
         match error {
-            Error::Inverted { .. } => self.suspect_element(self.most_inverted()),
+            Error::Inverted { .. } => self.failure_of_element(self.most_inverted()),
             Error::Collapsed { .. } => {
                 let squared = self.joined_reports().time_step_squared;
                 self.governing_element(squared)
                     .or_else(|| self.shortest_element())
-                    .map_or(Suspect::default(), |it| self.suspect_element(it))
+                    .map_or(FailureEntity::default(), |it| self.failure_of_element(it))
             }
             Error::NotFinite { .. } => match (self.element_not_finite(), self.node_not_finite()) {
-                (Some(element), _) => self.suspect_element(element),
-                (None, Some(node)) => self.suspect_node(node),
-                (None, None) => self.fastest_node().map_or(Suspect::default(), |node| self.suspect_node(node)),
+                (Some(element), _) => self.failure_of_element(element),
+                (None, Some(node)) => self.failure_of_node(node),
+                (None, None) => self.fastest_node().map_or(FailureEntity::default(), |node| self.failure_of_node(node)),
             },
             Error::TooDeep { .. } => {
                 let contact = self.contacts.iter().position(|contact| self.is_too_deep(contact));
                 let deepest = contact.and_then(|contact| self.deepest(&self.contacts[contact]));
-                deepest.map_or(Suspect::default(), |(node, _)| Suspect { contact, ..self.suspect_node(node) })
+                deepest.map_or(FailureEntity::default(), |(node, _)| FailureEntity { contact, ..self.failure_of_node(node) })
             }
-            Error::Runaway { .. } => self.fastest_node().map_or(Suspect::default(), |node| self.suspect_node(node)),
-            _ => Suspect::default(),
+            Error::Runaway { .. } => self.fastest_node().map_or(FailureEntity::default(), |node| self.failure_of_node(node)),
+            _ => FailureEntity::default(),
         }
     }
 
-    pub(crate) fn suspect_element(&self, element: (usize, usize)) -> Suspect {
-        Suspect { element: Some(element), ..Suspect::default() }
+    pub(crate) fn failure_of_element(&self, element: (usize, usize)) -> FailureEntity {
+        FailureEntity { element: Some(element), ..FailureEntity::default() }
     }
 
-    pub(crate) fn suspect_node(&self, node: usize) -> Suspect {
-        Suspect { node: Some(node), element: self.worst_element_at(node), contact: None }
+    pub(crate) fn failure_of_node(&self, node: usize) -> FailureEntity {
+        FailureEntity { node: Some(node), element: self.worst_element_at(node), contact: None }
     }
 
     /// Of the elements at a node the one with the shortest step.
@@ -242,17 +242,17 @@ where
 
     /// The node whose kinetic energy changed most in the last update, and the contact that pressed most on
     /// it.
-    fn hottest(&self) -> Suspect {
+    fn hottest(&self) -> FailureEntity {
         let change = |node: usize| {
             let (old, new) = (self.velocities_old[node], self.velocities[node]);
             (self.mass[node] * (0..D).fold(dot(new, new), |sum, d| sum - old[d] * old[d])).abs()
         };
         let nodes = 0..self.mesh.user_nodes.len();
-        let Some(node) = nodes.max_by(|&a, &b| change(a).total_cmp(&change(b))) else { return Suspect::default() };
+        let Some(node) = nodes.max_by(|&a, &b| change(a).total_cmp(&change(b))) else { return FailureEntity::default() };
         let force = |contact: usize| self.contacts[contact].force_on(&[node as u32], &self.springs);
         let pressing = (0..self.contacts.len()).filter(|&contact| force(contact) > 0.0);
         let contact = pressing.max_by(|&a, &b| force(a).total_cmp(&force(b)));
-        Suspect { contact, ..self.suspect_node(node) }
+        FailureEntity { contact, ..self.failure_of_node(node) }
     }
 
     fn part_of_node(&self, node: usize) -> String {
@@ -261,30 +261,32 @@ where
     }
 
     /// A suspect by the user's names.
-    fn culprit(&self, suspect: &Suspect) -> Culprit {
+    fn failure_location(&self, failure_entity: &FailureEntity) -> FailureLocation {
         let user = |node: usize| self.mesh.user_nodes.get(node).map_or(node, |&user| user as usize);
         // What is no number any more is shown where it was.
         let place = |node: usize| {
             let now = self.positions[node];
-            in_space(if now.iter().all(|x| x.is_finite()) { now } else { self.positions_old[node] })
+            in_3d(if now.iter().all(|x| x.is_finite()) { now } else { self.positions_old[node] })
         };
-        match *suspect {
-            Suspect { contact: Some(contact), node: Some(node), .. } => {
+        match *failure_entity {
+            FailureEntity { contact: Some(contact), node: Some(node), .. } => {
                 let it = &self.contacts[contact];
                 let (part, at) = (self.part_of_node(node), place(node));
-                Culprit::Contact { kind: it.kind.name(), name: it.name.clone(), part, node: user(node), at }
+                FailureLocation::Contact { kind: it.kind.name(), name: it.name.clone(), part, node: user(node), at }
             }
-            Suspect { node: Some(node), .. } => Culprit::Node { part: self.part_of_node(node), node: user(node), at: place(node) },
-            Suspect { element: Some((g, element)), .. } => {
+            FailureEntity { node: Some(node), .. } => {
+                FailureLocation::Node { part: self.part_of_node(node), node: user(node), at: place(node) }
+            }
+            FailureEntity { element: Some((g, element)), .. } => {
                 let group = &self.mesh.groups[g];
                 let part = self.mesh.parts[group.part].name.clone();
-                Culprit::Element {
+                FailureLocation::Element {
                     part,
                     element: group.user_elements[element] as usize,
-                    at: in_space(self.centre(group.nodes_of(element))),
+                    at: in_3d(self.centre(group.nodes_of(element))),
                 }
             }
-            _ => Culprit::Nobody,
+            _ => FailureLocation::Nobody,
         }
     }
 }
@@ -293,13 +295,13 @@ impl<const D: usize> Run<D>
 where
     Dim<D>: Runs<D>,
 {
-    /// Who is to blame for the failure that ended the run.
-    pub(crate) fn suspect(&self, error: &Error) -> Suspect {
-        self.system.suspect(error)
+    /// Where it failed for the failure that ended the run.
+    pub(crate) fn failure_entity(&self, error: &Error) -> FailureEntity {
+        self.system.failure_entity(error)
     }
 
     /// A suspect by the user's names and numbers.
-    pub(crate) fn culprit(&self, suspect: &Suspect) -> Culprit {
-        self.system.culprit(suspect)
+    pub(crate) fn failure_location(&self, failure_entity: &FailureEntity) -> FailureLocation {
+        self.system.failure_location(failure_entity)
     }
 }

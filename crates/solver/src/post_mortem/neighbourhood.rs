@@ -1,8 +1,8 @@
-//! The elements around a culprit: three rings of those that share nodes, and what else is near.
+//! The elements around a failure location: three rings of those that share nodes, and what else is near.
 //!
 //! Found once, in the state of the failure; the trace then takes its positions step by step.
 
-use super::Suspect;
+use super::FailureEntity;
 use crate::dimension::Dimension;
 use crate::material::variable::PLASTIC_STRAIN;
 use crate::mesh::cell::CellKind;
@@ -12,24 +12,24 @@ use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus};
 
-/// Rings of elements around the culprit.
+/// Rings of elements around the failure location.
 pub const RINGS: u8 = 3;
-/// What acts on elements within this ring acts on the culprit.
+/// What acts on elements within this ring acts on the failure location.
 const NEXT: u8 = 1;
 /// Elements are near that lie in the box around the rings, and by this fraction of its size beyond.
 const BEYOND: f64 = 0.2;
 /// Other elements near it that are shown, at most.
 const BESIDE: usize = 400;
 
-/// An element near the culprit.
+/// An element near the failure location.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NearCell {
     /// Its part, in model order.
     pub part: usize,
     /// Its number in the part.
     pub element: usize,
-    /// Elements that lie between it and the culprit, plus one; zero: the culprit's own; `None`: it does not
-    /// hang together with the culprit so closely, but is near.
+    /// Elements that lie between it and the failure location, plus one; zero: the failure location's own;
+    /// `None`: it does not hang together with the failure location so closely, but is near.
     pub ring: Option<u8>,
     /// Which kind of cell it is.
     pub kind: CellKind,
@@ -37,17 +37,17 @@ pub struct NearCell {
     pub nodes: Vec<usize>,
 }
 
-/// The elements around a culprit.
+/// The elements around a failure location.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Neighbourhood {
     /// Names of all parts of the model.
     pub part_names: Vec<String>,
     /// Numbers of the nodes in results.
     pub nodes: Vec<usize>,
-    /// The elements, the culprit's first.
+    /// The elements, the failure location's first.
     pub cells: Vec<NearCell>,
-    /// The culprit among them, and its node among `nodes`; where a node is to blame, that of its elements
-    /// which is worst off.
+    /// The failure location among them, and its node among `nodes`; where a node is the cause, that of its
+    /// elements which is worst off.
     pub element: Option<usize>,
     /// See `element`.
     pub node: Option<usize>,
@@ -63,7 +63,7 @@ pub(crate) struct Near {
     /// Group and element.
     pub(crate) cells: Vec<(usize, usize)>,
     pub(crate) is_plastic: bool,
-    /// Nodes of the culprit and the elements next to it, ascending.
+    /// Nodes of the failure location and the elements next to it, ascending.
     pub(crate) next: Vec<u32>,
 }
 
@@ -72,8 +72,8 @@ where
     Dim<D>: Dimension<D>,
 {
     /// What is around a suspect now.
-    pub(crate) fn near(&self, suspect: &Suspect) -> Near {
-        let found = self.cells_near(suspect);
+    pub(crate) fn near(&self, failure_entity: &FailureEntity) -> Near {
+        let found = self.cells_near(failure_entity);
         let mut near = Near::default();
         let mut place = vec![usize::MAX; self.mesh.user_nodes.len()];
         for &((g, element), ring) in &found {
@@ -98,8 +98,8 @@ where
         }
         near.shown.nodes = near.nodes.iter().map(|&node| self.mesh.user_nodes[node as usize] as usize).collect();
         near.shown.part_names = self.mesh.parts.iter().map(|part| part.name.clone()).collect();
-        near.shown.element = suspect.element.and_then(|own| near.cells.iter().position(|cell| *cell == own));
-        near.shown.node = suspect.node.and_then(|own| near.nodes.iter().position(|&node| node as usize == own));
+        near.shown.element = failure_entity.element.and_then(|own| near.cells.iter().position(|cell| *cell == own));
+        near.shown.node = failure_entity.node.and_then(|own| near.nodes.iter().position(|&node| node as usize == own));
         let is_next = |ring: Option<u8>| ring.is_some_and(|ring| ring <= NEXT);
         near.next = found
             .iter()
@@ -115,13 +115,13 @@ where
     }
 
     /// Elements by group and number, with their rings.
-    fn cells_near(&self, suspect: &Suspect) -> Vec<((usize, usize), Option<u8>)> {
+    fn cells_near(&self, failure_entity: &FailureEntity) -> Vec<((usize, usize), Option<u8>)> {
         let mut is_marked = vec![false; self.mesh.user_nodes.len()];
         let mut is_taken: Vec<Vec<bool>> = self.mesh.groups.iter().map(|group| vec![false; group.elements()]).collect();
         let mut found = Vec::new();
-        match *suspect {
-            Suspect { node: Some(node), .. } if node < is_marked.len() => is_marked[node] = true,
-            Suspect { element: Some((g, element)), .. } => {
+        match *failure_entity {
+            FailureEntity { node: Some(node), .. } if node < is_marked.len() => is_marked[node] = true,
+            FailureEntity { element: Some((g, element)), .. } => {
                 self.mesh.groups[g].nodes_of(element).iter().for_each(|&node| is_marked[node as usize] = true);
                 is_taken[g][element] = true;
                 found.push(((g, element), Some(0)));
@@ -181,7 +181,7 @@ where
     Dim<D>: Runs<D>,
 {
     /// What is around a suspect now.
-    pub(crate) fn neighbourhood(&self, suspect: &Suspect) -> Neighbourhood {
-        self.system.near(suspect).shown
+    pub(crate) fn neighbourhood(&self, failure_entity: &FailureEntity) -> Neighbourhood {
+        self.system.near(failure_entity).shown
     }
 }

@@ -1,13 +1,13 @@
-//! What becomes of a culprit and its neighbourhood, step by step.
+//! What becomes of a failure location and its neighbourhood, step by step.
 //!
 //! A [`Tracer`] looks at the system after every step of a simulation that goes to a failure for the second
 //! time, and changes nothing; what it saw is a [`Trace`].
 
-use super::{Near, Neighbourhood, Suspect};
+use super::{FailureEntity, Near, Neighbourhood};
 use crate::error::Error;
 use crate::material::variable::{DAMAGE, PLASTIC_STRAIN, TEMPERATURE, Variable};
 use crate::mesh::geometry::CellGeometry;
-use crate::model::in_space;
+use crate::model::in_3d;
 use crate::output::Outline;
 use crate::record::Recorded;
 use crate::simulation::Runs;
@@ -18,7 +18,7 @@ use crate::vector::dot;
 use std::any::Any;
 use std::marker::PhantomData;
 
-/// Figures of the culprit at one step; what it does not have is not a number.
+/// Figures of the failure location at one step; what it does not have is not a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vitals {
     /// Stable step of the element, s.
@@ -65,14 +65,14 @@ pub struct Moment {
     /// The row of the history, by [`crate::simulation::Simulation::history_columns`]; empty where the step
     /// failed before its books were closed.
     pub row: Vec<f64>,
-    /// Of the culprit.
+    /// Of the failure location.
     pub vitals: Vitals,
     /// Places of [`Neighbourhood::nodes`], m.
     pub positions: Vec<[f64; 3]>,
     /// Contact forces on them, N/m.
     pub forces: Vec<[f64; 3]>,
-    /// What each of [`Trace::contacts`] presses with on the culprit and the elements next to it, summed over
-    /// their nodes, N/m.
+    /// What each of [`Trace::contacts`] presses with on the failure location and the elements next to it,
+    /// summed over their nodes, N/m.
     pub pressing: Vec<f64>,
     /// The field of each of [`Neighbourhood::cells`].
     pub values: Vec<f64>,
@@ -88,7 +88,7 @@ pub struct Jump {
     /// Change, as a fraction of the largest total energy.
     pub size: f64,
     /// The node whose energy changed most then, with the contact that pressed on it.
-    pub suspect: Suspect,
+    pub failure_entity: FailureEntity,
 }
 
 /// What was seen on the way to a failure.
@@ -110,7 +110,7 @@ pub struct Trace {
 
 /// Looks at a system after every step.
 struct Tracer<const D: usize> {
-    suspect: Suspect,
+    failure_entity: FailureEntity,
     near: Near,
     /// First step that is kept.
     from: u64,
@@ -124,10 +124,10 @@ impl<const D: usize> Tracer<D>
 where
     Dim<D>: Runs<D>,
 {
-    fn new(suspect: Suspect, near: Near, from: u64, columns: Vec<String>, system: &System<D>) -> Self {
+    fn new(failure_entity: FailureEntity, near: Near, from: u64, columns: Vec<String>, system: &System<D>) -> Self {
         let contacts = system.contacts.iter().map(|contact| (contact.kind.name(), contact.name.clone())).collect();
         let trace = Trace { columns, contacts, near: near.shown.clone(), begin: (system.step, system.ledger.drift()), ..Trace::default() };
-        Self { suspect, near, from, total: balance(system), trace, of: PhantomData }
+        Self { failure_entity, near, from, total: balance(system), trace, of: PhantomData }
     }
 }
 
@@ -136,19 +136,19 @@ where
     Dim<D>: Runs<D>,
 {
     fn note(&mut self, system: &System<D>, recorded: &Recorded, error: Option<&Error>) {
-        // These are looked for when the books are closed.
+        // These are looked for when the ledger are closed.
         let is_late = |error| matches!(error, &Error::EnergyDrift { .. } | &Error::TooDeep { .. } | &Error::Runaway { .. });
         let is_closed = error.is_none_or(is_late);
         if is_closed {
             let total = balance(system);
             let size = (total - self.total).abs() / system.ledger.largest;
             if self.trace.jump.is_none_or(|jump| size > jump.size) {
-                self.trace.jump = Some(Jump { step: system.step, size, suspect: system.hottest() });
+                self.trace.jump = Some(Jump { step: system.step, size, failure_entity: system.hottest() });
             }
             self.total = total;
         }
         if system.step >= self.from {
-            self.trace.moments.push(system.moment(&self.suspect, &self.near, recorded, is_closed));
+            self.trace.moments.push(system.moment(&self.failure_entity, &self.near, recorded, is_closed));
         }
     }
 }
@@ -165,7 +165,7 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Runs<D>,
 {
-    fn moment(&self, suspect: &Suspect, near: &Near, recorded: &Recorded, is_closed: bool) -> Moment {
+    fn moment(&self, failure_entity: &FailureEntity, near: &Near, recorded: &Recorded, is_closed: bool) -> Moment {
         let field = |&(g, element): &(usize, usize)| {
             let (block, state) = (&self.blocks[g], self.blocks[g].state(element));
             if near.is_plastic { block.variable(&state, &PLASTIC_STRAIN).unwrap_or(0.0) } else { von_mises(&state.stress) }
@@ -176,9 +176,9 @@ where
             time_step: self.time_step_old,
             drift: self.ledger.drift(),
             row: if is_closed { recorded.row(self) } else { Vec::new() },
-            vitals: self.vitals(suspect),
-            positions: near.nodes.iter().map(|&node| in_space(self.positions[node as usize])).collect(),
-            forces: near.nodes.iter().map(|&node| in_space(self.contact_force(node as usize))).collect(),
+            vitals: self.vitals(failure_entity),
+            positions: near.nodes.iter().map(|&node| in_3d(self.positions[node as usize])).collect(),
+            forces: near.nodes.iter().map(|&node| in_3d(self.contact_force(node as usize))).collect(),
             pressing: self.contacts.iter().map(|contact| contact.force_on(&near.next, &self.springs)).collect(),
             values: near.cells.iter().map(field).collect(),
             outlines: self.outlines.iter().map(|outline| outline.now(&self.bodies)).collect(),
@@ -190,9 +190,9 @@ where
         if self.contacts.is_empty() { [0.0; D] } else { self.contact_forces.of(node) }
     }
 
-    fn vitals(&self, suspect: &Suspect) -> Vitals {
+    fn vitals(&self, failure_entity: &FailureEntity) -> Vitals {
         let norm = |v: [f64; D]| dot(v, v).sqrt();
-        let own: Vec<usize> = match (suspect.node, suspect.element) {
+        let own: Vec<usize> = match (failure_entity.node, failure_entity.element) {
             (Some(node), _) => vec![node],
             (None, Some((g, element))) => self.mesh.groups[g].nodes_of(element).iter().map(|&node| node as usize).collect(),
             (None, None) => Vec::new(),
@@ -211,9 +211,9 @@ where
             energy_density: f64::NAN,
             speed: most(&|node| norm(self.velocities[node])),
             contact_force: if self.contacts.is_empty() { f64::NAN } else { most(&|node| norm(self.contact_force(node))) },
-            penetration: suspect.contact.map_or(f64::NAN, |contact| self.contacts[contact].penetration),
+            penetration: failure_entity.contact.map_or(f64::NAN, |contact| self.contacts[contact].penetration),
         };
-        if let Some((g, element)) = suspect.element {
+        if let Some((g, element)) = failure_entity.element {
             let (block, cell) = (&self.blocks[g], self.mesh.groups[g].cell(element));
             let state = block.state(element);
             let variable = |of: &Variable| block.variable(&state, of).unwrap_or(f64::NAN);
@@ -238,9 +238,9 @@ where
 {
     /// From now on looks at a suspect, with what `at_failure`, the simulation that failed, has around it,
     /// after every step from number `from` on.
-    pub(crate) fn follow(&mut self, suspect: &Suspect, at_failure: &Self, from: u64) {
-        let near = at_failure.system.near(suspect);
-        self.tracer = Some(Box::new(Tracer::new(*suspect, near, from, self.history_columns(), &self.system)));
+    pub(crate) fn follow(&mut self, failure_entity: &FailureEntity, at_failure: &Self, from: u64) {
+        let near = at_failure.system.near(failure_entity);
+        self.tracer = Some(Box::new(Tracer::new(*failure_entity, near, from, self.history_columns(), &self.system)));
     }
 
     /// What was seen since [`crate::simulation::Simulation::follow`]; looks no more.
@@ -250,8 +250,8 @@ where
     }
 
     /// The state of a failure alone.
-    pub(crate) fn trace_now(&self, suspect: &Suspect, error: Option<&Error>) -> Trace {
-        let mut tracer = Tracer::new(*suspect, self.system.near(suspect), 0, self.history_columns(), &self.system);
+    pub(crate) fn trace_now(&self, failure_entity: &FailureEntity, error: Option<&Error>) -> Trace {
+        let mut tracer = Tracer::new(*failure_entity, self.system.near(failure_entity), 0, self.history_columns(), &self.system);
         tracer.note(&self.system, &self.recorded, error);
         Trace { jump: None, ..tracer.trace }
     }

@@ -77,11 +77,11 @@ pub trait RigidMotion<const D: usize>: Sized {
     fn free_spins(body: &mut Body<D>, weight: &Self::Generalized<f64>, mean_step: f64)
     where
         Dim<D>: RigidMotion<D>;
-    /// The spins with them, and their part in the books.
+    /// The spins with them, and their part in the ledger.
     fn accelerate_spins(body: &mut Body<D>, weight: &Self::Generalized<f64>, mean_step: f64, sums: &mut Sums)
     where
         Dim<D>: RigidMotion<D>;
-    /// Kinetic energy of one velocity in the books; `momenta`: before and after.
+    /// Kinetic energy of one velocity in the ledger; `momenta`: before and after.
     fn book_mass(body: &Body<D>, k: usize, momenta: [f64; 2], sums: &mut Sums)
     where
         Dim<D>: RigidMotion<D>;

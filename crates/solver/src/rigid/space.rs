@@ -1,4 +1,4 @@
-//! How a rigid body turns in space: a rotation instead of an angle, and an angular momentum that only moments
+//! How a rigid body turns in 3D: a rotation instead of an angle, and an angular momentum that only moments
 //! change.
 //!
 //! With L^{n−½} the angular momentum, J^n = R^n I (R^n)ᵀ the inertia (I in the frame of the body, about the
@@ -7,20 +7,20 @@
 //! L^{n+½} = L^{n−½} + ½ (dt^{n−1} + dt^n) T, ω^{n∓½} = (J^n)⁻¹ L^{n∓½}, ½ L^{n+½}·ω^{n+½} − ½
 //! L^{n−½}·ω^{n−½} = Δt T·½ (ω^{n−½} + ω^{n+½})
 //!
-//! so the books of the velocity update close exactly. Over the step no moment acts, and R^{n+1} = R^n cay(½
+//! so the ledger of the velocity update close exactly. Over the step no moment acts, and R^{n+1} = R^n cay(½
 //! dt (W^n + W^{n+1})) with the body's own spins W = I⁻¹ Rᵀ L^{n+½}, which keeps L and the energy ½ W·I W
 //! both to round-off (Simo and Wong, Int. J. Numer. Meth. Engng 31 (1991) 19-52): ½ L·(J^{n+1})⁻¹ L is what
 //! it was. cay(θ) is the rotation about θ by 2 atan(|θ|/2); the equation is solved by repetition, which a
 //! step that a body turns by little in needs few times.
 //!
-//! Where spins about axes of space are driven they are what they are; the others follow from their part of L,
+//! Where spins about axes in 3D are driven they are what they are; the others follow from their part of L,
 //! and the turn of the step is that of ω^{n+½}. That is exact for a body that turns about one axis, or is
 //! driven altogether; a body that is driven about some axes and free about others has a rotation of first
 //! order in the step.
 
 use super::Body;
 use crate::angle::cos_sin;
-use crate::archive::{Archive, Keep, Kept, keep_all};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_all};
 use crate::energy::Sums;
 use crate::tensor::{cross, dot};
 use crate::vector::{SYMMETRIC, times_symmetric};
@@ -35,9 +35,9 @@ impl Default for Attitude {
     }
 }
 
-impl Keep for Attitude {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        self.0.keep(archive)
+impl Persist for Attitude {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        self.0.persist(archive)
     }
 }
 
@@ -60,14 +60,14 @@ impl Attitude {
         quaternion_turn(w, [x, y, z], v)
     }
 
-    /// A vector of space as the body sees it.
+    /// A vector in 3D as the body sees it.
     #[must_use]
     pub fn turned_back(&self, v: [f64; 3]) -> [f64; 3] {
         let [w, x, y, z] = self.0;
         quaternion_turn(w, [-x, -y, -z], v)
     }
 
-    /// This rotation after `first`, mended so that it stays one.
+    /// This rotation after `first`, fixed so that it stays one.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
         let ([w, x, y, z], [s, a, b, c]) = (self.0, first.0);
@@ -104,7 +104,7 @@ fn quaternion_turn(w: f64, u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|d| v[d] + 2.0 * (w * once[d] + twice[d]))
 }
 
-/// What a rigid body knows of its rotation in space.
+/// What a rigid body knows of its rotation in 3D.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Turning {
     /// Inertia about the reference point in the frame of the body, kg m²: xx, xy, xz, yy, yz, zz (moments on
@@ -118,7 +118,7 @@ pub struct Turning {
     pub response: [f64; 6],
 }
 
-keep_all!(Turning { inertia, momentum, momentum_free, response });
+persist_all!(Turning { inertia, momentum, momentum_free, response });
 
 impl Turning {
     /// Inertia of point masses (kg) at arms from the reference point (m).
@@ -220,7 +220,7 @@ pub(crate) fn accelerate_spins(body: &mut Body<3>, weight: &[f64; 6], mean_step:
     for k in (0..3).filter(|&k| !free[k]) {
         body.turning.momentum[k] = whole[k];
     }
-    // In the books is what the free spins have without those that are driven.
+    // In the ledger is what the free spins have without those that are driven.
     let part = |row: &[f64; 6], momentum: [f64; 3]| {
         let led = [0, 1, 2].map(|k| if free[k] { 0.0 } else { row[k + 3] });
         let coupled = times_symmetric(&inertia, led);
@@ -304,7 +304,7 @@ mod tests {
         (body, mass)
     }
 
-    /// Takes `steps` steps with forces at time n on nodes; what each step does is told.
+    /// Takes `steps` steps with forces at time n on nodes; what each step does is reported.
     fn run(
         bodies: &mut Bodies<3>,
         positions: &mut [[f64; 3]],
@@ -397,7 +397,7 @@ mod tests {
                 let moment = (0..4).map(|k| cross(places[k], forces.of(k))).fold([0.0; 3], |sum, m| [0, 1, 2].map(|d| sum[d] + m[d]));
                 given = [0, 1, 2].map(|d| given[d] + dt * moment[d]);
                 let mean = |x: [f64; 3]| body.velocity_at(x, &[0, 1, 2, 3, 4, 5].map(|k| 0.5 * (body.velocity_old[k] + body.velocity[k])));
-                // Rates at x^n about X^n: the body has gone on since.
+                // Rates at x^n about X^n: the body has continued since.
                 let old = [0, 1, 2].map(|d| body.centre[d] - dt * body.velocity[d]);
                 work = (0..4).map(|k| dot(forces.of(k), mean([0, 1, 2].map(|d| places[k][d] - old[d] + body.centre[d])))).sum::<f64>() * dt;
                 let found = momentum_of(bodies);

@@ -1,4 +1,4 @@
-//! States that a run keeps in memory while it goes on, so that a failure can be gone to once more from one
+//! States that a run keeps in memory while it continues, so that a failure can be gone to once more from one
 //! that is near.
 //!
 //! Two generations, and only while they are small: taking a state costs about as much as a fifth of a hundred
@@ -72,7 +72,7 @@ mod tests {
         assert_eq!(memory.states().iter().map(|state| state.step).collect::<Vec<_>>(), [3 * EVERY, 2 * EVERY]);
         memory.take(state(4 * EVERY, 51));
         assert!(memory.states().is_empty() && !memory.is_due(u64::MAX));
-        // One that goes on later has not been at time zero.
+        // One that continues later has not been at time zero.
         assert!(Memory::of(1).is_due(777) && !Memory::default().is_due(EVERY));
     }
 }

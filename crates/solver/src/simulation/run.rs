@@ -1,8 +1,8 @@
 //! A model of one dimension, step by step: the loop, events, the end. [`super::Simulation`] is one of these.
 
 use super::clock::Clock;
-use super::course::Course;
 use super::memory::Memory;
+use super::output_cursor::OutputCursor;
 use super::{Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Runs, State, tiny};
 use crate::build;
 use crate::contact::initial::{self, Inside, Penetration};
@@ -13,12 +13,12 @@ use crate::field::snapshot::LiveSnapshot;
 use crate::hashes::{self, Hashes, Hashing};
 use crate::mesh::PartMesh;
 use crate::model::{self, Cadence, Model};
+use crate::monitor::RunMonitor;
 use crate::output::{Cells, Field, Frame, Shown, fields_of};
 use crate::record::{Momentum, Recorded};
 use crate::shortest::Shortest;
 use crate::step::System;
 use crate::tensor::Dim;
-use crate::watch::Watch;
 use embate_lanes::Level;
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -41,7 +41,7 @@ where
     pub(crate) recorded: Recorded,
     pub(crate) momentum: Option<Momentum<D>>,
     pub(super) shortest: Shortest,
-    pub(super) watch: Watch,
+    pub(super) monitor: RunMonitor,
     pub(crate) threads: usize,
     pub(super) model_warnings: Vec<Warning>,
     pub(crate) warnings: Vec<Notice>,
@@ -53,7 +53,7 @@ where
     /// Steps between two hashes of the state; `None`: none.
     pub(super) hash_steps: Option<u64>,
     pub(super) hashing: Hashing,
-    pub(super) course: Option<Course>,
+    pub(super) output_cursor: Option<OutputCursor>,
     pub(super) memory: Memory,
     /// Looks at every step of a run that goes to its failure once more.
     pub(crate) tracer: Option<Box<dyn AfterStep<D>>>,
@@ -94,7 +94,7 @@ where
             momentum: None,
             recorded,
             shortest: Shortest::default(),
-            watch: Watch::new(model, &system),
+            monitor: RunMonitor::new(model, &system),
             threads: if pool.is_some() { threads } else { 1 },
             model_warnings,
             warnings: Vec::new(),
@@ -104,7 +104,7 @@ where
             state_steps: model.run.checkpoint_steps,
             hash_steps: model.output.hash_steps,
             hashing: Hashing::default(),
-            course: None,
+            output_cursor: None,
             memory: Memory::default(),
             tracer: None,
             search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
@@ -203,12 +203,12 @@ where
     /// # Errors
     /// Those of a step.
     pub(crate) fn advance(&mut self, time: f64, steps: u64) -> Result<(), Error> {
-        let result = self.go_on(time, steps);
+        let result = self.continue_run(time, steps);
         self.note_momentum();
         result
     }
 
-    fn go_on(&mut self, time: f64, steps: u64) -> Result<(), Error> {
+    fn continue_run(&mut self, time: f64, steps: u64) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps).min(self.max_steps);
         let Self { shortest, tracer, recorded, hashing, .. } = self;
         let mut tracer = tracer.as_mut();
@@ -233,7 +233,7 @@ where
 
     /// Runs until the time `pause` is reached (s), at most `steps` steps or to the end, telling `observer` of
     /// rows, frames and progress. What was begun so, or was stopped, or is of a kept state
-    /// ([`Simulation::resumed`]) goes on as if it had never been stopped: it tells nothing twice.
+    /// ([`Simulation::resumed`]) continues as if it had never been stopped: it reports nothing twice.
     ///
     /// # Errors
     /// Any [`Error`]; the last state has been given to the observer before.
@@ -242,14 +242,14 @@ where
         let end = self.system.limits.end;
         let (mut rows, mut frames) = (Clock::new(self.history, end), Clock::new(self.fields, end));
         let state_steps = self.state_steps.filter(|_| observer.keeps_states());
-        let mut course = self.course.take().unwrap_or_else(|| Course::new(self.system.step));
-        if course.is_resumed {
-            // What was due until now has been told.
+        let mut output_cursor = self.output_cursor.take().unwrap_or_else(|| OutputCursor::new(self.system.step));
+        if output_cursor.is_resumed {
+            // What was due until now has been reported.
             rows.pass(self.system.time);
             frames.pass(self.system.time);
         }
         self.hashing = Hashing::new(&self.system, self.hash_steps.filter(|_| observer.keeps_hashes()));
-        if course.is_resumed {
+        if output_cursor.is_resumed {
             self.hashing.pass(self.system.step);
         } else {
             self.hashing.take(&self.system);
@@ -260,25 +260,28 @@ where
             if over {
                 self.hashing.take(&self.system);
             }
-            self.tell_hashes(observer)?;
-            if (rows.due(time) || over) && time > course.last_row {
+            self.report_hashes(observer)?;
+            if (rows.due(time) || over) && time > output_cursor.last_row {
                 self.note_momentum();
                 observer.row(&self.history_row()).map_err(output)?;
-                course.last_row = time;
+                output_cursor.last_row = time;
             }
-            if (frames.due(time) || over) && course.last_frame != Some(self.system.step) {
+            if (frames.due(time) || over) && output_cursor.last_frame != Some(self.system.step) {
                 self.show(observer)?;
-                course.last_frame = Some(self.system.step);
+                output_cursor.last_frame = Some(self.system.step);
             }
             // A stop for the state alone sees nothing.
-            let notices =
-                if over || course.stage == self.system.step { self.watch.look(&self.system, &self.shortest, over) } else { Vec::new() };
+            let notices = if over || output_cursor.stage == self.system.step {
+                self.monitor.look(&self.system, &self.shortest, over)
+            } else {
+                Vec::new()
+            };
             if over {
-                self.pause(course);
+                self.pause(output_cursor);
                 return Ok(());
             }
-            if course.stage == self.system.step && self.memory.is_due(self.system.step) {
-                self.course = Some(course);
+            if output_cursor.stage == self.system.step && self.memory.is_due(self.system.step) {
+                self.output_cursor = Some(output_cursor);
                 let state = self.state()?;
                 self.memory.take(state);
             }
@@ -286,38 +289,38 @@ where
                 observer.glance(&self.recorded.snapshot(&self.system));
             }
             let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
-            if matches!(control, Control::Keep | Control::KeepAndStop) || course.is_state_due(self.system.step, state_steps) {
-                course.last_state = Some(self.system.step);
-                self.course = Some(course);
+            if matches!(control, Control::Keep | Control::KeepAndStop) || output_cursor.is_state_due(self.system.step, state_steps) {
+                output_cursor.last_state = Some(self.system.step);
+                self.output_cursor = Some(output_cursor);
                 let state = self.state()?;
                 observer.state(state).map_err(output)?;
             }
             if matches!(control, Control::Stop | Control::KeepAndStop) {
-                if course.last_frame != Some(self.system.step) {
+                if output_cursor.last_frame != Some(self.system.step) {
                     self.show(observer)?;
                 }
-                self.pause(course);
+                self.pause(output_cursor);
                 return Ok(());
             }
             if self.system.time >= pause || self.system.step >= last {
-                self.pause(course);
+                self.pause(output_cursor);
                 return Ok(());
             }
             let until = rows.next().min(frames.next());
-            let stage = course.steps(self.system.step, state_steps).min(last - self.system.step).min(observer.stride().max(1));
-            let result = self.go_on(until.min(pause), stage);
+            let stage = output_cursor.steps(self.system.step, state_steps).min(last - self.system.step).min(observer.stride().max(1));
+            let result = self.continue_run(until.min(pause), stage);
             // A stop for the state alone leaves no trace.
-            if result.is_err() || self.system.time >= until || self.is_over() || course.is_stage(self.system.step) {
+            if result.is_err() || self.system.time >= until || self.is_over() || output_cursor.is_stage(self.system.step) {
                 self.note_momentum();
-                course.stage = self.system.step;
+                output_cursor.stage = self.system.step;
             }
             if let Err(error) = result {
-                self.tell_hashes(observer)?;
+                self.report_hashes(observer)?;
                 observer.failing();
                 // The state of the failure is what the user needs to see, and what was to be seen of it
                 // before.
-                self.watch.look(&self.system, &self.shortest, true);
-                if self.system.time > course.last_row {
+                self.monitor.look(&self.system, &self.shortest, true);
+                if self.system.time > output_cursor.last_row {
                     observer.row(&self.history_row()).map_err(output)?;
                 }
                 self.show(observer)?;
@@ -326,9 +329,9 @@ where
         }
     }
 
-    /// Lets the run go on later where it is.
-    fn pause(&mut self, course: Course) {
-        self.course = Some(Course { is_resumed: true, ..course });
+    /// Lets the run continue later where it is.
+    fn pause(&mut self, output_cursor: OutputCursor) {
+        self.output_cursor = Some(OutputCursor { is_resumed: true, ..output_cursor });
     }
 
     /// Hashes of the state now.
@@ -337,7 +340,7 @@ where
         hashes::hashes(&self.system, &nodes)
     }
 
-    /// Runs on, and tells `observer` of a row and a frame at the first step at or after `from`, from there
+    /// Runs on, and reports `observer` of a row and a frame at the first step at or after `from`, from there
     /// every `every`, and at the first step at or after `to`, all in s. The steps are those of any run of the
     /// model.
     ///
@@ -383,7 +386,7 @@ where
         observer.show(&self.recorded.snapshot(&self.system)).map_err(output)
     }
 
-    fn tell_hashes(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+    fn report_hashes(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
         self.hashing.taken.drain(..).try_for_each(|hashes| observer.hashes(hashes)).map_err(output)
     }
 
@@ -479,7 +482,7 @@ where
     }
 }
 
-/// What keeps an observer from going on, as the error of a run.
+/// What keeps an observer from continuing, as the error of a run.
 fn output(error: ObserverError) -> Error {
     Error::Output(error.to_string())
 }

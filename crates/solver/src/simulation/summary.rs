@@ -19,30 +19,31 @@ where
 {
     fn warnings(&self) -> Vec<Notice> {
         let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();
-        warnings.extend(self.watch.notices(&self.system));
-        let mut tell = |kind, text: String| warnings.push(Notice::new(kind, text));
+        warnings.extend(self.monitor.notices(&self.system));
+        let mut report = |kind, text: String| warnings.push(Notice::new(kind, text));
         for contact in &self.system.contacts {
             let Some(ties) = contact.ties() else { continue };
             let all = ties.nodes.len() + ties.broken;
             if ties.broken > 0 {
-                tell(&TIES_BROKE, format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
+                report(&TIES_BROKE, format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
             } else if all == 0 {
-                tell(&TIES_BROKE, format!("contact \"{}\": its ties bound no node", contact.name));
+                report(&TIES_BROKE, format!("contact \"{}\": its ties bound no node", contact.name));
             }
         }
         if let Some(Erosion { elements, first: Eroded { part, element, at, time, criterion }, .. }) = self.erosion() {
             let all: Vec<String> = elements.iter().map(|(part, count)| format!("{count} of part \"{part}\"")).collect();
-            tell(
+            report(
                 &ERODED,
                 format!(
-                    "elements were eroded: {}; the first was element {element} of part \"{part}\" at {} m, at {time:.6e} s by `{criterion}`",
+                    "elements were eroded: {}; the first was element {element} of part \"{part}\" at {} m, at \
+                        {time:.6e} s by `{criterion}`",
                     all.join(", "),
                     place::<D>(first(at))
                 ),
             );
         }
         if let Some(relaxation) = &self.system.relaxation {
-            tell(
+            report(
                 &RELAXED,
                 match relaxation.rest {
                     Some(time) => format!(
@@ -55,7 +56,7 @@ where
         }
         let unsolved = self.system.springs.unsolved;
         if unsolved > 0 {
-            tell(
+            report(
                 &UNSOLVED,
                 format!("in {unsolved} step(s) the contact forces were not solved to the last digit: lower the contact penalties"),
             );
@@ -70,10 +71,10 @@ where
             for contact in &self.system.contacts {
                 text.extend(contact.overlaps().into_iter().flat_map(|found| self.system.overlaps_in_words(contact, found)));
             }
-            tell(&MISSED, text);
+            report(&MISSED, text);
         }
         for contact in self.system.contacts.iter().filter(|contact| self.system.step > 0 && !contact.has_pressed) {
-            tell(&NO_FORCE, format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
+            report(&NO_FORCE, format!("{} \"{}\" transmitted nothing in the whole run", contact.kind.name(), contact.name));
         }
         warnings
     }

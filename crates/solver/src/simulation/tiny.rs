@@ -50,6 +50,6 @@ where
             usual / shortest
         ),
         consequence: format!("the run takes about {:.2e} steps, where {:.2e} would do", count(shortest), count(usual)),
-        help: "mend the mesh there (a corner or a node just beside an edge makes a sliver), or give `run.mass_scaling`".into(),
+        help: "fix the mesh there (a corner or a node just beside an edge makes a sliver), or give `run.mass_scaling`".into(),
     })
 }

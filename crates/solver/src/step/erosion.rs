@@ -1,21 +1,21 @@
 //! Erosion within a step: after the laws have answered, what fails is taken out of blocks, mesh, contacts and
 //! loads, before anything moves.
 //!
-//! The elastic energy of an eroded element goes to the books as `eroded`. The element pulled until the step
+//! The elastic energy of an eroded element goes to the ledger as `eroded`. The element pulled until the step
 //! before and pulls no more now; by the trapezoidal rule of the ledger half of its last pull, f^n·½ (x^n −
-//! x^{n−1}), was never done on the nodes and stays in what is booked. Springs of contacts live in half steps:
-//! what those of surfaces that are gone stored at n − ½, less what springs of the new surfaces store there,
-//! is booked with it. So the drift does not see erosion.
+//! x^{n−1}), was never done on the nodes and stays in what is entered. Springs of contacts live in half
+//! steps: what those of surfaces that are gone stored at n − ½, less what springs of the new surfaces store
+//! there, is entered with it. So the drift does not see erosion.
 
 use super::System;
-use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
+use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, persist_each};
 use crate::block::{NodalForces, Report};
 use crate::contact::rebuild::{ContactParts, ContactSource};
 use crate::dimension::Dimension;
 use crate::failure::{Criterion, by_name};
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::{Corners, Facet};
-use crate::model::in_space;
+use crate::model::in_3d;
 use crate::tensor::Dim;
 
 /// What fails and what has failed.
@@ -78,22 +78,22 @@ where
     }
 }
 
-impl<const D: usize> Keep for Erosion<D>
+impl<const D: usize> Persist for Erosion<D>
 where
     Dim<D>: Dimension<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { criteria: _, source: _, energy, gone, springs, by_part, first } = self;
-        energy.keep(archive)?;
-        gone[..].keep(archive)?;
-        keep_each!(archive; springs, by_part);
-        let mut told =
+        energy.persist(archive)?;
+        gone[..].persist(archive)?;
+        persist_each!(archive; springs, by_part);
+        let mut reported =
             first.take().map(|Eroded { part, element, at, time, criterion }| (part, (criterion.to_string(), (element, (at, time)))));
-        told.keep(archive)?;
-        *first = match told {
+        reported.persist(archive)?;
+        *first = match reported {
             Some((part, (criterion, (element, (at, time))))) => {
                 let criterion =
-                    by_name(&criterion).ok_or_else(|| Misfit::new(format!("there is no criterion \"{criterion}\"")))?.limit.name;
+                    by_name(&criterion).ok_or_else(|| ArchiveError::new(format!("there is no criterion \"{criterion}\"")))?.limit.name;
                 Some(Eroded { part, element, at, time, criterion })
             }
             None => None,
@@ -108,7 +108,7 @@ where
 {
     /// Takes the elements that blocks have lost out of mesh, contacts and loads, as if they failed now: what
     /// is left of a state that was filled from outside.
-    pub(super) fn take_out_again(&mut self) {
+    pub(super) fn remove_eroded_elements(&mut self) {
         let Some(mut erosion) = self.erosion.take() else { return };
         let mut is_any_gone = false;
         for (group, block) in self.mesh.groups.iter_mut().zip(&self.blocks) {
@@ -118,7 +118,7 @@ where
             }
         }
         if is_any_gone {
-            self.renew_surfaces(&mut erosion);
+            self.rebuild_surfaces(&mut erosion);
         }
         self.erosion = Some(erosion);
     }
@@ -132,9 +132,9 @@ where
         } else {
             erosion.by_part.resize(self.mesh.parts.len(), 0);
             for of_block in failed.chunk_by(|a, b| a.0 == b.0) {
-                self.take_out(of_block, &mut erosion);
+                self.remove_elements(of_block, &mut erosion);
             }
-            self.renew_surfaces(&mut erosion);
+            self.rebuild_surfaces(&mut erosion);
             self.joined_reports()
         };
         self.erosion = Some(erosion);
@@ -169,7 +169,7 @@ where
     }
 
     /// Takes elements out of their block and of the mesh.
-    fn take_out(&mut self, failed: &[Failed], erosion: &mut Erosion<D>) {
+    fn remove_elements(&mut self, failed: &[Failed], erosion: &mut Erosion<D>) {
         let index = failed[0].0;
         let first = self.blocks[..index].iter().map(|block| block.slots().len()).sum::<usize>();
         let slots = first..first + self.blocks[index].slots().len();
@@ -192,7 +192,7 @@ where
             erosion.first.get_or_insert_with(|| Eroded {
                 part: self.mesh.parts[group.part].name.clone(),
                 element: group.user_elements[element as usize] as usize,
-                at: in_space(self.centre(group.nodes_of(element as usize))),
+                at: in_3d(self.centre(group.nodes_of(element as usize))),
                 time: self.time,
                 criterion,
             });
@@ -210,7 +210,7 @@ where
     }
 
     /// Lets contacts, traces and loads see the surfaces that are left.
-    fn renew_surfaces(&mut self, erosion: &mut Erosion<D>) {
+    fn rebuild_surfaces(&mut self, erosion: &mut Erosion<D>) {
         if !self.forces.is_empty() {
             let has_elements = self.has_elements();
             let cells = self.mesh.groups.iter().filter(|group| group.is_continuum(D)).flat_map(|group| group.live_cells());

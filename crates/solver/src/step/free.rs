@@ -121,7 +121,7 @@ impl<const D: usize> Nodes<'_, D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// v^{n+½} of the nodes `first + at..` and their part in the books.
+    /// v^{n+½} of the nodes `first + at..` and their part in the ledger.
     #[inline(always)]
     fn advance_free<L: Lane>(&self, first: usize, at: usize, internal: [L; D], sums: &mut LaneSums) -> [L; D] {
         let (half, dt) = (L::splat(0.5), L::splat(self.dt));

@@ -1,16 +1,16 @@
 //! The velocity update of nodes: what pulls on a node (or on a group that moves as one), how it gives way,
-//! and what the books get.
+//! and what the ledger get.
 //!
 //! Forces come from the assembly, contacts and loads; new velocities and sums go back to `step.rs`, and the
 //! answers to springs in contact to [`crate::contact::springs`]. With m̃ = m (1 + a) I + ½ Δt C of damping
 //! (a) and dashpots (C), Δt = ½ (dt^{n−1} + dt^n), an impulse J changes the velocity by m̃⁻¹ J.
 
 use crate::assembly::Assembly;
-use crate::contact::springs::{Mover, Movers, TangentSpace};
+use crate::contact::springs::{NodeResponse, NodeResponses, TangentSpace};
 use crate::contact_forces::ContactForces;
 use crate::dimension::Dimension;
 use crate::energy::Sums;
-use crate::load::constraint::{Constraints, Held};
+use crate::load::constraint::{Constraints, NodeConstraint};
 use crate::load::damping::Damping;
 use crate::load::join::{Group, Joins};
 use crate::load::non_reflecting::NonReflecting;
@@ -63,7 +63,7 @@ pub(super) struct Pull<'a, const D: usize> {
     slowing: f64,
     /// ½ Δt C.
     dashpot: Option<Square<D>>,
-    held: Option<&'a Held<D>>,
+    held: Option<&'a NodeConstraint<D>>,
 }
 
 impl<'a, const D: usize> Pull<'a, D>
@@ -71,7 +71,7 @@ where
     Dim<D>: Dimension<D>,
 {
     /// Of what elements alone pull on.
-    pub(super) fn of_elements(mass: f64, old: [f64; D], internal: [f64; D], slowing: f64, held: Option<&'a Held<D>>) -> Self {
+    pub(super) fn of_elements(mass: f64, old: [f64; D], internal: [f64; D], slowing: f64, held: Option<&'a NodeConstraint<D>>) -> Self {
         Self { mass, old, internal, contact: [0.0; D], load: None, gravity: None, slowing, dashpot: None, held }
     }
 
@@ -192,7 +192,7 @@ where
         sums
     }
 
-    /// v^{n+½}, and its part in the books.
+    /// v^{n+½}, and its part in the ledger.
     fn advance(&self, pull: &Pull<'_, D>, sums: &mut Sums) -> [f64; D] {
         pull.advance(self.dt, sums)
     }
@@ -202,7 +202,7 @@ impl<const D: usize> Pull<'_, D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// v^{n+½} after Δt, and its part in the books.
+    /// v^{n+½} after Δt, and its part in the ledger.
     pub(super) fn advance(&self, dt: f64, sums: &mut Sums) -> [f64; D] {
         let (pull, m, old) = (self, self.mass, self.old);
         let scale = dt / m;
@@ -242,7 +242,7 @@ where
     }
 }
 
-impl<const D: usize> Movers<D> for Nodes<'_, D>
+impl<const D: usize> NodeResponses<D> for Nodes<'_, D>
 where
     Dim<D>: Dimension<D>,
 {
@@ -255,7 +255,7 @@ where
         (leader, (turn != unit_matrix()).then(|| <Dim<D>>::image_rotation(&turn)))
     }
 
-    fn mover(&self, leader: usize) -> Mover<D> {
+    fn response(&self, leader: usize) -> NodeResponse<D> {
         let pull = self.pull_on(leader);
         let (f, v, g) = (pull.internal, pull.old, pull.gravity.unwrap_or([0.0; D]));
         let mut free = std::array::from_fn(|d| v[d] + self.dt * (f[d] / pull.mass + g[d]));
@@ -266,7 +266,7 @@ where
         for (i, row) in self.mobility(&pull).into_iter().enumerate() {
             row.into_iter().enumerate().skip(i).for_each(|(j, value)| mobility[<Dim<D>>::AT[i][j]] = value);
         }
-        Mover { velocity_old: v, velocity: pull.held(pull.slowed(free)), mobility }
+        NodeResponse { velocity_old: v, velocity: pull.held(pull.slowed(free)), mobility }
     }
 
     fn moves(&self, leader: usize) -> bool {

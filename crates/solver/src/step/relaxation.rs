@@ -8,7 +8,7 @@
 //! 25 (1981) 35-48.
 
 use super::System;
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::dimension::Dimension;
 use crate::model;
 use crate::tensor::Dim;
@@ -36,11 +36,11 @@ impl<const D: usize> Relaxation<D> {
     }
 }
 
-impl<const D: usize> Keep for Relaxation<D> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<const D: usize> Persist for Relaxation<D> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { tolerance: _, from: _, forces, frequency, quiet, ratio, rest } = self;
-        forces[..].keep(archive)?;
-        keep_each!(archive; frequency, quiet, ratio, rest);
+        forces[..].persist(archive)?;
+        persist_each!(archive; frequency, quiet, ratio, rest);
         Ok(())
     }
 }
@@ -71,7 +71,7 @@ where
     }
 
     /// Ends the run where all is at rest.
-    pub(super) fn see_rest(&mut self) {
+    pub(super) fn check_equilibrium(&mut self) {
         let Some(relaxation) = &mut self.relaxation else { return };
         let stores = &self.ledger.stores;
         relaxation.ratio = stores.kinetic.abs() / (stores.elastic + stores.plastic);

@@ -9,14 +9,14 @@
 
 use super::System;
 use super::nodes::Pull;
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::assembly::Assembly;
 use crate::block::Block;
 use crate::dimension::Dimension;
 use crate::energy::Sums;
-use crate::load::constraint::Held;
+use crate::load::constraint::NodeConstraint;
 use crate::load::join::{Joins, back, turned};
-use crate::model::in_space;
+use crate::model::in_3d;
 use crate::reductions;
 use crate::rigid::{Bodies, RigidMotion};
 use crate::rotation::{Square, unit_matrix};
@@ -37,7 +37,7 @@ pub(crate) struct NodalRotations {
     pub(crate) slots: Vec<[f64; 3]>,
     assembly: Assembly,
     /// Directions that are held.
-    held: Vec<Held<3>>,
+    held: Vec<NodeConstraint<3>>,
     /// Rigid body of each; `u32::MAX`: none.
     bodies: Vec<u32>,
     /// Nodes that rotate as one: places and rotations from the first one, which leads.
@@ -46,11 +46,11 @@ pub(crate) struct NodalRotations {
     is_joined: Vec<bool>,
 }
 
-impl Keep for NodalRotations {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for NodalRotations {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { now, spins_old, inertia: _, slots: _, assembly: _, held: _, bodies: _, groups: _, is_joined: _ } = self;
         let Rotations { nodes: _, angles, attitudes, spins } = now;
-        keep_each!(archive; &mut angles[..], &mut attitudes[..], &mut spins[..], &mut spins_old[..]);
+        persist_each!(archive; &mut angles[..], &mut attitudes[..], &mut spins[..], &mut spins_old[..]);
         Ok(())
     }
 }
@@ -102,7 +102,7 @@ impl NodalRotations {
                 members.iter().map(|&(place, turn)| (place, crate::tensor::product(&turn, &crate::rotation::transposed(&first)))).collect(),
             );
         }
-        let held: Vec<Held<3>> = now.nodes.iter().map(|&node| held_by(&normals(node))).collect();
+        let held: Vec<NodeConstraint<3>> = now.nodes.iter().map(|&node| held_by(&normals(node))).collect();
         let of_body = |(&node, &inertia): (&u32, &f64)| {
             let body = bodies.of_node(node);
             if let Some(body) = body {
@@ -212,8 +212,8 @@ impl NodalRotations {
     }
 
     /// What holds any member of a group, seen from its leader.
-    fn held_in(&self, group: usize) -> Held<3> {
-        let mut held = Held::default();
+    fn held_in(&self, group: usize) -> NodeConstraint<3> {
+        let mut held = NodeConstraint::default();
         for (place, turn) in self.members(group) {
             self.held[place].directions().for_each(|direction| held.rest(back(*turn, direction)));
         }
@@ -241,10 +241,10 @@ impl NodalRotations {
 
 /// Directions about which a node of symmetry planes can't rotate: those in the planes. In 2D all planes are
 /// normal to the plane of the model.
-fn held_by<const D: usize>(normals: &[[f64; D]]) -> Held<3> {
-    let mut held = Held::default();
+fn held_by<const D: usize>(normals: &[[f64; D]]) -> NodeConstraint<3> {
+    let mut held = NodeConstraint::default();
     for &normal in normals {
-        let n: [f64; 3] = in_space(normal);
+        let n: [f64; 3] = in_3d(normal);
         // The axis that is farthest from the normal.
         let farthest = (0..3).min_by(|&a, &b| n[a].abs().total_cmp(&n[b].abs())).unwrap_or(0);
         let Some(first) = unit(cross(n, unit_matrix::<3>()[farthest])) else { continue };

@@ -1,6 +1,6 @@
 //! Principal values and directions of symmetric tensors over lanes, safe where they coincide.
 //!
-//! In the plane in closed form; in space by Jacobi's rotations, a fixed number of them, so that every lane
+//! In 2D in closed form; in 3D by Jacobi's rotations, a fixed number of them, so that every lane
 //! does the same and gives the same bits. What comes out are eigenvalues λ_i and projections P_i = n_i n_iᵀ:
 //! T = Σ λ_i P_i to round-off, P_i P_j = δ_ij P_i, Σ P_i = I, whatever coincides. Source: Golub and Van Loan,
 //! Matrix Computations (2013), 8.5 (cyclic Jacobi converges quadratically; from the sixth sweep on nothing
@@ -12,7 +12,7 @@ use embate_lanes::Lane;
 /// Sweeps of three rotations: random and nearly equal values are exact after five.
 const SWEEPS: usize = 6;
 
-/// Eigenvalues and projections in the plane; the third is normal to it.
+/// Eigenvalues and projections in 2D; the third is normal to it.
 ///
 /// λ = m ± r with r = √(½(T_xx − T_yy)² + T_xy²); where r = 0, the axes are x and y.
 #[inline(always)]
@@ -30,7 +30,7 @@ pub(super) fn plane<L: Lane>(t: Plane<L>) -> ([L; 3], [Plane<L>; 3]) {
     ([mean + radius, mean - radius, zz], [first, second, Plane([zero, zero, one, zero])])
 }
 
-/// Eigenvalues and projections in space, in no order.
+/// Eigenvalues and projections in 3D, in no order.
 #[inline(always)]
 pub(super) fn solid<L: Lane>(t: Solid<L>) -> ([L; 3], [Solid<L>; 3]) {
     let (zero, one) = (L::splat(0.0), L::splat(1.0));

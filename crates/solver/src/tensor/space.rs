@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn the_gradient_of_a_displacement_is_that_in_space_and_in_the_plane() {
+    fn the_gradient_of_a_displacement_is_that_in_3d_and_in_2d() {
         let natural = [[0.3, -0.1, 0.0], [0.2, 0.4, 0.0], [0.0, 0.0, 0.0]];
         let map = [[2.0, 0.3, 0.0], [-0.4, 1.5, 0.0], [0.0, 0.0, 1.0]];
         let (gradient, [half, whole]) = Dim::<3>::displaced(&natural, &Dim::<3>::adjugate(&map), Dim::<3>::determinant(&map));

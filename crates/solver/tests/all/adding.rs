@@ -108,8 +108,8 @@ fn one_file_and_one_line_add_a_law_and_a_field() {
         .envs(["DEV", "TEST"].map(|profile| (format!("CARGO_PROFILE_{profile}_DEBUG"), "0")))
         .output()
         .unwrap();
-    let told = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{told}");
+    let reported = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{reported}");
     let tests = [
         "materials::the_stiffness_at_rest",
         "blocks::a_distorted_patch",
@@ -118,6 +118,6 @@ fn one_file_and_one_line_add_a_law_and_a_field() {
         "fields::every_field_has_a_value",
     ];
     for test in tests {
-        assert!(told.lines().any(|line| line.contains(test) && line.ends_with("ok")), "{test}: {told}");
+        assert!(reported.lines().any(|line| line.contains(test) && line.ends_with("ok")), "{test}: {reported}");
     }
 }

@@ -152,7 +152,7 @@ fn corner_masses_are_positive_and_have_the_mass_and_its_centre() {
 }
 
 #[test]
-fn corner_forces_do_the_work_that_the_energy_tells() {
+fn corner_forces_do_the_work_that_the_energy_reports() {
     // −f·u = dU for any small motion u from a state of uneven stress; this is what the force part of the mean
     // dilatation is for. The force is the mean over the motion: a law that gives way with the rate, or with
     // the heat of the step before, has another force after the smallest motion.
@@ -275,7 +275,7 @@ fn the_stable_step_holds_when_an_element_takes_another_form_than_its_masses() {
     }
 }
 
-/// Everything that a block tells, as bits.
+/// Everything that a block reports, as bits.
 fn bits(body: &Body) -> Vec<u64> {
     let report =
         [body.report.time_step_squared, body.report.determinant, body.report.stored, body.report.dissipated, body.report.hourglass];

@@ -63,14 +63,14 @@ pub(crate) fn add(model: &mut Model, name: &str, shape: Shape, velocity: [f64; 2
         name: name.into(),
         material: "soft".into(),
         shape,
-        velocity: embate_solver::model::in_space(velocity),
+        velocity: embate_solver::model::in_3d(velocity),
         ..Part::default()
     });
     model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
 }
 
 pub(crate) fn probe(model: &mut Model, name: &str, part: &str, point: [f64; 2]) {
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point: embate_solver::model::in_space(point) } });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point: embate_solver::model::in_3d(point) } });
 }
 
 pub(crate) fn touch(model: &mut Model, first: &str, second: &str) {
@@ -82,8 +82,8 @@ pub(crate) fn group(name: &str, dimension: u8, cells: impl Iterator<Item = Vec<u
     MeshGroup { name: name.into(), dimension, cells: cells.collect() }
 }
 
-/// A point of the plane as mesh files have it.
-pub(crate) fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
+/// A point in 2D as mesh files have it.
+pub(crate) fn in_3d([x, y]: [f64; 2]) -> [f64; 3] {
     [x, y, 0.0]
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn mapped([nu, nv]: [usize; 2], place: impl Fn(f64, f64) -> [f64; 2])
     let at = |i: usize, j: usize| (j * (nu + 1) + i) as u32;
     let cells = (0..nv).flat_map(|j| (0..nu).map(move |i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
     let groups = vec![group("body", 2, cells)];
-    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| in_space(place(u, v))).collect(), groups }
+    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| in_3d(place(u, v))).collect(), groups }
 }
 
 /// Image of a grid that closes in its second direction: u around from 0 to 1, v through the wall.
@@ -102,7 +102,7 @@ pub(crate) fn closed_ring([through, around]: [usize; 2], place: impl Fn(f64, f64
     let at = |i: usize, j: usize| (j % around * (through + 1) + i) as u32;
     let cells = (0..around).flat_map(|j| (0..through).map(move |i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
     let groups = vec![group("body", 2, cells)];
-    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| in_space(place(u, v))).collect(), groups }
+    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| in_3d(place(u, v))).collect(), groups }
 }
 
 /// Adds the body of a mesh.
@@ -128,7 +128,7 @@ pub(crate) fn rough(coefficient: f64) -> Interface {
 }
 
 pub(crate) fn gravity(model: &mut Model, acceleration: [f64; 2]) {
-    model.loads.push(Load::Gravity { parts: vec![], acceleration: embate_solver::model::in_space(acceleration), curve: None });
+    model.loads.push(Load::Gravity { parts: vec![], acceleration: embate_solver::model::in_3d(acceleration), curve: None });
 }
 
 /// Makes a part rigid; it may move as `motion` says.
@@ -136,9 +136,9 @@ pub(crate) fn stiffen(model: &mut Model, part: &str, motion: Motion) {
     model.parts.iter_mut().find(|it| it.name == part).unwrap().rigid = Some(motion);
 }
 
-/// Motion as told; free where nothing is.
+/// Motion as reported; free where nothing is.
 pub(crate) fn driven(velocity: [Option<f64>; 2], spin: Option<f64>) -> Motion {
-    Motion { velocity: embate_solver::model::in_space(velocity.map(|v| v.map(Drive::from))), spin: spin.map(Drive::from) }
+    Motion { velocity: embate_solver::model::in_3d(velocity.map(|v| v.map(Drive::from))), spin: spin.map(Drive::from) }
 }
 
 /// A value of the history now.
@@ -172,8 +172,8 @@ pub(crate) fn hash_of_equal_bits(model: &Model, threads: &[usize], case: &str) -
     alone
 }
 
-/// What is kept of a run now has to go on to this hash at the end, on two threads.
-pub(crate) fn goes_on_to(hash: &str, model: &Model, run: &mut Simulation, case: &str) {
+/// What is kept of a run now has to continue to this hash at the end, on two threads.
+pub(crate) fn continues_to(hash: &str, model: &Model, run: &mut Simulation, case: &str) {
     let state = run.state().unwrap();
     let options = Options { threads: 2, simd: None };
     let mut resumed = Simulation::resumed(model, &options, &state.sections).unwrap_or_else(|error| panic!("{error}"));
@@ -243,7 +243,7 @@ pub(crate) fn run(model: &Model) -> (Simulation, History) {
         simulation.run(&mut history).unwrap_or_else(|error| panic!("{error}"));
         return (simulation, history);
     }
-    // Stopped again and again: what the test sees is a run that goes on with what was kept.
+    // Stopped again and again: what the test sees is a run that continues with what was kept.
     let mut number = 0;
     loop {
         history.stops = Some(2 + number % 5);

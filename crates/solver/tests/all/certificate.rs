@@ -1,4 +1,4 @@
-//! No contact is missed: what the tracker finds is held against winding numbers that are counted anew in
+//! No contact is missed: what the tracker finds is held against winding numbers that are counted again in
 //! every step, for bodies that move at random and at any speed, and whole runs certify themselves.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 

@@ -7,7 +7,7 @@ use embate_solver::model::{Axis, Constraint, Curve, CurveShape, Drive, Load, Mod
 fn fix(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
     model.constraints.push(Constraint {
         on: on.into(),
-        velocity: embate_solver::model::in_space(velocity.map(|velocity| velocity.map(Into::into))),
+        velocity: embate_solver::model::in_3d(velocity.map(|velocity| velocity.map(Into::into))),
         ..Constraint::default()
     });
 }
@@ -40,7 +40,7 @@ fn a_skew_symmetry_line_is_as_good_as_a_straight_one() {
         let mut model = model(8e-4);
         let mesh = mapped([6, 4], |u, v| turn([0.08 * u, v * (0.03 + 0.02 * u)]));
         add_mesh(&mut model, "wedge", mesh, turn([-20.0, 0.0]));
-        model.symmetries.push(Symmetry { normal: embate_solver::model::in_space(turn([0.0, 1.0])), ..Symmetry::default() });
+        model.symmetries.push(Symmetry { normal: embate_solver::model::in_3d(turn([0.0, 1.0])), ..Symmetry::default() });
         model.obstacles.push(Obstacle::wall("end", turn([-0.001, 0.0]), turn([1.0, 0.0])));
         let mut simulation = simulation(&model);
         let on_line: Vec<usize> = (0..35).filter(|&i| across(simulation.frame().positions::<2>()[i], angle).abs() < 1e-15).collect();
@@ -77,7 +77,7 @@ fn two_symmetry_lines_with_one_normal_do_not_swallow_what_lies_between() {
 }
 
 #[test]
-fn fixed_sides_stay_and_driven_sides_move_as_told() {
+fn fixed_sides_stay_and_driven_sides_move_as_reported() {
     let mut model = model(5e-4);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, 4]), [0.0, 0.0]);
     fix(&mut model, "block.left", [Some(0.0), Some(0.0)]);
@@ -104,36 +104,39 @@ fn fixed_sides_stay_and_driven_sides_move_as_told() {
 }
 
 #[test]
-fn contradictions_are_told_with_condition_and_place() {
+fn contradictions_are_reported_with_condition_and_place() {
     let mut model = model(1e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 1]), [0.0, 0.0]);
     fix(&mut model, "block.left", [Some(1.0), None]);
     fix(&mut model, "block.top", [Some(0.0), Some(0.0)]);
-    let told = faults(&model);
-    assert_eq!(told.len(), 1, "only the corner is in both: {told:?}");
+    let reported = faults(&model);
+    assert_eq!(reported.len(), 1, "only the corner is in both: {reported:?}");
     for word in ["constraint[1]", "(0.000000e0, 5.000000e-2)", "0 m/s", "constraint[0] on \"block.left\" already moves it at 1 m/s"] {
-        assert!(told[0].contains(word), "{word}: {told:?}");
+        assert!(reported[0].contains(word), "{word}: {reported:?}");
     }
     // The same velocity twice is no contradiction, nor is another direction.
     model.constraints[1].velocity = [Some(1.0.into()), Some(0.0.into()), None];
     assert_eq!(faults(&model), Vec::<String>::new());
     // A symmetry line and a drive across it; where nothing lies on a line; a name of nothing.
     model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
-    let told = faults(&model);
-    assert!(told.iter().any(|fault| fault.contains("constraint[0]") && fault.contains("(0.000000e0, 0.000000e0)")), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.iter().any(|fault| fault.contains("constraint[0]") && fault.contains("(0.000000e0, 0.000000e0)")), "{reported:?}");
     model.symmetries[0].point = [0.03, 0.0, 0.0];
     assert!(faults(&model)[0].contains("no node lies on this symmetry line"), "{:?}", faults(&model));
 }
 
 #[test]
-fn of_many_contradictions_twenty_are_told_and_the_others_counted() {
+fn of_many_contradictions_twenty_are_reported_and_the_others_counted() {
     let mut model = model(1e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 30]), [0.0, 0.0]);
     model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
     fix(&mut model, "block.left", [Some(1.0), None]);
-    let told = faults(&model);
-    assert_eq!(told.len(), 21);
-    assert!(told[0].contains("but symmetry[0] already moves it at 0 m/s there") && told[20].contains("at 11 more nodes"), "{told:?}");
+    let reported = faults(&model);
+    assert_eq!(reported.len(), 21);
+    assert!(
+        reported[0].contains("but symmetry[0] already moves it at 0 m/s there") && reported[20].contains("at 11 more nodes"),
+        "{reported:?}"
+    );
 }
 
 #[test]
@@ -146,11 +149,11 @@ fn a_node_that_is_led_around_a_point_is_moved_by_nothing_else() {
     };
     model.constraints.push(turn("block.left"));
     fix(&mut model, "block.top", [None, Some(0.0)]);
-    let told = faults(&model);
-    assert!(told.len() == 1 && told[0].contains("but constraint[0] on \"block.left\" leads it around a point"), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.len() == 1 && reported[0].contains("but constraint[0] on \"block.left\" leads it around a point"), "{reported:?}");
     model.constraints.reverse();
-    let told = faults(&model);
-    assert!(told.len() == 1 && told[0].contains("but constraint[0] on \"block.top\" already holds or moves it"), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.len() == 1 && reported[0].contains("but constraint[0] on \"block.top\" already holds or moves it"), "{reported:?}");
     // The centre rests: to hold it is no contradiction.
     model.constraints = vec![turn("block.left")];
     fix(&mut model, "block.bottom", [None, Some(0.0)]);
@@ -321,7 +324,7 @@ fn a_wall_holds_the_nodes_of_bonded_parts_with_one_spring_each() {
 }
 
 #[test]
-fn a_body_that_falls_far_faster_than_its_waves_is_told_with_node_and_speed() {
+fn a_body_that_falls_far_faster_than_its_waves_is_reported_with_node_and_speed() {
     // From v0, under gravity g, the first step with v > limit is known: the block is at rest inside.
     let mut model = model(1e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [2, 2]), [3.0, 0.0]);

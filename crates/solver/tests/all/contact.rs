@@ -373,8 +373,8 @@ fn a_projectile_that_moves_several_plate_thicknesses_in_a_step_does_not_pass() {
 }
 
 #[test]
-fn a_contact_that_gives_way_is_told_with_its_deepest_node() {
-    // A block meets a wall with next to no penalty: it goes on with its velocity, so the depth after t is v
+fn a_contact_that_gives_way_is_reported_with_its_deepest_node() {
+    // A block meets a wall with next to no penalty: it continues with its velocity, so the depth after t is v
     // (t − t0).
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.01, 0.01], [2, 2]), [10.0, 0.0]);

@@ -71,7 +71,7 @@ fn a_soft_body_slides_over_corners_with_no_more_than_its_elements_lose() {
 }
 
 #[test]
-fn rigid_blocks_keep_their_energy_over_edges_in_space() {
+fn rigid_blocks_keep_their_energy_over_edges_in_3d() {
     let block = |angle: f64, middle, cells| {
         let (sin, cos) = angle.sin_cos();
         let axes = [[cos, sin, 0.0], [-0.8 * sin, 0.8 * cos, 0.6], [0.6 * sin, -0.6 * cos, 0.8]];

@@ -1,4 +1,4 @@
-//! Contact in space where edges cross between their nodes: beams on edge that hit each other, and the edge of
+//! Contact in 3D where edges cross between their nodes: beams on edge that hit each other, and the edge of
 //! a box. Nodes against facets alone would let them through.
 
 use crate::bodies::*;
@@ -164,9 +164,9 @@ fn beams_that_hit_each_other_off_their_middles_part_again_and_keep_both_momenta_
             let case = format!("{named} {:?} {:?}", interface.friction.is_some(), interface.law);
             is_sound(&simulation, 1e-2, &case);
             assert!(history.largest(DEPTH) > 1e-5 && history.last(DEPTH) == 0.0, "{case} {}", history.last(DEPTH));
-            let [[before, approach], [after, parting]] = [start_of(&model), simulation.frame()].map(|frame| at_crossing(&model, &frame));
-            println!("{before} {after} m, {approach} {parting} m/s, {}", history.largest(DEPTH));
-            assert!((approach + 5.0).abs() < 1e-9 && after > before, "{case}: {before} {after} {parting}");
+            let [[before, approach], [after, divergence]] = [start_of(&model), simulation.frame()].map(|frame| at_crossing(&model, &frame));
+            println!("{before} {after} m, {approach} {divergence} m/s, {}", history.largest(DEPTH));
+            assert!((approach + 5.0).abs() < 1e-9 && after > before, "{case}: {before} {after} {divergence}");
             assert!(interface.friction.is_none() || history.last("energy.friction") > 0.0);
         }
     }
@@ -188,7 +188,7 @@ fn a_beam_that_hits_the_edge_of_a_box_off_its_middle_spins_and_keeps_the_angular
     let (simulation, history) = run(&model);
     is_sound(&simulation, 1e-2, "box");
     assert!(history.largest(DEPTH) > 1e-5 && history.last(DEPTH) == 0.0);
-    // It goes on towards the box with the end that is farther away: its middle was hardly slowed.
+    // It continues towards the box with the end that is farther away: its middle was hardly slowed.
     let frame = simulation.frame();
     let velocity = frame.fields.iter().find(|field| field.kind.name == "velocity").unwrap();
     let start = start_of(&model);
@@ -217,12 +217,12 @@ fn threads_and_instruction_sets_and_a_stop_between_change_no_bit_of_edges() {
     for more in [0, 1, 5] {
         first.advance(f64::INFINITY, more).unwrap();
         assert!(value(&first, DEPTH) > 0.0);
-        goes_on_to(&alone, &model, &mut first, "edges");
+        continues_to(&alone, &model, &mut first, "edges");
     }
 }
 
 #[test]
-fn edges_that_cross_at_the_start_are_told_or_ignored() {
+fn edges_that_cross_at_the_start_are_reported_or_ignored() {
     let with = |initial_penetration: InitialPenetration| {
         let mut model = model(1e-3);
         Block::on_edge(0.5, 5, 90.0, [0.0, 0.0, 2.0 * HALF - 1e-3]).add_to(&mut model, "upper", [0.0; 3]);
@@ -230,8 +230,8 @@ fn edges_that_cross_at_the_start_are_told_or_ignored() {
         meet(&mut model, true, Interface { initial_penetration, ..Interface::default() });
         model
     };
-    let told = faults(&with(InitialPenetration::Error));
-    assert!(told.len() == 1 && told[0].contains("1.000e-3 m inside at the start"), "{told:?}");
+    let reported = faults(&with(InitialPenetration::Error));
+    assert!(reported.len() == 1 && reported[0].contains("1.000e-3 m inside at the start"), "{reported:?}");
     let simulation = to_end(&with(InitialPenetration::Ignore));
     assert!(value(&simulation, "energy.contact") < 1e-9 && value(&simulation, "energy.kinetic") < 1e-9);
 }
@@ -273,7 +273,7 @@ fn edges_whose_elements_fail_are_gone_and_those_of_the_new_surface_meet_and_the_
         println!("{case} {linear:.1e} {angular:.1e} {:.1e} {:.1e}", summary.ledger_residual, summary.energy_drift);
         assert!(linear < 1e-12 && angular < 1e-11 && summary.ledger_residual < 1e-11 && summary.energy_drift < 0.01, "{case}: {summary:?}");
         assert!(lost >= 4 && pressed > 20 && summary.contact.unverified == 0, "{case}");
-        // What is left of both goes on to push.
+        // What is left of both continues to push.
         let last = value(&simulation, "lower.vz");
         assert!(at_first < 0.0 && last < 3.0 * at_first, "{case}: {at_first} {last}");
     }
@@ -387,7 +387,7 @@ fn a_layer_between_edges_presses_on_half_of_what_their_four_nodes_stand_for_and_
 }
 
 #[test]
-fn the_force_of_an_edge_goes_on_where_the_line_of_the_other_one_bends_however_much() {
+fn the_force_of_an_edge_continues_where_the_line_of_the_other_one_bends_however_much() {
     // A rigid blade slides along a rigid ridge that bends in plan, and sinks a little: the crossing is level
     // on both of its edges, and the force only grows with the depth.
     for degrees in [30.0, 60.0, 80.0_f64] {

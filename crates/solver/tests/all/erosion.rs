@@ -171,8 +171,8 @@ fn a_criterion_without_what_it_needs_is_refused() {
     let mut model = model(1e-4);
     model.materials.get_mut("soft").unwrap().failure.insert("plastic_strain".into(), 0.1);
     add(&mut model, "body", mapped_rectangle(), [0.0, 0.0]);
-    let told = faults(&model);
-    assert!(told.len() == 1 && told[0].contains("plastic strain"), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.len() == 1 && reported[0].contains("plastic strain"), "{reported:?}");
     model.materials.get_mut("soft").unwrap().failure = [("plastic_strian".to_string(), 0.1)].into();
     assert!(faults(&model)[0].contains("no criterion"));
 }

@@ -1,4 +1,4 @@
-//! Contact in space at the rims of faces: bodies that end flush, whose nodes leave the faces of the other by
+//! Contact in 3D at the rims of faces: bodies that end flush, whose nodes leave the faces of the other by
 //! round-off or by what they spread.
 
 use crate::bodies::{every_step, to_end, value};

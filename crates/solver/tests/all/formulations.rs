@@ -77,7 +77,7 @@ fn springs_as_stiff_as_one_likes_are_solved_and_the_books_close() {
             };
             let drifts = [1.0, 1e1, 1e2, 1e3, 1e4, 1e5].map(drift);
             // Beyond these up to a third of the energy drifts in some scenes although the forces are solved:
-            // only the solution and the books are asserted there.
+            // only the solution and the ledger are asserted there.
             let kept = if formulation == Formulation::DoublePass { 5 } else { 2 };
             assert!(drifts[..kept].iter().all(|&drift| drift <= 0.05), "{formulation:?} {name}: {drifts:?}");
             if formulation == Formulation::DoublePass && name == "corner in a notch" {
@@ -180,7 +180,7 @@ fn a_model_that_is_turned_as_a_whole_gives_turned_results() {
                 assert!(summary.penetration_max > 0.0 || name == "multiplier");
                 assert!(simulation.ledger().stores.friction > 0.0, "{formulation:?} {name}: friction took something");
                 let mut positions = simulation.frame().positions::<2>().to_vec();
-                // Storage order follows a curve in space; pair by place instead.
+                // Storage order follows a curve in 3D; pair by place instead.
                 if angle != 0.0 {
                     positions.iter_mut().for_each(|x| *x = [cos * x[0] + sin * x[1], cos * x[1] - sin * x[0]]);
                 }
@@ -304,7 +304,7 @@ fn a_broken_tie_is_ordinary_contact() {
 }
 
 #[test]
-fn ties_that_bind_nothing_or_a_node_twice_are_told() {
+fn ties_that_bind_nothing_or_a_node_twice_are_reported() {
     let faults = |model: &Model| match Simulation::new(model, &Options::default()) {
         Err(Error::Model(faults)) => faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
         other => panic!("{:?}", other.err()),
@@ -313,13 +313,16 @@ fn ties_that_bind_nothing_or_a_node_twice_are_told() {
     apart.contacts[0].interface.active = [0.0, 1.0];
     add(&mut apart, "far", rectangle([0.5, 0.0], [0.1, 0.04], [4, 4]), [0.0; 2]);
     apart.contacts.push(Contact { tied: Some(1.0), ..Contact::between("loose", "far", "left") });
-    let told = faults(&apart);
-    assert!(told.contains("contact[1].tied") && told.contains("binds nothing"), "{told}");
+    let reported = faults(&apart);
+    assert!(reported.contains("contact[1].tied") && reported.contains("binds nothing"), "{reported}");
     let mut twice = tied_bars(f64::INFINITY, ContactLaw::default(), false);
     add(&mut twice, "third", rectangle([-0.1, 0.0401], [0.3, 0.02], [12, 2]), [0.0; 2]);
     twice.contacts.push(Contact { tied: Some(1.0), ..Contact::between("second", "right", "third") });
-    let told = faults(&twice);
-    assert!(told.contains("contact[1].tied") && told.contains("tied already by contact \"glue\"") && told.contains("node at ("), "{told}");
+    let reported = faults(&twice);
+    assert!(
+        reported.contains("contact[1].tied") && reported.contains("tied already by contact \"glue\"") && reported.contains("node at ("),
+        "{reported}"
+    );
 }
 
 /// V-1 of the contact patch test (Taylor and Papadopoulos 1991; data of Crisfield 2000): two blocks 1 m x
@@ -350,11 +353,7 @@ fn patch_error(formulation: Formulation, penalty: Penalty, meshes: [usize; 2], a
         velocity: [Some(0.0.into()), Some(0.0.into()), None],
         ..Constraint::default()
     });
-    model.constraints.push(Constraint {
-        on: "upper-top".into(),
-        velocity: embate_solver::model::in_space(velocity),
-        ..Constraint::default()
-    });
+    model.constraints.push(Constraint { on: "upper-top".into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
     model.loads.push(Load::Damping { parts: vec![], rate: 150.0, active: [0.0, f64::INFINITY] });
     model.contacts.push(Contact { formulation, interface: penalty.into(), ..Contact::between("seam", "lower-top", "upper-bottom") });
     let mut simulation = simulation(&model);
@@ -441,9 +440,9 @@ fn bodies_meet_themselves_in_every_formulation() {
                 "{name}: {summary:?}"
             );
             assert!(summary.energy_drift < 0.02 && summary.ledger_residual < 1e-12, "{name}: {summary:?}");
-            // Between disks a wall goes deeper into itself, and that is told.
-            let is_told = formulation == Formulation::Pinball && summary.contact.unverified > 0;
-            assert!((summary.penetration_max < 0.25 * wall && summary.contact.unverified == 0) || is_told, "{name}: {summary:?}");
+            // Between disks a wall goes deeper into itself, and that is reported.
+            let is_reported = formulation == Formulation::Pinball && summary.contact.unverified > 0;
+            assert!((summary.penetration_max < 0.25 * wall && summary.contact.unverified == 0) || is_reported, "{name}: {summary:?}");
         }
     }
 }

@@ -41,8 +41,7 @@ fn bar(element: &str, law: &str, size: [f64; 2], elements: [usize; 2], end: f64)
 fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> Model {
     let [nx, ny] = elements;
     let place = |i: f64, j: f64| [size[0] * (i / nx as f64 - 0.5), size[1] * (j / ny as f64 - 0.5)];
-    let positions =
-        (0..(nx + 1) * (ny + 1)).map(|k| crate::bodies::in_space(place((k % (nx + 1)) as f64, (k / (nx + 1)) as f64))).collect();
+    let positions = (0..(nx + 1) * (ny + 1)).map(|k| crate::bodies::in_3d(place((k % (nx + 1)) as f64, (k / (nx + 1)) as f64))).collect();
     let mut model = bar("quad4", law, size, elements, end);
     model.parts.clear();
     let mut groups = Vec::new();
@@ -56,7 +55,7 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
             name: format!("part{k}"),
             material: "m".into(),
             shape: Shape::Group { mesh: 0, group: name },
-            velocity: embate_solver::model::in_space(velocity),
+            velocity: embate_solver::model::in_3d(velocity),
             ..Part::default()
         });
     }
@@ -67,7 +66,7 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
 fn hold(model: &mut Model, on: &str, velocity: [Option<f64>; 2]) {
     model.constraints.push(Constraint {
         on: on.into(),
-        velocity: embate_solver::model::in_space(velocity.map(|velocity| velocity.map(Into::into))),
+        velocity: embate_solver::model::in_3d(velocity.map(|velocity| velocity.map(Into::into))),
         ..Constraint::default()
     });
 }

@@ -1,4 +1,4 @@
-//! Whole models of space against their halves and quarters: what symmetry planes cut off, in nodes, edges and
+//! Whole models in 3D against their halves and quarters: what symmetry planes cut off, in nodes, edges and
 //! images, moves as the whole does.
 
 use crate::bodies::*;
@@ -178,7 +178,7 @@ fn a_quarter_of_a_ball_between_slabs_does_what_the_whole_does() {
     }
 }
 
-/// An elastic-plastic metal, whose elements fail if told.
+/// An elastic-plastic metal, whose elements fail if reported.
 fn metal(fails: bool) -> Material {
     let parameters = [("young", 70e9), ("poisson", 0.3), ("density", 2700.0), ("yield", 200e6), ("hardening", 2e9)];
     Material {

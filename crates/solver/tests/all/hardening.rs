@@ -190,7 +190,7 @@ fn a_fast_bar_is_stronger_by_the_factor_of_its_rate() {
 #[test]
 fn work_less_dissipation_is_the_elastic_energy_with_rates_too() {
     // Where the load turns within a step and the rate falls, the mean stress may oppose the flow; a
-    // dissipation of zero is told then.
+    // dissipation of zero is reported then.
     struct Slow;
     impl Check for Slow {
         fn check<M: Law>(&mut self, curve: &dyn Fn(f64) -> f64, point: Point<M>, plastic: &dyn Fn(&Point<M>) -> f64) {
@@ -201,8 +201,8 @@ fn work_less_dissipation_is_the_elastic_energy_with_rates_too() {
 }
 
 #[test]
-fn parameters_that_contradict_each_other_are_told_with_a_cure() {
-    let told = |law: &str, numbers: &[(&str, f64)], lists: &[(&str, &[f64])]| {
+fn parameters_that_contradict_each_other_are_reported_with_a_cure() {
+    let reported = |law: &str, numbers: &[(&str, f64)], lists: &[(&str, &[f64])]| {
         let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
         let numbers = numbers.iter().map(|&(name, value)| (name.to_string(), value)).collect();
         let lists = lists.iter().map(|&(name, list)| (name.to_string(), list.to_vec())).collect();
@@ -210,15 +210,15 @@ fn parameters_that_contradict_each_other_are_told_with_a_cure() {
         assert!(found.iter().all(|fault| !fault.help.is_empty() && kind.parameters.iter().any(|parameter| parameter.name == fault.name)));
         found.iter().map(|fault| fault.message.clone()).collect::<Vec<_>>().join("; ")
     };
-    let curve = |strains: &[f64], stresses: &[f64]| told("j2_table", &[], &[("plastic_strain", strains), ("stress", stresses)]);
+    let curve = |strains: &[f64], stresses: &[f64]| reported("j2_table", &[], &[("plastic_strain", strains), ("stress", stresses)]);
     assert_eq!(curve(&[0.0, 0.1], &[2.0, 3.0]), "");
     assert!(curve(&[0.0, 0.1], &[2.0]).contains("1 stresses for 2"));
     assert!(curve(&[0.1, 0.2], &[2.0, 3.0]).contains("starts at 0.1"));
     assert!(curve(&[0.0, 0.2, 0.2], &[2.0, 3.0, 4.0]).contains("0.2 comes after 0.2"));
-    assert!(told("j2", &[("rate_exponent", 0.2)], &[]).contains("at least 1"));
-    assert!(told("chaboche", &[], &[("backstress_modulus", &[1.0]), ("backstress_recall", &[1.0, 2.0])]).contains("2 recalls for 1"));
-    assert!(told("johnson_cook", &[("temperature_melt", 200.0)], &[("damage", &[1.0])]).contains("melting point"));
-    assert!(told("johnson_cook", &[("temperature_melt", 1800.0)], &[("damage", &[1.0])]).contains("five constants"));
-    assert!(told("drucker_prager", &[("friction_angle", 30.0)], &[]).contains("1718.9 deg"));
-    assert!(told("drucker_prager", &[("friction_angle", 0.3), ("dilation_angle", 0.5)], &[]).contains("make energy"));
+    assert!(reported("j2", &[("rate_exponent", 0.2)], &[]).contains("at least 1"));
+    assert!(reported("chaboche", &[], &[("backstress_modulus", &[1.0]), ("backstress_recall", &[1.0, 2.0])]).contains("2 recalls for 1"));
+    assert!(reported("johnson_cook", &[("temperature_melt", 200.0)], &[("damage", &[1.0])]).contains("melting point"));
+    assert!(reported("johnson_cook", &[("temperature_melt", 1800.0)], &[("damage", &[1.0])]).contains("five constants"));
+    assert!(reported("drucker_prager", &[("friction_angle", 30.0)], &[]).contains("1718.9 deg"));
+    assert!(reported("drucker_prager", &[("friction_angle", 0.3), ("dilation_angle", 0.5)], &[]).contains("make energy"));
 }

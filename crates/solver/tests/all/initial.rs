@@ -1,5 +1,5 @@
-//! Bodies that are inside each other at the start: told with places, or their gap counts as zero, or they are
-//! moved apart without stress.
+//! Bodies that are inside each other at the start: reported with places, or their gap counts as zero, or they
+//! are moved apart without stress.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
@@ -76,7 +76,7 @@ fn a_half_model_knows_what_is_inside() {
             touch(&mut model, "block", "other");
             let mut normal = [0.0; 2];
             normal[axis] = 1.0;
-            model.symmetries.push(Symmetry { normal: embate_solver::model::in_space(normal), ..Symmetry::default() });
+            model.symmetries.push(Symmetry { normal: embate_solver::model::in_3d(normal), ..Symmetry::default() });
             model_faults(&model).len()
         };
         assert_eq!(scene(0.2), 0);
@@ -91,8 +91,8 @@ fn ignored_penetrations_are_the_zero_until_the_surfaces_part() {
     let (simulation, history) = run(&overlapping(InitialPenetration::Ignore));
     assert_eq!(history.largest("energy.contact"), 0.0);
     assert!(history.largest("energy.internal") < 1e-20 && simulation.summary().contact.unverified == 0);
-    let told = simulation.overview().initial_penetrations;
-    assert!(told.iter().any(|line| line.contains("1.400e-2 m inside") && line.contains("counts as zero")), "{told:?}");
+    let reported = simulation.overview().initial_penetrations;
+    assert!(reported.iter().any(|line| line.contains("1.400e-2 m inside") && line.contains("counts as zero")), "{reported:?}");
     // Pressed together, they push from there on.
     let mut model = overlapping(InitialPenetration::Ignore);
     model.parts[1].velocity = [0.0, -10.0, 0.0];
@@ -255,25 +255,25 @@ fn press_fit(sides: bool, to: f64, radius: f64) -> Model {
 
 #[test]
 fn the_side_of_a_hole_knows_what_is_inside_as_the_whole_body_does() {
-    let told = |model: &Model| {
-        let mut told = model_faults(model).into_iter().map(|fault| fault.message).collect::<Vec<_>>();
-        told.iter_mut().for_each(|line| *line = line.split_once(": ").map_or(String::new(), |(_, rest)| rest.to_string()));
-        told.sort();
-        told
+    let reported = |model: &Model| {
+        let mut reported = model_faults(model).into_iter().map(|fault| fault.message).collect::<Vec<_>>();
+        reported.iter_mut().for_each(|line| *line = line.split_once(": ").map_or(String::new(), |(_, rest)| rest.to_string()));
+        reported.sort();
+        reported
     };
     for radius in [0.01, 0.01005] {
-        let (of_sides, of_parts) = (told(&press_fit(true, TAU, radius)), told(&press_fit(false, TAU, radius)));
+        let (of_sides, of_parts) = (reported(&press_fit(true, TAU, radius)), reported(&press_fit(false, TAU, radius)));
         assert!(of_parts.len() == 21 && of_sides == of_parts, "{radius}: {of_sides:?} {of_parts:?}");
     }
-    assert_eq!(told(&press_fit(true, TAU, 0.00999)), Vec::<String>::new());
+    assert_eq!(reported(&press_fit(true, TAU, 0.00999)), Vec::<String>::new());
     // A half on its symmetry line, whose sides end there.
     let half = |sides: bool, radius: f64| {
         let mut model = press_fit(sides, 0.5 * TAU, radius);
         model.symmetries.push(Symmetry { normal: [0.0, 1.0, 0.0], ..Symmetry::default() });
         model
     };
-    assert_eq!(told(&half(true, 0.01005)), told(&half(false, 0.01005)));
-    assert_eq!(told(&half(true, 0.00999)), Vec::<String>::new());
+    assert_eq!(reported(&half(true, 0.01005)), reported(&half(false, 0.01005)));
+    assert_eq!(reported(&half(true, 0.00999)), Vec::<String>::new());
 }
 
 #[test]
@@ -306,13 +306,16 @@ fn solids_in_each_other(depth: f64, off: [f64; 2], what: InitialPenetration) -> 
 }
 
 #[test]
-fn solids_that_overlap_are_told_ignored_or_pushed_out_without_stress() {
+fn solids_that_overlap_are_reported_ignored_or_pushed_out_without_stress() {
     // Flush below each other, beside each other, and over the rim, where only edges cross.
     for (depth, off) in [(0.01, [0.031, 0.027]), (0.002, [-0.02, 0.013]), (0.02, [0.01, 0.0]), (0.003, [0.085, -0.083])] {
-        let told = model_faults(&solids_in_each_other(depth, off, InitialPenetration::Error));
-        assert!(!told.is_empty() && told.iter().all(|fault| fault.path == "contact[0]" && fault.help.contains("push_out")), "{told:?}");
+        let reported = model_faults(&solids_in_each_other(depth, off, InitialPenetration::Error));
+        assert!(
+            !reported.is_empty() && reported.iter().all(|fault| fault.path == "contact[0]" && fault.help.contains("push_out")),
+            "{reported:?}"
+        );
         let deepest = format!("{depth:.3e} m inside");
-        assert!(told.iter().any(|fault| fault.message.contains(&deepest)), "{depth} {off:?}: {told:?}");
+        assert!(reported.iter().any(|fault| fault.message.contains(&deepest)), "{depth} {off:?}: {reported:?}");
         let model = solids_in_each_other(depth, off, InitialPenetration::PushOut);
         let begin = simulation(&model);
         let lines = begin.overview().initial_penetrations;
@@ -340,17 +343,17 @@ fn what_is_held_on_both_sides_can_not_be_pushed_out_of_each_other() {
     for part in ["lower", "upper"] {
         model.constraints.push(Constraint { on: part.into(), velocity: [(); 3].map(|()| Some(0.0.into())), ..Constraint::default() });
     }
-    let told = model_faults(&model);
-    assert!(!told.is_empty() && told.iter().all(|fault| fault.message.contains("can't be pushed out")), "{told:?}");
+    let reported = model_faults(&model);
+    assert!(!reported.is_empty() && reported.iter().all(|fault| fault.message.contains("can't be pushed out")), "{reported:?}");
     // What is held on one side moves on the other.
     model.constraints.pop();
     let lower = |simulation: &embate_solver::simulation::Simulation| simulation.frame().positions::<3>().to_vec();
     let pushed = lower(&simulation(&model));
     let mut model = solids_in_each_other(0.01, [0.031, 0.027], InitialPenetration::Ignore);
-    let told = lower(&simulation(&model));
+    let reported = lower(&simulation(&model));
     model.constraints.clear();
     let moved = |from: f64, to: f64| {
-        pushed.iter().zip(&told).filter(|(a, b)| (from..to).contains(&b[2]) && (0..3).any(|d| (a[d] - b[d]).abs() > 1e-9)).count()
+        pushed.iter().zip(&reported).filter(|(a, b)| (from..to).contains(&b[2]) && (0..3).any(|d| (a[d] - b[d]).abs() > 1e-9)).count()
     };
     assert!(moved(0.0899, 0.0901) > 0 && moved(-1.0, 0.0899) == 0, "the lower cube stays");
 }
@@ -412,8 +415,8 @@ fn nodes_of_solids_are_pushed_onto_planes_balls_and_cylinders_along_their_normal
     ];
     for (shape, nearest) in cases {
         for thickness in [0.0, 0.001] {
-            let told = model_faults(&cube_in(shape.clone(), thickness, InitialPenetration::Error));
-            assert!(!told.is_empty() && told.iter().all(|fault| fault.path == "obstacle[0]"), "{shape:?}: {told:?}");
+            let reported = model_faults(&cube_in(shape.clone(), thickness, InitialPenetration::Error));
+            assert!(!reported.is_empty() && reported.iter().all(|fault| fault.path == "obstacle[0]"), "{shape:?}: {reported:?}");
             let before = simulation(&cube_in(shape.clone(), thickness, InitialPenetration::Ignore)).frame().positions::<3>().to_vec();
             let model = cube_in(shape.clone(), thickness, InitialPenetration::PushOut);
             let begin = simulation(&model);
@@ -445,13 +448,13 @@ fn nodes_of_solids_are_pushed_onto_planes_balls_and_cylinders_along_their_normal
 }
 
 #[test]
-fn what_is_held_in_an_obstacle_of_space_stays_there_and_is_told() {
+fn what_is_held_in_an_obstacle_of_3d_stays_there_and_is_reported() {
     let plane = || ObstacleShape::Plane { point: [0.0, 0.0, 0.003], normal: [0.0, 0.0, 1.0], length: None };
     let mut model = cube_in(plane(), 0.0, InitialPenetration::PushOut);
     model.constraints.push(Constraint { on: "cube".into(), velocity: [None, None, Some(0.0.into())], ..Constraint::default() });
-    let told = model_faults(&model);
-    assert!(told.iter().all(|fault| fault.path == "obstacle[0]"), "{told:?}");
-    assert!(told.iter().filter(|fault| fault.message.contains("3.000e-3 m inside")).count() == 20, "{told:?}");
+    let reported = model_faults(&model);
+    assert!(reported.iter().all(|fault| fault.path == "obstacle[0]"), "{reported:?}");
+    assert!(reported.iter().filter(|fault| fault.message.contains("3.000e-3 m inside")).count() == 20, "{reported:?}");
     // Held across, nodes of a slanted plane go the longer way that they may.
     let slant = ObstacleShape::Plane { point: [0.0, 0.0, 0.003], normal: [0.6, 0.0, 0.8], length: None };
     let mut model = cube_in(slant, 0.0, InitialPenetration::PushOut);

@@ -213,8 +213,8 @@ fn bar(angle: f64, height: f64, poisson: f64, shear: bool) -> (Simulation, f64, 
     } else {
         for y in [0.0, height] {
             model.symmetries.push(Symmetry {
-                point: embate_solver::model::in_space(turn([0.0, y])),
-                normal: embate_solver::model::in_space(turn([0.0, 1.0])),
+                point: embate_solver::model::in_3d(turn([0.0, y])),
+                normal: embate_solver::model::in_3d(turn([0.0, 1.0])),
                 ..Symmetry::default()
             });
         }
@@ -393,16 +393,17 @@ fn a_quarter_moves_like_the_whole_that_spins() {
 }
 
 #[test]
-fn joins_that_do_not_fit_and_motions_that_tear_them_are_told() {
+fn joins_that_do_not_fit_and_motions_that_tear_them_are_reported() {
     let mut model = model(1e-3);
     add(&mut model, "a", rectangle([0.0, 0.0], [0.1, 0.05], [2, 2]), [0.0; 2]);
     add(&mut model, "b", rectangle([0.1, 0.0], [0.1, 0.05], [2, 3]), [0.0; 2]);
     join(&mut model, ["a.right", "b.left"], Image::Same);
-    let told = faults(&model);
-    assert_eq!(told.len(), 1, "{told:?}");
+    let reported = faults(&model);
+    assert_eq!(reported.len(), 1, "{reported:?}");
     assert!(
-        told[0].contains("(1.000000e-1, 2.500000e-2) m of \"a.right\" has no partner in \"b.left\": the nearest node is 8.333e-3 m away"),
-        "{told:?}"
+        reported[0]
+            .contains("(1.000000e-1, 2.500000e-2) m of \"a.right\" has no partner in \"b.left\": the nearest node is 8.333e-3 m away"),
+        "{reported:?}"
     );
     // Images must fit in both directions.
     model.joins.clear();
@@ -414,8 +415,8 @@ fn joins_that_do_not_fit_and_motions_that_tear_them_are_told() {
     let hold =
         |on: &str, velocity: f64| Constraint { on: on.into(), velocity: [Some(velocity.into()), None, None], ..Constraint::default() };
     model.constraints = vec![hold("a.left", 0.0), hold("a.right", 2.0)];
-    let told = faults(&model);
-    assert!(told.len() == 3 && told[0].contains("constraint[0] on \"a.left\" already moves it at 0 m/s"), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.len() == 3 && reported[0].contains("constraint[0] on \"a.left\" already moves it at 0 m/s"), "{reported:?}");
     model.constraints = vec![hold("a.left", 2.0), hold("a.right", 2.0)];
     assert_eq!(faults(&model), Vec::<String>::new());
     // A drive of one side moves the other one too.

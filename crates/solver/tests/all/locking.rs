@@ -1,6 +1,6 @@
-//! Elements of space do not lock: beams of one element through the thickness, Cook's membrane as a slab, a
+//! Elements in 3D do not lock: beams of one element through the thickness, Cook's membrane as a slab, a
 //! pressed block that can hardly change its volume; by the tangent stiffness at rest, against closed forms
-//! and the elements of the plane. The slab's frame is that of `nodal_pressure.rs`.
+//! and the elements in 2D. The slab's frame is that of `nodal_pressure.rs`.
 
 use crate::nodal_pressure::{deflection, membrane, solve};
 use crate::patches::{Body, Patch, Spread, YOUNG, material, nodes_of, stiffness};
@@ -223,18 +223,18 @@ fn a_block_that_cannot_change_its_volume_still_gives_way_under_half_of_its_top()
 }
 
 #[test]
-fn assumed_strain_in_space_gives_back_what_it_took_however_an_element_is_folded() {
+fn assumed_strain_in_3d_gives_back_what_it_took_however_an_element_is_folded() {
     let mut numbers = Spread::new(31);
     for round in 0..20 {
         let start = distorted(ASSUMED, 0.3, 2.0, &mut numbers);
         let mut body = Body::single(ASSUMED, &material("neo_hookean", 0.3), &start);
         assert!(body.report.hourglass.abs() < 1e-25 * YOUNG, "nothing is stored at the start: {}", body.report.hourglass);
         for _ in 0..5 {
-            let there: Vec<Vector> = start.iter().map(|&x| plus(x, 1.0, numbers.in_space(0.6))).collect();
+            let there: Vec<Vector> = start.iter().map(|&x| plus(x, 1.0, numbers.in_3d(0.6))).collect();
             body.move_to(&there);
         }
         assert!(body.report.hourglass > 0.0);
-        let q = rotation(numbers.in_space(1.0), 2.0);
+        let q = rotation(numbers.in_3d(1.0), 2.0);
         body.move_to(&start.iter().map(|&x| apply(&q, x)).collect::<Vec<_>>());
         let force = body.forces().into_iter().flatten().fold(0.0f64, |most, f| most.max(f.abs()));
         assert!(body.report.hourglass.abs() < 1e-25 * YOUNG && force < 1e-11 * YOUNG, "{round}: {} {force}", body.report.hourglass);

@@ -1,4 +1,4 @@
-//! What every registered law promises by itself, in plane strain and in space: rest, objectivity, energy,
+//! What every registered law promises by itself, in plane strain and in 3D: rest, objectivity, energy,
 //! dissipation, stiffness, equal bits.
 
 use crate::patches::{Spread, YOUNG, eigenvalues, lists, options, parameters, solids};
@@ -368,7 +368,7 @@ fn dissipation<M: Law, T: Shown>() {
 }
 every_law!(dissipation_is_never_negative, dissipation);
 
-/// Updates of a law in space for batches of kinematics; everything that comes out, as bits.
+/// Updates of a law in 3D for batches of kinematics; everything that comes out, as bits.
 struct Updates<'a, M: Law>(&'a M, &'a [[Batch; 13]]);
 
 impl<M: Law> Kernel for Updates<'_, M> {

@@ -53,27 +53,27 @@ fn has_triangles() -> bool {
 fn triangles_without_an_element_for_them_are_named_and_counted() {
     let mut model = block(6, cells(6));
     model.parts[0].element_triangles = "tri33".into();
-    let told = faults(&model);
-    assert!(told.len() == 1 && told[0].contains("group `body` has 48 triangles"), "{told:?}");
-    let cure = if has_triangles() { "part[0].element_triangles" } else { "Recombine Surface" };
-    assert!(told[0].contains(cure), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.len() == 1 && reported[0].contains("group `body` has 48 triangles"), "{reported:?}");
+    let remedy = if has_triangles() { "part[0].element_triangles" } else { "Recombine Surface" };
+    assert!(reported[0].contains(remedy), "{reported:?}");
 }
 
 #[test]
-fn clockwise_elements_are_told_by_their_numbers_and_counted_beyond_twenty() {
+fn clockwise_elements_are_reported_by_their_numbers_and_counted_beyond_twenty() {
     let quads = (0..36).map(|k| [7 * (k / 6) + k % 6, 7 * (k / 6) + k % 6 + 1, 7 * (k / 6) + k % 6 + 8, 7 * (k / 6) + k % 6 + 7]);
     let mut cells: Vec<Vec<u32>> = quads.map(Vec::from).collect();
     cells[10..].iter_mut().for_each(|cell| cell.reverse());
-    let told = faults(&block(6, cells));
-    assert_eq!(told.len(), 21);
-    assert!(told[0].contains("element 10 of part \"block\" at (") && told[0].contains("negative area"), "{}", told[0]);
-    assert!(told[19].contains("element 29 of part") && told[20].contains("and 6 more elements like these"), "{told:?}");
+    let reported = faults(&block(6, cells));
+    assert_eq!(reported.len(), 21);
+    assert!(reported[0].contains("element 10 of part \"block\" at (") && reported[0].contains("negative area"), "{}", reported[0]);
+    assert!(reported[19].contains("element 29 of part") && reported[20].contains("and 6 more elements like these"), "{reported:?}");
 }
 
 #[test]
 fn a_part_of_quadrilaterals_and_triangles_keeps_its_numbers_and_its_mass() {
     if !has_triangles() {
-        return; // What happens then is told above.
+        return; // What happens then is reported above.
     }
     let (n, density) = (6, material("elastic", 0.3).parameters["density"]);
     let model = block(n, cells(n));

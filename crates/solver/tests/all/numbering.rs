@@ -1,4 +1,4 @@
-//! Contact in space with friction hangs on no numbering: corners of elements, nodes, elements and parts in
+//! Contact in 3D with friction hangs on no numbering: corners of elements, nodes, elements and parts in
 //! another order, or the whole model turned, give the same motion.
 
 use crate::bodies::*;
@@ -62,7 +62,7 @@ fn corners(cell: &[u32], turns: usize) -> Vec<u32> {
     cell
 }
 
-/// The same model with each mesh made anew.
+/// The same model with each mesh made again.
 fn remade(model: &Model, make: impl Fn(&mut ImportedMesh)) -> Model {
     let mut model = model.clone();
     for mesh in &mut model.meshes {

@@ -185,10 +185,10 @@ fn the_end_of_a_plane_stops_a_segment_between_its_nodes() {
         if free {
             assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12, "{summary:?}");
         }
-        // A plate that begins in the block is told, and pushed out of it.
+        // A plate that begins in the block is reported, and pushed out of it.
         model.parts[0].shape = rectangle([-0.051, -0.003], [0.1, 0.1], [1, 1]);
-        let told = faults(&model);
-        assert!(told.len() == 1 && told[0].contains("obstacle[0]") && told[0].contains("inside"), "{told:?}");
+        let reported = faults(&model);
+        assert!(reported.len() == 1 && reported[0].contains("obstacle[0]") && reported[0].contains("inside"), "{reported:?}");
         model.obstacles[0].interface.initial_penetration = InitialPenetration::PushOut;
         model.parts[0].velocity = [0.0; 3];
         let moved = to_end(&model);
@@ -197,7 +197,7 @@ fn the_end_of_a_plane_stops_a_segment_between_its_nodes() {
 }
 
 #[test]
-fn a_plane_that_ends_at_or_beyond_a_symmetry_line_goes_on_there() {
+fn a_plane_that_ends_at_or_beyond_a_symmetry_line_continues_there() {
     // Half of a block on half of a plate, and on a whole one, as a whole block on a whole plate.
     let plate = |from: f64, to: f64| ObstacleShape::Plane {
         point: [0.5 * (from + to), -1e-4, 0.0],
@@ -329,10 +329,10 @@ fn what_is_behind_an_obstacle_at_the_start_is_refused_ignored_or_pushed_out() {
         let mut model = model(2e-4);
         add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, 4]), [0.0, 0.0]);
         model.obstacles.push(Obstacle::fixed("floor", shape.clone()));
-        let told = faults(&model);
+        let reported = faults(&model);
         assert!(
-            !told.is_empty() && told.iter().all(|fault| fault.contains("obstacle[0]") && fault.contains("inside")),
-            "{shape:?}: {told:?}"
+            !reported.is_empty() && reported.iter().all(|fault| fault.contains("obstacle[0]") && fault.contains("inside")),
+            "{shape:?}: {reported:?}"
         );
 
         model.obstacles[0].interface.initial_penetration = InitialPenetration::Ignore;
@@ -347,8 +347,8 @@ fn what_is_behind_an_obstacle_at_the_start_is_refused_ignored_or_pushed_out() {
         model.parts[0].velocity = [0.0; 3];
         model.obstacles[0].interface.initial_penetration = InitialPenetration::PushOut;
         let moved = to_end(&model);
-        let told = moved.overview().initial_penetrations;
-        assert!(told.iter().all(|line| line.contains("floor") && line.contains("pushed out")) && !told.is_empty(), "{told:?}");
+        let reported = moved.overview().initial_penetrations;
+        assert!(reported.iter().all(|line| line.contains("floor") && line.contains("pushed out")) && !reported.is_empty(), "{reported:?}");
         assert!(moved.summary().penetration_max < 1e-9 && moved.ledger().stores.total() < 1e-6, "{shape:?}: {:?}", moved.ledger().stores);
     }
 }

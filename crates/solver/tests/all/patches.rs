@@ -28,7 +28,7 @@ impl Spread {
     pub(crate) fn vector(&mut self, size: f64) -> [f64; 2] {
         [self.between(-size, size), self.between(-size, size)]
     }
-    pub(crate) fn in_space(&mut self, size: f64) -> [f64; 3] {
+    pub(crate) fn in_3d(&mut self, size: f64) -> [f64; 3] {
         std::array::from_fn(|_| self.between(-size, size))
     }
 }
@@ -117,7 +117,7 @@ pub(crate) fn lists(kind: &LawKind) -> BTreeMap<String, Vec<f64>> {
 pub(crate) fn material(law: &str, poisson: f64) -> Material {
     let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
     let mut lists = lists(kind);
-    // What is told of bodies holds while they stand still: nothing may relax meanwhile. Laws by themselves
+    // What is said about bodies holds while they stand still: nothing may relax meanwhile. Laws by themselves
     // are tested with short times.
     lists.entry("relaxation_time".into()).and_modify(|times| times.fill(1e12));
     Material { law: law.into(), parameters: parameters(kind, poisson), lists, ..Material::default() }

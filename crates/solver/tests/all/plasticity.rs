@@ -97,8 +97,8 @@ fn the_work_of_plastic_flow_is_found_in_elastic_energy_and_dissipation() {
         }
         let [xx, yy, zz, ..] = body.block.state(0).stress;
         let (q, p) = (xx - yy, (xx + yy + zz) / 3.0);
-        // Per current volume 1.03; work went into smaller volumes on the way, which a second path tells: see
-        // `expected`.
+        // Per current volume 1.03; work went into smaller volumes on the way, which a second path reports:
+        // see `expected`.
         let mut expected = 0.0;
         let fine = 100_000;
         for k in 0..fine {

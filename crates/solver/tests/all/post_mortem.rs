@@ -1,11 +1,11 @@
-//! What a failed run knows of its failure: the culprit, and the way to the failure once more, which changes
-//! nothing.
+//! What a failed run knows of its failure: the failure location, and the way to the failure once more, which
+//! changes nothing.
 
 use crate::bodies::*;
 use embate_solver::error::Error;
 use embate_solver::model::{MassScaling, Model, Obstacle, ObstacleShape};
 use embate_solver::output::Frame;
-use embate_solver::post_mortem::{Culprit, MassNeeded, Suspect, Trace};
+use embate_solver::post_mortem::{FailureEntity, FailureLocation, MassNeeded, Trace};
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
 
 /// Listens to nothing.
@@ -45,26 +45,29 @@ fn failed(model: &Model) -> (Simulation, Error) {
     (simulation, error)
 }
 
-fn traced(model: &Model, suspect: &Suspect, failed: &Simulation, from: u64, threads: usize) -> (Simulation, Trace) {
+fn traced(model: &Model, failure_entity: &FailureEntity, failed: &Simulation, from: u64, threads: usize) -> (Simulation, Trace) {
     let mut again = Simulation::new(model, &Options { threads, simd: None }).unwrap();
-    again.follow(suspect, failed, from);
+    again.follow(failure_entity, failed, from);
     again.run(&mut Deaf).unwrap_err();
     let trace = again.take_trace().unwrap();
     (again, trace)
 }
 
 #[test]
-fn a_culprit_is_followed_to_its_failure_with_the_same_bits() {
+fn a_failure_location_is_followed_to_its_failure_with_the_same_bits() {
     let model = punched();
     let (first, error) = failed(&model);
-    let suspect = first.suspect(&error);
+    let failure_entity = first.failure_entity(&error);
     let Error::Inverted { part, element, at, step, .. } = &error else { panic!("{error}") };
-    assert_eq!(first.culprit(&suspect), Culprit::Element { part: part.clone(), element: *element, at: [at[0], at[1], 0.0] });
+    assert_eq!(
+        first.failure_location(&failure_entity),
+        FailureLocation::Element { part: part.clone(), element: *element, at: [at[0], at[1], 0.0] }
+    );
     assert!(*step > 10, "{error}");
-    let (again, trace) = traced(&model, &suspect, &first, step - 5, 2);
+    let (again, trace) = traced(&model, &failure_entity, &first, step - 5, 2);
     assert_eq!(again.summary().state_hash, first.summary().state_hash);
     assert_eq!(trace.moments.iter().map(|moment| moment.step).collect::<Vec<_>>(), (step - 5..=*step).collect::<Vec<_>>());
-    let now = first.trace_now(&suspect, Some(&error));
+    let now = first.trace_now(&failure_entity, Some(&error));
     assert_eq!(format!("{:?}", trace.moments.last().unwrap()), format!("{:?}", now.moments[0]), "the step that failed is the same");
     // The last good state is that of a run that stops there.
     let mut shorter = model.clone();
@@ -79,10 +82,10 @@ fn a_culprit_is_followed_to_its_failure_with_the_same_bits() {
 }
 
 #[test]
-fn three_rings_hang_together_with_the_culprit() {
+fn three_rings_hang_together_with_the_failure_location() {
     let model = punched();
     let (simulation, error) = failed(&model);
-    let near = simulation.neighbourhood(&simulation.suspect(&error));
+    let near = simulation.neighbourhood(&simulation.failure_entity(&error));
     let own = &near.cells[near.element.unwrap()];
     assert_eq!(own.ring, Some(0));
     // On a grid of 6 by 6 the ring is the larger of the distances in both directions.

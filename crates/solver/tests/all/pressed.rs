@@ -57,7 +57,7 @@ fn wander<M: Law>(mut body: Point<M>, inside: impl Fn(&Point<M>) -> f64) {
         assert!(excess < 1e-10 * (1.0 + size * YOUNG), "{step}: {excess}");
         let dissipated = body.dissipated - before.dissipated;
         let gap = (body.work - before.work) - (body.elastic_energy() - before.elastic_energy()) - dissipated;
-        // A dissipation that would be negative is told as zero.
+        // A dissipation that would be negative is reported as zero.
         assert!(gap < 1e-11 * (1.0 + body.work.abs()), "{step}: {gap}");
         assert!(gap > -1e-11 * (1.0 + body.work.abs()) || dissipated == 0.0, "{step}: {gap}");
     }

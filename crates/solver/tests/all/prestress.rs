@@ -1,5 +1,5 @@
 //! Stress and temperature at the start: bodies in equilibrium stay at rest, released bars send out the waves
-//! of the closed form, energies are in the books from the start, and what a law can't hold is refused.
+//! of the closed form, energies are in the ledger from the start, and what a law can't hold is refused.
 
 use crate::bodies::*;
 use crate::patches::{Body, Patch, YOUNG, every_pair, material, patch};
@@ -42,7 +42,7 @@ fn a_block_under_the_pressure_that_its_stress_asks_for_stays_at_rest() {
             let part = &mut model.parts[0];
             (part.element, part.element_triangles) = (kind.name.into(), kind.name.into());
             part.stress_state = state.into();
-            // Radial and hoop stress of a body of revolution are alike, or it would not rest.
+            // Radial and hoop stress of an axisymmetric body are alike, or it would not rest.
             let zz = if state == "plane_stress" { 0.0 } else { -3e6 };
             part.stress_initial = Some(InitialStress::uniform([-3e6, -5e6, zz, 0.0]));
             if kind.nodes() == 3 {

@@ -134,7 +134,7 @@ fn a_node_beyond_an_open_end_has_no_contact() {
 }
 
 #[test]
-fn at_a_symmetry_line_the_mirrored_half_goes_on() {
+fn at_a_symmetry_line_the_mirrored_half_continues() {
     // Half a wedge that points up (convex), then half a notch (concave), cut at x = 0.
     for (slope, x, inside) in [(-1.0, [-0.02, 0.03], false), (-1.0, [-0.02, 0.01], false), (1.0, [0.0, -0.05], true)] {
         let points = [[0.0, 0.0], [1.0, slope]];
@@ -350,7 +350,7 @@ fn a_node_that_grazes_or_leaves_does_not_come_in() {
     // Out of it: no way in.
     assert_eq!(entry(&target, [1.2, 0.2], [1.3, 0.4], &points, &points), None);
     assert_eq!(entry(&target, [1.2, 0.25 - 1e-12], [1.3, 4.0], &points, &points), None);
-    // Everything in rigid motion together: nobody meets anybody.
+    // Everything in rigid motion together: no one meets anybody.
     let moved: Vec<Vector> = points.iter().map(|p| [p[0] + 7.0, p[1] - 3.0]).collect();
     assert_eq!(entry(&target, [1.25, 0.5], [8.25, -2.5], &points, &moved), None);
 }

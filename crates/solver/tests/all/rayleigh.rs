@@ -1,4 +1,4 @@
-//! Damping in proportion to mass and stiffness: decay of modes, its work in the books, its stable step, and
+//! Damping in proportion to mass and stiffness: decay of modes, its work in the ledger, its stable step, and
 //! what it does not touch.
 
 use crate::bodies::*;
@@ -22,7 +22,7 @@ fn damp(model: &mut Model, rate: f64, time: f64) {
 
 fn hold(model: &mut Model, on: &str, held: [bool; 2]) {
     let velocity = held.map(|held| held.then_some(Drive::Constant(0.0)));
-    model.constraints.push(Constraint { on: on.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
+    model.constraints.push(Constraint { on: on.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
 }
 
 /// Elements of these lengths, each held on the left and free to swing along x on the right: ω² = 2 c²/L². The

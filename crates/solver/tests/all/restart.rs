@@ -1,8 +1,8 @@
-//! A run that is stopped and goes on with its kept state is the run that was never stopped, to the last bit:
-//! for every entry of every registry, on any number of threads and instruction set.
+//! A run that is stopped and continues with its kept state is the run that was never stopped, to the last
+//! bit: for every entry of every registry, on any number of threads and instruction set.
 //!
 //! With the environment variable `EMBATE_STOPS` every run of every other test here that goes through `bodies`
-//! is stopped and goes on several times, too (`bodies::run`).
+//! is stopped and continues several times, too (`bodies::run`).
 
 use crate::bodies::*;
 use crate::contact::scenes;
@@ -23,7 +23,7 @@ use embate_solver::quantity::Parameter;
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
 use embate_solver::stress_state::STRESS_STATES;
 
-/// All that a run tells, as bits.
+/// All that a run reports, as bits.
 #[derive(Default)]
 struct Told {
     rows: Vec<Vec<u64>>,
@@ -101,10 +101,10 @@ fn figures(simulation: &Simulation) -> Summary {
     Summary { threads: 0, simd: String::new(), ..simulation.summary() }
 }
 
-fn told(mut simulation: Simulation) -> (Simulation, Told, Option<Error>) {
-    let mut told = Told::default();
-    let error = simulation.run(&mut told).err();
-    (simulation, told, error)
+fn reported(mut simulation: Simulation) -> (Simulation, Told, Option<Error>) {
+    let mut reported = Told::default();
+    let error = simulation.run(&mut reported).err();
+    (simulation, reported, error)
 }
 
 /// Options in turn: threads and instruction sets.
@@ -113,9 +113,9 @@ fn other(number: usize) -> Options {
     Options { threads: 1 + number % 3, simd: Some(levels[number % levels.len()].name().to_string()) }
 }
 
-/// Holds runs that go on against one that was never stopped: `steps` steps of the model, stopped at some of
-/// them.
-fn goes_on(what: &str, model: &Model, steps: u64) {
+/// Holds runs that continue against one that was never stopped: `steps` steps of the model, stopped at some
+/// of them.
+fn continues(what: &str, model: &Model, steps: u64) {
     let mut model = model.clone();
     model.run.max_steps = Some(steps);
     // Neither divides the other, nor the stages of a run.
@@ -123,9 +123,9 @@ fn goes_on(what: &str, model: &Model, steps: u64) {
     model.run.energy_limit = 10.0;
     let start =
         |model: &Model| Simulation::new(model, &Options { threads: 1, simd: None }).unwrap_or_else(|error| panic!("{what}: {error}"));
-    let (whole, expected, error) = told(start(&model));
+    let (whole, expected, error) = reported(start(&model));
     model.run.checkpoint_steps = Some((whole.steps() / 3).max(1));
-    let (again, kept, _) = told(start(&model));
+    let (again, kept, _) = reported(start(&model));
     assert!(kept.rows == expected.rows && kept.frames == expected.frames, "{what}: a state that is handed out leaves a trace");
     assert!(figures(&again) == figures(&whole), "{what}: {:?} {:?}", figures(&again), figures(&whole));
     assert!(kept.states.len() >= 2, "{what}: {} steps", whole.steps());
@@ -139,7 +139,7 @@ fn goes_on(what: &str, model: &Model, steps: u64) {
         there.advance(f64::INFINITY, state.step).unwrap();
         assert_eq!(seen(&here.frame()), seen(&there.frame()), "{what}: frame at step {}", state.step);
         assert_eq!(bits(&here.history_row()), bits(&there.history_row()), "{what}: row at step {}", state.step);
-        let (end, rest, end_error) = told(resumed());
+        let (end, rest, end_error) = reported(resumed());
         assert_eq!(end_error, error, "{what}");
         assert!(rest.rows == expected.rows[*rows..], "{what}: rows from step {}", state.step);
         assert!(rest.frames == expected.frames[*frames..], "{what}: frames from step {}", state.step);
@@ -186,16 +186,16 @@ fn of_law(name: &str, more: &[(&str, f64)]) -> Material {
 }
 
 #[test]
-fn runs_of_every_law_go_on() {
+fn runs_of_every_law_continue_run() {
     for kind in LAWS.iter().filter(|law| equation_of_state(law.name).is_some_and(|[needs, _]| !needs)) {
         for more in options(kind) {
-            goes_on(&format!("{} {more:?}", kind.name), &block("quad4", of_law(kind.name, &more), ""), 90);
+            continues(&format!("{} {more:?}", kind.name), &block("quad4", of_law(kind.name, &more), ""), 90);
         }
     }
 }
 
 #[test]
-fn runs_of_every_equation_of_state_go_on() {
+fn runs_of_every_equation_of_state_continue_run() {
     // Pressures of the order of YOUNG; a new equation is met with what its parameters are by themselves.
     let value = |parameter: &Parameter| match parameter.name {
         "gamma" => 1.4,
@@ -228,12 +228,12 @@ fn runs_of_every_equation_of_state_go_on() {
         let mut model = block("quad4", material, "");
         model.parts[0].spin = 0.0;
         model.run.bulk_viscosity = [0.06, 1.2];
-        goes_on(equation.name, &model, 60);
+        continues(equation.name, &model, 60);
     }
 }
 
 #[test]
-fn runs_of_every_element_and_stress_state_go_on() {
+fn runs_of_every_element_and_stress_state_continue_run() {
     for element in ELEMENTS {
         for state in STRESS_STATES {
             for law in ["j2", "neo_hookean"] {
@@ -243,7 +243,7 @@ fn runs_of_every_element_and_stress_state_go_on() {
                     model.loads.push(Load::StiffnessDamping { parts: vec![], time: 1e-3 });
                 }
                 if Simulation::new(&model, &Options { threads: 1, simd: None }).is_ok() {
-                    goes_on(&format!("{} {} {law}", element.name, state.name), &model, 60);
+                    continues(&format!("{} {} {law}", element.name, state.name), &model, 60);
                 } else {
                     assert_eq!(state.name, "plane_stress", "{} {law}", element.name);
                 }
@@ -253,7 +253,7 @@ fn runs_of_every_element_and_stress_state_go_on() {
 }
 
 #[test]
-fn runs_of_bars_springs_and_point_masses_go_on() {
+fn runs_of_bars_springs_and_point_masses_continue_run() {
     for bar in BARS {
         let mut model = block("quad4", elastic_of_patches(), "");
         let lines = vec![vec![[0.5, 1.2], [1.0, 1.9], [1.5, 1.2]], vec![[1.0, 1.9], [1.0, 2.6]]];
@@ -276,12 +276,12 @@ fn runs_of_bars_springs_and_point_masses_go_on() {
         model.springs.push(Spring { between: between.clone(), stiffness: 30.0, damping: 0.5, strength: Some(2.0), ..Spring::default() });
         let curve = Spring { elongation: vec![-0.1, 0.0, 0.2], force: vec![-3.0, 0.0, 1.0], ..Spring::default() };
         model.springs.push(Spring { between, ..curve });
-        goes_on(bar.name, &model, 90);
+        continues(bar.name, &model, 90);
     }
 }
 
 #[test]
-fn runs_of_every_contact_go_on() {
+fn runs_of_every_contact_continue_run() {
     let soft_layer = ContactLaw::PressureGap { gaps: vec![-1e-3, -2e-4, 1e-4], pressures: vec![3e8, 2e7, 0.0] };
     let laws = [ContactLaw::default(), soft_layer, ContactLaw::Multiplier];
     let friction = Friction { coefficient: 0.3, dynamic: Some(0.2), decay: 0.1, viscosity: 0.0, limit: f64::INFINITY };
@@ -297,44 +297,44 @@ fn runs_of_every_contact_go_on() {
                     contact.formulation = formulation;
                     contact.interface = Interface { law: law.clone(), friction: (at % 2 == 0).then_some(friction), ..Interface::default() };
                 }
-                goes_on(&format!("{formulation:?} {law:?} {name}"), &model, 400);
+                continues(&format!("{formulation:?} {law:?} {name}"), &model, 400);
             }
         }
     }
 }
 
 #[test]
-fn runs_with_every_search_go_on() {
+fn runs_with_every_search_continue_run() {
     for search in registry::<2>() {
         let (_, mut model, _) = scenes().swap_remove(1);
         for contact in &mut model.contacts {
             contact.search = search.name.into();
         }
-        goes_on(search.name, &model, 500);
+        continues(search.name, &model, 500);
     }
 }
 
 #[test]
-fn runs_of_bodies_in_themselves_go_on() {
+fn runs_of_bodies_in_themselves_continue_run() {
     for formulation in [Formulation::DoublePass, Formulation::Segment, Formulation::Pinball] {
         let mut model = crushed_ring();
         model.parts.iter_mut().filter(|part| part.name != "ring").for_each(|plate| plate.velocity[1] *= 8.0);
         model.contacts[0].formulation = formulation;
         model.contacts[0].interface.thickness = 1e-4;
-        goes_on(&format!("{formulation:?}"), &model, 900);
+        continues(&format!("{formulation:?}"), &model, 900);
     }
 }
 
 #[test]
-fn runs_in_which_elements_are_eroded_go_on() {
+fn runs_in_which_elements_are_eroded_continue_run() {
     for formulation in [Formulation::DoublePass, Formulation::Segment, Formulation::Pinball] {
         let mut model = bullet([6, 60]);
         model.contacts[0].formulation = formulation;
         model.contacts[0].interface.friction = rough(0.2).friction;
         model.obstacles.push(Obstacle::wall("behind", [0.03, 0.0], [-1.0, 0.0]));
-        let (whole, _, _) = told(simulation(&model));
+        let (whole, _, _) = reported(simulation(&model));
         assert!(whole.summary().erosion.is_some());
-        goes_on(&format!("{formulation:?}"), &model, whole.steps());
+        continues(&format!("{formulation:?}"), &model, whole.steps());
     }
     for kind in CRITERIA {
         let limit = match kind.limit.name {
@@ -343,17 +343,17 @@ fn runs_in_which_elements_are_eroded_go_on() {
             "time_step" => 5e-7,
             _ => continue,
         };
-        goes_on(kind.limit.name, &torn_bar(&[(kind.limit.name, limit)]), 250);
+        continues(kind.limit.name, &torn_bar(&[(kind.limit.name, limit)]), 250);
     }
     // All elements of a part, and of whole chunks, are gone.
     let mut model = torn_bar(&[("plastic_strain", 0.02)]);
     model.parts[1].material = "weak".into();
     all(&mut model);
-    goes_on("all of it", &model, 300);
+    continues("all of it", &model, 300);
 }
 
 #[test]
-fn runs_of_ties_that_break_and_contacts_that_begin_later_go_on() {
+fn runs_of_ties_that_break_and_contacts_that_begin_later_continue_run() {
     for formulation in [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }] {
         for (active, strength) in [([0.0, f64::INFINITY], f64::INFINITY), ([0.0, 4e-4], 2e6), ([1e-4, 5e-4], 2e6)] {
             let mut model = model(1e-3);
@@ -361,13 +361,13 @@ fn runs_of_ties_that_break_and_contacts_that_begin_later_go_on() {
             add(&mut model, "right", rectangle([0.1, -0.01], [0.12, 0.12], [9, 7]), [3.0, 1.0]);
             let interface = Interface { active, ..rough(0.3) };
             model.contacts.push(Contact { formulation, tied: Some(strength), interface, ..Contact::between("tie", "left", "right") });
-            goes_on(&format!("{formulation:?} {active:?} {strength}"), &model, 220);
+            continues(&format!("{formulation:?} {active:?} {strength}"), &model, 220);
         }
     }
 }
 
 #[test]
-fn runs_against_every_obstacle_go_on() {
+fn runs_against_every_obstacle_continue_run() {
     let shapes = [
         ObstacleShape::Plane { point: [0.05, -0.006, 0.0], normal: [0.1, 1.0, 0.0], length: None },
         ObstacleShape::Plane { point: [0.05, -0.0008, 0.0], normal: [0.0, 1.0, 0.0], length: Some(0.12) },
@@ -387,12 +387,12 @@ fn runs_against_every_obstacle_go_on() {
             obstacle.motion.velocity[1] = Some(Drive::Curve("up".into()));
         }
         model.obstacles.push(obstacle);
-        goes_on(&format!("{:?}", model.obstacles[0].shape), &model, 300);
+        continues(&format!("{:?}", model.obstacles[0].shape), &model, 300);
     }
 }
 
 #[test]
-fn runs_with_loads_rigid_parts_joins_and_relaxation_go_on() {
+fn runs_with_loads_rigid_parts_joins_and_relaxation_continue_run() {
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [1.0, -3.0]);
     add(&mut model, "rider", rectangle([0.0, 0.1], [0.1, 0.04], [5, 2]), [0.0, 0.0]);
@@ -414,25 +414,25 @@ fn runs_with_loads_rigid_parts_joins_and_relaxation_go_on() {
     });
     model.non_reflecting.push(NonReflecting { on: "block.left".into() });
     model.parts[0].stress_initial = Some(InitialStress::uniform([-1e5, 0.0, 0.0, 0.0]));
-    goes_on("loads", &model, 250);
+    continues("loads", &model, 250);
     model.run.relaxation = Some(Relaxation { tolerance: 1e-2, from: 0.0 });
     model.joins.clear();
-    goes_on("relaxation", &model, 250);
+    continues("relaxation", &model, 250);
 }
 
 #[test]
-fn runs_in_a_plane_of_symmetry_go_on() {
+fn runs_in_a_plane_of_symmetry_continue_run() {
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.02], [10, 3]), [0.0, 4.0]);
     add(&mut model, "ball", Shape::Disk(Disk { centre: [0.05, 0.051], radius: 0.03, elements: 3 }), [-30.0, -12.0]);
     model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
     all(&mut model);
-    goes_on("mirror", &model, 400);
+    continues("mirror", &model, 400);
 }
 
 /// Many elements, so that threads share the work.
 #[test]
-fn large_runs_go_on_with_another_number_of_threads() {
+fn large_runs_continue_run_with_another_number_of_threads() {
     for formulation in [Formulation::DoublePass, Formulation::Pinball] {
         let mut model = model(1e-3);
         add(&mut model, "left", rectangle([0.0, 0.0], [0.1, 0.1], [46, 46]), [18.0, 3.0]);
@@ -440,7 +440,7 @@ fn large_runs_go_on_with_another_number_of_threads() {
         model.materials.insert("soft".into(), of_metal());
         all(&mut model);
         model.contacts[0].formulation = formulation;
-        goes_on(&format!("{formulation:?}"), &model, 45);
+        continues(&format!("{formulation:?}"), &model, 45);
     }
 }
 
@@ -485,19 +485,19 @@ fn a_state_of_another_model_or_with_pieces_missing_is_refused_and_none_makes_a_p
 }
 
 #[test]
-fn a_run_that_goes_on_may_end_later_than_it_was_meant_to() {
+fn a_run_that_continues_may_end_later_than_it_was_meant_to() {
     let (_, mut model, _) = scenes().swap_remove(0);
     let end = model.run.end;
     model.run.safety = 0.2;
-    let (whole, expected, _) = told(simulation(&model));
+    let (whole, expected, _) = reported(simulation(&model));
     model.run.end = 0.5 * end;
     (model.output.history, model.output.fields) = (Cadence::Interval(end / 1000.0), Cadence::Interval(end / 100.0));
     // Before the last steps, which meet the end with equal ones.
     model.run.checkpoint_steps = Some(20);
-    let (_, kept, _) = told(simulation(&model));
+    let (_, kept, _) = reported(simulation(&model));
     let (first, counts) = (&kept.states[0], kept.counts[0]);
     model.run.end = end;
-    let (later, rest, _) = told(Simulation::resumed(&model, &other(1), &first.sections).unwrap());
+    let (later, rest, _) = reported(Simulation::resumed(&model, &other(1), &first.sections).unwrap());
     assert_eq!(later.summary().state_hash, whole.summary().state_hash);
     let frames: Vec<_> = kept.frames[..counts[1]].iter().chain(&rest.frames).cloned().collect();
     assert!(frames == expected.frames && kept.rows[..counts[0]].iter().chain(&rest.rows).eq(&expected.rows));
@@ -518,8 +518,8 @@ fn a_window_shows_the_steps_of_the_whole_run() {
     let mut start = simulation(&model);
     start.advance(f64::INFINITY, 20).unwrap();
     let mut window = Simulation::resumed(&model, &other(1), &start.state().unwrap().sections).unwrap();
-    let mut told = Told::default();
-    window.run_window([from, to], 1e-9, &mut told).unwrap();
+    let mut reported = Told::default();
+    window.run_window([from, to], 1e-9, &mut reported).unwrap();
     assert_eq!(window.summary().state_hash, whole.summary().state_hash);
-    assert!(told.frames == every && told.rows.len() == every.len(), "{} {}", told.frames.len(), every.len());
+    assert!(reported.frames == every && reported.rows.len() == every.len(), "{} {}", reported.frames.len(), every.len());
 }

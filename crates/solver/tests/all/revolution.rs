@@ -1,4 +1,4 @@
-//! Contact of bodies of revolution against closed forms: areas are those of the whole circumference, the axis
+//! Contact of axisymmetric bodies against closed forms: areas are those of the whole circumference, the axis
 //! included.
 //!
 //! Two equal rods end on, ν = 0: force ½ ρ c v π R² for 2L/c, with the same pressure on every node.
@@ -235,7 +235,7 @@ fn a_tie_breaks_at_its_strength_all_around() {
 }
 
 #[test]
-fn what_a_body_of_revolution_cannot_do_is_told() {
+fn what_a_body_of_revolution_cannot_do_is_reported() {
     let build = |change: &dyn Fn(&mut Model)| {
         let mut model = rods(Formulation::DoublePass, Interface::default(), [2, 2], 1e-4);
         change(&mut model);

@@ -190,9 +190,9 @@ fn rigid_parts_that_something_else_holds_or_shares_are_faults() {
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [2, 1]), [0.0, 0.0]);
     stiffen(&mut model, "block", Motion::default());
     model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
-    let told = faults(&model);
+    let reported = faults(&model);
     for word in ["part[0].rigid", "block", "(0.000000e0, ", "symmetry"] {
-        assert!(told.len() == 1 && told[0].contains(word), "{word}: {told:?}");
+        assert!(reported.len() == 1 && reported[0].contains(word), "{word}: {reported:?}");
     }
     model.symmetries.clear();
     assert_eq!(faults(&model), Vec::<String>::new());
@@ -205,8 +205,8 @@ fn rigid_parts_that_something_else_holds_or_shares_are_faults() {
     for part in ["left", "right"] {
         stiffen(&mut model, part, Motion::default());
     }
-    let told = faults(&model);
-    assert!(told.len() == 1 && told[0].contains("part[1].rigid") && told[0].contains("\"left\" and \"right\""), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.len() == 1 && reported[0].contains("part[1].rigid") && reported[0].contains("\"left\" and \"right\""), "{reported:?}");
 }
 
 /// A rigid wheel on a plane with friction, gravity turned by the slope; and I / (M R²) of the wheel.

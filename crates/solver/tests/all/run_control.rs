@@ -12,7 +12,7 @@ fn uneven_bar() -> embate_solver::model::Model {
 }
 
 #[test]
-fn a_wanted_step_is_reached_and_the_added_mass_is_told_and_limited() {
+fn a_wanted_step_is_reached_and_the_added_mass_is_reported_and_limited() {
     let plain = simulation(&uneven_bar());
     let step = plain.time_step();
     let mut model = uneven_bar();
@@ -26,8 +26,8 @@ fn a_wanted_step_is_reached_and_the_added_mass_is_told_and_limited() {
     assert!((added / masses[0] - 3.0 / 11.0).abs() < 1e-9, "{}", added / masses[0]);
     assert!(scaled.summary().warnings.iter().any(|line| line.text.contains("mass scaling added")));
     model.run.mass_scaling = Some(MassScaling { time_step: 2.0 * step, limit: 0.2 });
-    let told = faults(&model);
-    assert!(told.len() == 1 && told[0].contains("the limit is"), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.len() == 1 && reported[0].contains("the limit is"), "{reported:?}");
 }
 
 #[test]

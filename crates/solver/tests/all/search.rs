@@ -1,4 +1,4 @@
-//! What every global search promises, for whatever the registry holds, in the plane and in space: a superset
+//! What every global search promises, for whatever the registry holds, in 2D and 3D: a superset
 //! of the true pairs and a subset of brute force's, sorted, each pair once, no facet with its own node, and
 //! the same result from a fresh object as from a used one.
 //!
@@ -185,7 +185,7 @@ fn touching_squares(n: usize) -> Scene<2> {
     Scene::still(positions, facets, 0.05)
 }
 
-/// A wavy sheet of triangles in space, n by n squares.
+/// A wavy sheet of triangles in 3D, n by n squares.
 fn sheet(n: usize, lift: f64, reach: f64) -> Scene<3> {
     let row = n as u32 + 1;
     let positions = (0..row * row)
@@ -394,7 +394,7 @@ fn numbers_near_the_end_of_the_range_are_no_trouble() {
 }
 
 #[test]
-fn a_node_lost_in_space_makes_the_grid_neither_large_nor_slow() {
+fn a_node_lost_in_3d_makes_the_grid_neither_large_nor_slow() {
     let n = 20_000_u32;
     let mut positions: Vec<_> = (0..=n).map(|i| [f64::from(i) * 1e-3, 0.0]).collect();
     positions.extend((0..=n).map(|i| [f64::from(i) * 1e-3, 5e-4]));
@@ -411,7 +411,7 @@ fn a_node_lost_in_space_makes_the_grid_neither_large_nor_slow() {
 }
 
 #[test]
-fn surfaces_in_space_are_found() {
+fn surfaces_in_3d_are_found() {
     let scene = sheet(5, 0.0, 0.1);
     check(&scene);
     let mut two = sheet(4, 0.0, 0.3);

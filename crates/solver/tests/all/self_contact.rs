@@ -81,7 +81,7 @@ fn a_body_alone_does_not_feel_itself() {
     for (name, base) in alone() {
         for (kind, velocity, spin) in [("at rest", [0.0, 0.0], 0.0), ("fast", [900.0, -400.0], 0.0), ("spinning", [10.0, 0.0], 300.0)] {
             let mut plain = base.clone();
-            plain.parts[0].velocity = embate_solver::model::in_space(velocity);
+            plain.parts[0].velocity = embate_solver::model::in_3d(velocity);
             plain.parts[0].spin = spin;
             plain.run.energy_limit = 1.0;
             plain.run.max_steps = Some(300);

@@ -1,5 +1,5 @@
 //! Shocks in gases and metals against Rankine and Hugoniot; bulk viscosity: no ringing, its work in the
-//! books, its stable step.
+//! ledger, its stable step.
 
 use crate::bodies::{add, faults, model, rectangle};
 use embate_solver::bench;
@@ -32,7 +32,7 @@ fn piston(material: Material, size: [f64; 2], elements: usize, speed: f64, end: 
         ("tube.top", [None, Some(0.0)]),
     ] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
+        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
     }
     model
 }
@@ -158,7 +158,7 @@ fn the_viscosity_of_a_fluid_takes_the_power_of_its_shear() {
     add(&mut model, "water", rectangle([0.0; 2], [1.0, 1.0], [8, 8]), [0.0; 2]);
     for (side, velocity) in [("water.bottom", [Some(0.0), Some(0.0)]), ("water.top", [Some(speed), Some(0.0)])] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
+        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
     }
     for side in ["water.left", "water.right"] {
         model.constraints.push(Constraint { on: side.into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });
@@ -174,21 +174,21 @@ fn the_viscosity_of_a_fluid_takes_the_power_of_its_shear() {
 }
 
 #[test]
-fn what_does_not_go_together_is_told() {
-    let told = |change: &dyn Fn(&mut Material), expected: &str| {
+fn what_does_not_go_together_is_reported() {
+    let reported = |change: &dyn Fn(&mut Material), expected: &str| {
         let mut model = piston(gas(), [1.0, 0.1], 10, 1.0, 1e-3);
         change(model.materials.get_mut("soft").unwrap());
         let faults = faults(&model).join("\n");
         assert!(faults.contains(expected), "{expected}: {faults}");
     };
-    told(&|it| it.eos.clear(), "has no pressure of its own");
-    told(&|it| it.law = "neo_hookean".into(), "an equation of state would contradict it");
-    told(&|it| it.law = "drucker_prager".into(), "an equation of state would contradict it");
-    told(&|it| it.eos = "ideal_gass".into(), "did you mean `ideal_gas`?");
-    told(&|it| it.parameters.retain(|name, _| name != "gamma"), "equation of state `ideal_gas` needs `gamma`");
-    told(&|it| it.parameters.extend([("gama".into(), 1.0)]), "did you mean `gamma`?");
-    told(&|it| it.parameters.extend([("gamma".into(), 1.0)]), "`gamma` must be");
-    told(&|it| it.parameters.extend([("pressure_initial".into(), 0.0)]), "no stiffness");
+    reported(&|it| it.eos.clear(), "has no pressure of its own");
+    reported(&|it| it.law = "neo_hookean".into(), "an equation of state would contradict it");
+    reported(&|it| it.law = "drucker_prager".into(), "an equation of state would contradict it");
+    reported(&|it| it.eos = "ideal_gass".into(), "did you mean `ideal_gas`?");
+    reported(&|it| it.parameters.retain(|name, _| name != "gamma"), "equation of state `ideal_gas` needs `gamma`");
+    reported(&|it| it.parameters.extend([("gama".into(), 1.0)]), "did you mean `gamma`?");
+    reported(&|it| it.parameters.extend([("gamma".into(), 1.0)]), "`gamma` must be");
+    reported(&|it| it.parameters.extend([("pressure_initial".into(), 0.0)]), "no stiffness");
     let mut plain = piston(gas(), [1.0, 0.1], 10, 1.0, 1e-3);
     let elastic = crate::bodies::elastic(1e9, 1e3);
     plain.materials.insert("soft".into(), elastic);

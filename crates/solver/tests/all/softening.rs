@@ -1,5 +1,5 @@
 //! Flow stress that falls: closed forms, the return with every curve up to the steepest that is accepted,
-//! what is refused, and what the user is told.
+//! what is refused, and what the user is reported.
 
 use crate::bodies::*;
 use crate::patches::{Spread, YOUNG};
@@ -61,7 +61,8 @@ fn every_falling_curve_is_followed_in_tension_whatever_the_steps() {
                 // Strain is elastic and plastic: 0.29 in all, of which plastic back and forth.
                 let elastic = point.stress[0] / YOUNG;
                 assert!((point.strain[0] - 0.29).abs() < 1e-12 && plastic(&point) > 0.29 - elastic, "{}", M::KIND.name);
-                // A step that turns round from more stress to less is told without dissipation, as in heat.
+                // A step that turns round from more stress to less is reported without dissipation, as in
+                // heat.
                 let stored = point.work - point.dissipated;
                 let error = (stored - point.stress[0].powi(2) / (2.0 * YOUNG)).abs();
                 assert!(steps < 300 || error < 1e-11 * point.dissipated, "{}: {error} of {}", M::KIND.name, point.dissipated);
@@ -193,7 +194,7 @@ fn cyclic_softening_takes_from_the_yield_stress_what_it_says() {
     assert!((bar.stress[0] + 2.5).abs() < 1e-3);
 }
 
-fn told(law: &str, numbers: &[(&str, f64)], lists: &[(&str, &[f64])]) -> (Vec<String>, Option<f64>) {
+fn reported(law: &str, numbers: &[(&str, f64)], lists: &[(&str, &[f64])]) -> (Vec<String>, Option<f64>) {
     let kind = LAWS.iter().find(|kind| kind.name == law).unwrap();
     let numbers = BASE.iter().chain(numbers).map(|&(name, value)| (name.to_string(), value)).collect();
     let lists = lists.iter().map(|&(name, list)| (name.to_string(), list.to_vec())).collect();
@@ -206,18 +207,18 @@ fn told(law: &str, numbers: &[(&str, f64)], lists: &[(&str, &[f64])]) -> (Vec<St
 #[test]
 fn only_a_fall_without_a_sound_answer_is_refused() {
     let limit = 0.9 * 3.0 * SHEAR;
-    let linear = |slope: f64| told("j2", &[("yield", 2.0), ("hardening", slope)], &[]);
+    let linear = |slope: f64| reported("j2", &[("yield", 2.0), ("hardening", slope)], &[]);
     assert_eq!(linear(0.0), (vec![], None));
     assert_eq!(linear(-0.999 * limit), (vec![], Some(-0.999 * limit)));
     let (found, _) = linear(-1.001 * limit);
     assert!(found.len() == 1 && found[0].starts_with("hardening: ") && found[0].contains("no sound answer"), "{found:?}");
-    let table = |last: f64| told("j2_table", &[], &[("plastic_strain", &[0.0, 0.001]), ("stress", &[2.0, last])]);
+    let table = |last: f64| reported("j2_table", &[], &[("plastic_strain", &[0.0, 0.001]), ("stress", &[2.0, last])]);
     assert!(table(0.9).0[0].starts_with("stress: ") && table(1.9).0.is_empty());
-    let voce = |rate: f64| told("j2_voce", &[("yield", 2.0), ("saturation", 1.0), ("saturation_rate", rate)], &[]);
+    let voce = |rate: f64| reported("j2_voce", &[("yield", 2.0), ("saturation", 1.0), ("saturation_rate", rate)], &[]);
     assert!(voce(1.001 * limit).0[0].starts_with("saturation: ") && voce(0.999 * limit).0.is_empty());
-    let voce = told("j2_voce", &[("yield", 2.0), ("saturation", 3.0), ("saturation_rate", 10.0), ("hardening", -4.0)], &[]);
+    let voce = reported("j2_voce", &[("yield", 2.0), ("saturation", 3.0), ("saturation_rate", 10.0), ("hardening", -4.0)], &[]);
     assert_eq!(voce, (vec![], Some(-4.0)));
-    let cyclic = |gain: f64, lists: &[(&str, &[f64])]| told("chaboche", &[("yield", 2.0), ("isotropic_stress", gain)], lists);
+    let cyclic = |gain: f64, lists: &[(&str, &[f64])]| reported("chaboche", &[("yield", 2.0), ("isotropic_stress", gain)], lists);
     assert!(cyclic(-2.0, &[("backstress_modulus", &[100.0])]).0[0].contains("leaves nothing"));
     // 10 · 1.5 Pa of fall: a backstress that stays makes up for it, one that fades does not, a smaller one
     // never.
@@ -225,7 +226,7 @@ fn only_a_fall_without_a_sound_answer_is_refused() {
     let (found, slope) = cyclic(-1.5, &[("backstress_modulus", &[100.0]), ("backstress_recall", &[50.0])]);
     assert!(found.is_empty() && slope.is_some_and(|slope| (-15.0..0.0).contains(&slope)), "{slope:?}");
     assert_eq!(cyclic(-1.5, &[("backstress_modulus", &[5.0])]), (vec![], Some(-10.0)));
-    let foam = |last: f64| told("crushable_foam", &[], &[("plastic_strain", &[0.0, 0.01]), ("stress", &[10.0, last])]);
+    let foam = |last: f64| reported("crushable_foam", &[], &[("plastic_strain", &[0.0, 0.01]), ("stress", &[10.0, last])]);
     assert!(foam(9.0).0.is_empty() && foam(0.1).0[0].starts_with("stress: "), "{:?}", foam(0.1));
 }
 

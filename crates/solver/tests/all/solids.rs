@@ -1,4 +1,4 @@
-//! What the contract tests of space are made on: distorted elements, patches of them, volumes by another way.
+//! What the contract tests in 3D are made on: distorted elements, patches of them, volumes by another way.
 
 use crate::patches::{Patch, Spread, nodes_of};
 use embate_solver::element::{Element, ElementVisitor, map_of, with_element};
@@ -24,7 +24,7 @@ pub(crate) fn apply(g: &Gradient, x: Vector) -> Vector {
 
 /// Unit tensor plus a random tensor of this size.
 pub(crate) fn near_one(size: f64, numbers: &mut Spread) -> Gradient {
-    let mut g: Gradient = std::array::from_fn(|_| numbers.in_space(size));
+    let mut g: Gradient = std::array::from_fn(|_| numbers.in_3d(size));
     (0..3).for_each(|d| g[d][d] += 1.0);
     g
 }
@@ -151,15 +151,15 @@ pub(crate) fn distorted(element: &str, roughness: f64, aspect: f64, numbers: &mu
         let stretch: Vector = std::array::from_fn(|_| numbers.between(-0.5 * aspect.ln(), 0.5 * aspect.ln()).exp());
         // In every third element.
         let sheared = numbers.between(0.0, 1.5).floor();
-        let shear: Vector = numbers.in_space(sheared);
-        let q = rotation(plus([0.1, 0.2, 1.0], 1.0, numbers.in_space(1.0)), numbers.between(0.0, 6.3));
+        let shear: Vector = numbers.in_3d(sheared);
+        let q = rotation(plus([0.1, 0.2, 1.0], 1.0, numbers.in_3d(1.0)), numbers.between(0.0, 6.3));
         let size = if reference.len() == 8 { 1.0 } else { 0.5 };
         let corner = |x: &Vector, moved: Vector| {
             let [x, y, z] = plus(*x, size, moved);
             let [x, y, z] = [x * stretch[0], y * stretch[1], z * stretch[2]];
             apply(&q, [x + shear[0] * y + shear[1] * z, y + shear[2] * z, z])
         };
-        let moved: Vec<_> = reference.iter().map(|x| corner(x, numbers.in_space(rough))).collect();
+        let moved: Vec<_> = reference.iter().map(|x| corner(x, numbers.in_3d(rough))).collect();
         if volume(&moved) > 0.0 && soundness(&moved) > 0.05 {
             return moved;
         }
@@ -173,7 +173,7 @@ pub(crate) fn patch(element: &str, n: usize, roughness: f64) -> Patch<3> {
     let indices = |k: usize| [k % side, k / side % side, k / (side * side)];
     let is_inner = |k: usize| indices(k).iter().all(|i| (1..n).contains(i));
     let place = |k: usize| {
-        let moved = if is_inner(k) { numbers.in_space(roughness) } else { [0.0; 3] };
+        let moved = if is_inner(k) { numbers.in_3d(roughness) } else { [0.0; 3] };
         plus(indices(k).map(|i| i as f64), 1.0, moved)
     };
     let positions = (0..side * side * side).map(place).collect();

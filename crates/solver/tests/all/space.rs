@@ -1,4 +1,4 @@
-//! What every registered element of space promises, with every law: shape functions, constant strain, rigid
+//! What every registered element in 3D promises, with every law: shape functions, constant strain, rigid
 //! motion, stiffness, masses, energy, momentum, the stable step, and the same bits on every instruction set.
 
 use crate::blocks::largest;
@@ -60,7 +60,7 @@ fn each_dimension_has_its_own_elements() {
 }
 
 #[test]
-fn a_block_of_another_dimension_or_in_a_state_of_the_plane_is_not_made() {
+fn a_block_of_another_dimension_or_in_a_state_of_2d_is_not_made() {
     let (x, material) = (reference_nodes("tet4"), material("elastic", 0.3));
     let input = BlockInput::new("tet4", &material, &[0, 1, 2, 3], &x);
     assert!(make(&input).is_some());
@@ -150,9 +150,9 @@ every_element!(a_pressure_pushes_the_nodes_with_the_slope_of_the_volume, mean_is
 fn divergence_is_the_adjoint<E: Element<3, N, P>, const N: usize, const P: usize>() {
     let mut numbers = Spread::new(3);
     for _ in 0..100 {
-        let nodal: [Vector; N] = std::array::from_fn(|_| numbers.in_space(1.0));
-        let flux: [Matrix<f64, 3>; P] = std::array::from_fn(|_| std::array::from_fn(|_| numbers.in_space(1.0)));
-        let warp: Matrix<f64, 3> = std::array::from_fn(|_| numbers.in_space(if E::WARPED { 1.0 } else { 0.0 }));
+        let nodal: [Vector; N] = std::array::from_fn(|_| numbers.in_3d(1.0));
+        let flux: [Matrix<f64, 3>; P] = std::array::from_fn(|_| std::array::from_fn(|_| numbers.in_3d(1.0)));
+        let warp: Matrix<f64, 3> = std::array::from_fn(|_| numbers.in_3d(if E::WARPED { 1.0 } else { 0.0 }));
         let power = |a: &Matrix<f64, 3>, b: &Matrix<f64, 3>| (0..3).map(|i| dot(a[i], b[i])).sum::<f64>();
         let gradients = E::gradients(&E::natural(&nodal));
         let straight: f64 = (0..P).map(|p| power(&gradients[p], &flux[p])).sum();
@@ -171,7 +171,7 @@ fn linear_fields<E: Element<3, N, P>, const N: usize, const P: usize>() {
     let mut numbers = Spread::new(4);
     for _ in 0..100 {
         let x = element_of::<E, N, P>(&mut numbers);
-        let (g, c): (Gradient, Vector) = (std::array::from_fn(|_| numbers.in_space(1.0)), numbers.in_space(1.0));
+        let (g, c): (Gradient, Vector) = (std::array::from_fn(|_| numbers.in_3d(1.0)), numbers.in_3d(1.0));
         let nodal = x.map(|x| plus(apply(&g, x), 1.0, c));
         let (map, natural, warp) = (map_of::<E, f64, 3, N, P>(&x), E::gradients(&E::natural(&nodal)), E::warp(&E::natural(&nodal)));
         for p in 0..P {
@@ -193,7 +193,7 @@ fn a_distorted_patch_in_uniform_strain_has_uniform_stress_and_no_force_on_inner_
         let mut body = Body::of(element, &material(law, 0.3), &patch);
         let mut numbers = Spread::new(11);
         for step in 0..10 {
-            let (f, shift) = (near_one(0.02, &mut numbers), numbers.in_space(1.0));
+            let (f, shift) = (near_one(0.02, &mut numbers), numbers.in_3d(1.0));
             body.map(|x| plus(apply(&f, x), 1.0, shift));
             let first = body.block.state(0).stress;
             let size = largest(&first);
@@ -260,7 +260,7 @@ fn a_body_without_stress_moves_as_a_whole_without_force_however_far() {
         let mut body = Body::of(element, &material(law, 0.3), &patch(element, 2, 0.2));
         let mut numbers = Spread::new(19);
         for step in 0..30 {
-            let (q, shift) = (rotation(numbers.in_space(1.0), numbers.between(0.0, 2.5)), numbers.in_space(1.0));
+            let (q, shift) = (rotation(numbers.in_3d(1.0), numbers.between(0.0, 2.5)), numbers.in_3d(1.0));
             body.map(|x| plus(apply(&q, x), 1.0, shift));
             let most = largest(body.forces().iter().flatten());
             assert!(most < 1e-9 * YOUNG, "{element} {law} step {step}: {most}");
@@ -326,7 +326,7 @@ fn corner_masses_are_positive_and_have_the_mass_and_its_centre() {
 /// A patch whose nodes have all been moved at random, in some steps.
 fn shaken(element: &str, law: &str, patch: &Patch<3>, size: f64) -> Body<3> {
     let mut numbers = Spread::new(14);
-    let bumps: Vec<Vector> = patch.positions.iter().map(|_| numbers.in_space(size)).collect();
+    let bumps: Vec<Vector> = patch.positions.iter().map(|_| numbers.in_3d(size)).collect();
     let mut body = Body::of(element, &material(law, 0.3), patch);
     for step in 1..=5 {
         let to: Vec<_> = patch.positions.iter().zip(&bumps).map(|(&x, &u)| plus(x, f64::from(step), u)).collect();
@@ -336,16 +336,16 @@ fn shaken(element: &str, law: &str, patch: &Patch<3>, size: f64) -> Body<3> {
 }
 
 #[test]
-fn corner_forces_do_the_work_that_the_energy_tells() {
+fn corner_forces_do_the_work_that_the_energy_reports() {
     // −f·u = dU for any small motion u from a state of uneven stress. The force is the mean over the motion:
-    // see the same test of the plane.
+    // see the same test in 2D.
     every_solid_pair(|element, law| {
         if is_damped(element) {
             return;
         }
         let patch = patch(element, 2, 0.25);
         let mut numbers = Spread::new(20);
-        let directions: Vec<Vector> = patch.positions.iter().map(|_| numbers.in_space(1.0)).collect();
+        let directions: Vec<Vector> = patch.positions.iter().map(|_| numbers.in_3d(1.0)).collect();
         let stressed = || shaken(element, law, &patch, 0.01);
         let power = |body: &Body<3>| body.forces().iter().zip(&directions).map(|(&f, &u)| dot(f, u)).sum::<f64>();
         let change = |h: f64| {
@@ -375,7 +375,7 @@ fn is_the_slope_of_its_energy(element: &str) {
         Body::made(&BlockInput { options, ..BlockInput::new(element, &material, &patch.connectivity, &patch.positions) })
     };
     let mut numbers = Spread::new(24);
-    let mut bumps = || -> Vec<Vector> { patch.positions.iter().map(|_| numbers.in_space(0.2)).collect() };
+    let mut bumps = || -> Vec<Vector> { patch.positions.iter().map(|_| numbers.in_3d(0.2)).collect() };
     let (there, directions) = (bumps(), bumps());
     let q = rotation([1.0, 2.0, 3.0], 2.0);
     let place = |h: f64| -> Vec<Vector> {
@@ -450,7 +450,7 @@ fn the_stable_step_bounds_the_largest_frequency() {
             assert!(worst < 1.0 + 1e-5, "{element} {law} {name}: {worst}");
             assert!(worst > 0.8 || roughness > 0.0, "{element} {law} {name}: {worst} wastes steps");
         }
-        // Under large strain the stress itself is stiff: see the same test of the plane.
+        // Under large strain the stress itself is stiff: see the same test in 2D.
         let worst = worst_step(element, law, 0.5, |x, numbers| {
             let f = near_one(0.2, numbers);
             x.iter().map(|&x| apply(&f, x)).collect()
@@ -524,7 +524,7 @@ fn the_stable_step_holds_when_an_element_takes_another_form_than_its_masses() {
     }
 }
 
-/// Everything that a block tells, as bits.
+/// Everything that a block reports, as bits.
 fn bits(body: &Body<3>) -> Vec<u64> {
     let report = body.report;
     let report = [report.time_step_squared, report.determinant, report.stored, report.dissipated, report.hourglass, report.viscous];
@@ -550,7 +550,7 @@ fn every_instruction_set_and_any_threads_give_the_same_bits_for_every_element_an
             let mut numbers = Spread::new(17);
             for _ in 0..5 {
                 let f = near_one(0.01, &mut numbers);
-                let to: Vec<_> = body.positions.iter().map(|&x| plus(apply(&f, x), 1.0, numbers.in_space(0.004))).collect();
+                let to: Vec<_> = body.positions.iter().map(|&x| plus(apply(&f, x), 1.0, numbers.in_3d(0.004))).collect();
                 body.move_to(&to);
             }
             assert!(body.block.state(0).stress[0] != 0.0 && body.report.viscous > 0.0);

@@ -1,8 +1,8 @@
 //! Velocities and forces that are changed while a simulation stands between two steps: what moves is what was
-//! asked for, and the books close.
+//! asked for, and the ledger close.
 
 use crate::bodies::*;
-use embate_solver::model::{Model, in_space};
+use embate_solver::model::{Model, in_3d};
 use embate_solver::output::Frame;
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress, Simulation};
 
@@ -40,7 +40,7 @@ fn what_is_thrown_at_the_start_moves_as_what_the_model_throws() {
     let mut thrown = simulation(&block(1e-3));
     throw(&mut thrown, "block", &[30.0, -7.0]);
     let mut model = block(1e-3);
-    model.parts[0].velocity = in_space([30.0, -7.0]);
+    model.parts[0].velocity = in_3d([30.0, -7.0]);
     let mut begun = simulation(&model);
     for simulation in [&mut thrown, &mut begun] {
         simulation.advance(f64::INFINITY, 50).unwrap();
@@ -75,7 +75,7 @@ fn what_is_thrown_in_mid_run_has_its_velocity_at_once_and_the_books_close() {
 #[test]
 fn the_books_close_when_a_body_that_rings_in_contact_is_thrown_again_and_again() {
     let mut model = block(2e-3);
-    model.parts[0].velocity = in_space([0.0, -20.0]);
+    model.parts[0].velocity = in_3d([0.0, -20.0]);
     add(&mut model, "wall", rectangle([-0.05, -0.0301], [0.18, 0.03], [8, 3]), [0.0, 0.0]);
     touch(&mut model, "block", "wall");
     let calm = to_end(&model).summary();
@@ -92,7 +92,7 @@ fn the_books_close_when_a_body_that_rings_in_contact_is_thrown_again_and_again()
     let summary = simulation.summary();
     assert!(summary.ledger_residual < 1e-12, "{}", summary.ledger_residual);
     // What the central differences leave open grows with the waves that such throws make; it is no step in
-    // the books.
+    // the ledger.
     assert!(summary.energy_drift < 10.0 * calm.energy_drift.max(1e-4), "{} {}", summary.energy_drift, calm.energy_drift);
 }
 
@@ -140,7 +140,7 @@ fn a_state_keeps_forces_and_throws() {
     whole.advance(f64::INFINITY, u64::MAX).unwrap();
     let mut stopped = simulation(&model);
     steer(&mut stopped);
-    goes_on_to(&whole.summary().state_hash, &model, &mut stopped, "steered");
+    continues_to(&whole.summary().state_hash, &model, &mut stopped, "steered");
 }
 
 #[test]
@@ -175,15 +175,15 @@ fn what_can_not_be_changed_is_refused_and_nothing_changes() {
     simulation.advance(f64::INFINITY, 5).unwrap();
     let before = simulation.state().unwrap();
     let stamp = simulation.nodes_of("stamp").unwrap();
-    let told = |fault: Result<(), embate_solver::error::Fault>| {
+    let reported = |fault: Result<(), embate_solver::error::Fault>| {
         let fault = fault.unwrap_err();
         assert_eq!(fault.kind.code, "E0609");
         fault.message
     };
-    assert!(told(simulation.set_velocities(&[0, stamp[0]], &[1.0; 4])).contains("rigid part"));
-    assert!(told(simulation.set_velocities(&[0, 1000], &[1.0; 4])).contains("no node 1000"));
-    assert!(told(simulation.set_velocities(&[0], &[1.0; 3])).contains("3 numbers of velocity"));
-    assert!(told(simulation.set_forces(&[0, 1], &[1.0, 0.0, f64::NAN, 0.0])).contains("force of node 1"));
+    assert!(reported(simulation.set_velocities(&[0, stamp[0]], &[1.0; 4])).contains("rigid part"));
+    assert!(reported(simulation.set_velocities(&[0, 1000], &[1.0; 4])).contains("no node 1000"));
+    assert!(reported(simulation.set_velocities(&[0], &[1.0; 3])).contains("3 numbers of velocity"));
+    assert!(reported(simulation.set_forces(&[0, 1], &[1.0, 0.0, f64::NAN, 0.0])).contains("force of node 1"));
     assert_eq!(simulation.nodes_of("nothing"), None);
     assert!(simulation.state().unwrap() == before);
 }
@@ -208,9 +208,9 @@ impl Observer for Told {
 }
 
 #[test]
-fn a_run_in_pieces_tells_what_a_whole_one_tells() {
+fn a_run_in_pieces_reports_what_a_whole_one_reports() {
     let mut model = block(2e-3);
-    model.parts[0].velocity = in_space([0.0, -20.0]);
+    model.parts[0].velocity = in_3d([0.0, -20.0]);
     add(&mut model, "wall", rectangle([-0.05, -0.0301], [0.18, 0.03], [8, 3]), [0.0, 0.0]);
     touch(&mut model, "block", "wall");
     let (mut whole, mut pieces) = (Told::default(), Told::default());

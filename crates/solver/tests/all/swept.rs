@@ -523,7 +523,7 @@ fn a_segment_that_shrinks_to_a_point_is_met_there_only() {
     assert_eq!(entered(&target, down, &point, &wide), [(0, 0.5)]);
     assert_eq!(entered(&target, down, &wide, &point), [(0, 0.5)]);
     assert_eq!(entered(&target, down, &point, &point), []);
-    // It turns over in its own line: outside becomes inside with nobody going through.
+    // It turns over in its own line: outside becomes inside with no one going through.
     for x in [0.0, 0.5, 1.0, 3.0] {
         for y in [1e-6, 0.1, 1.0, 7.0] {
             assert_eq!(entered(&target, [[x, y]; 2], &wide, &turned), [], "{x} {y}");
@@ -550,7 +550,7 @@ fn a_node_that_comes_from_far_away_meets_a_tiny_segment_between_its_ends_only() 
 #[test]
 fn who_dips_by_a_last_bit_or_between_last_bits_is_found() {
     // Slides on a segment that moves: whether in front or behind, rounding decides, and the next step must
-    // not find an intruder that nobody saw come. On the other segment, which turns, the node goes far behind
+    // not find an intruder that no one saw come. On the other segment, which turns, the node goes far behind
     // in between, and ends on it.
     let slides = ([[0.1, -0.3], [0.8, 0.1]], [[0.1, -0.29], [0.8, 0.09]], false);
     let turns = ([[0.1, -0.3], [0.5, 0.5]], [[0.1, -0.3], [0.9, -0.7]], true);

@@ -1,4 +1,4 @@
-//! Contact in space at symmetry planes: a slice between two of them does what the plane does.
+//! Contact in 3D at symmetry planes: a slice between two of them does what the plane does.
 
 use crate::bodies::{every_step, rough, to_end, value};
 use crate::patches::material;
@@ -88,7 +88,7 @@ fn a_slice_of_an_impact_on_a_symmetry_plane_does_what_the_plane_does() {
 #[test]
 fn a_stiffness_for_each_node_belongs_to_the_model_as_far_as_the_node_does() {
     // In a slice of two layers the nodes in the middle carry a half, those on both faces a quarter of what a
-    // node of the plane does.
+    // node in 2D does.
     let plane = ring_on_strip(Penalty::PerNode(4e3).into());
     let mut space = extruded(plane.clone(), 2);
     space.contacts[0].interface = Penalty::PerNode(4e3 * DEPTH / 2.0).into();
@@ -113,21 +113,20 @@ fn half_of_crushed_ring() -> Model {
 }
 
 #[test]
-fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_the_plane_does() {
+fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_2d_does() {
     let depth = 0.004;
     let half = half_of_crushed_ring();
     for thickness in [0.0, 1e-3] {
         let mut plane = half.clone();
-        // How flat an element is, is not the same in the plane and in space: the same stiffness for both. The
+        // How flat an element is, is not the same in 2D and 3D: the same stiffness for both. The
         // plate begins nearer than the thickness.
         let law = Interface { thickness, initial_penetration: InitialPenetration::Ignore, ..Penalty::Pressure(5e12).into() };
         plane.contacts[0].interface = law;
         let space = extruded_by(depth, plane.clone(), 1);
-        let [in_plane, in_space] =
-            [&plane, &space].map(|model| every_step(model).column("top.y").into_iter().fold(f64::INFINITY, f64::min));
+        let [in_plane, in_3d] = [&plane, &space].map(|model| every_step(model).column("top.y").into_iter().fold(f64::INFINITY, f64::min));
         // The inside meets its image, and goes no deeper than the springs give. What the ring does before,
         // bent by the plate, differs from the first touch on by 1e-8 and grows.
-        assert!((in_plane - 0.5 * thickness).abs() < 2e-4 && (in_space - in_plane).abs() < 1e-5, "{in_space} of {in_plane}");
+        assert!((in_plane - 0.5 * thickness).abs() < 2e-4 && (in_3d - in_plane).abs() < 1e-5, "{in_3d} of {in_plane}");
         let summary = to_end(&space).summary();
         assert!(summary.energy_drift < 0.01 && summary.ledger_residual < 1e-12 && summary.contact.unverified == 0, "{summary:?}");
     }

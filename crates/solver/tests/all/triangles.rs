@@ -1,7 +1,7 @@
 //! Obstacles of triangles against the obstacles whose surfaces they are, over edges and corners, with
 //! friction, moved and free, at the start, kept and resumed.
 
-use crate::bodies::{faults, goes_on_to, hash_of_equal_bits, model, simulation, to_end, value};
+use crate::bodies::{continues_to, faults, hash_of_equal_bits, model, simulation, to_end, value};
 use embate_solver::model::{
     Cuboid, Friction, InitialPenetration, Interface, Model, Motion, Obstacle, ObstacleShape, Part, Placement, Shape, Sphere, Symmetry,
     TriangleSurface,
@@ -204,7 +204,7 @@ fn die(end: f64) -> Model {
 }
 
 #[test]
-fn a_moved_die_has_equal_bits_on_threads_and_instruction_sets_and_goes_on_from_a_kept_state() {
+fn a_moved_die_has_equal_bits_on_threads_and_instruction_sets_and_continues_from_a_kept_state() {
     let model = die(2e-4);
     let whole = to_end(&model);
     assert!(value(&whole, "obstacle.force_z[die]") < -1.0 || value(&whole, "obstacle.force_z[die]") > 1.0);
@@ -214,12 +214,12 @@ fn a_moved_die_has_equal_bits_on_threads_and_instruction_sets_and_goes_on_from_a
     for stop in [0.3e-4, 1.1e-4] {
         let mut first = simulation(&model);
         first.advance(stop, u64::MAX).unwrap();
-        goes_on_to(&hash, &model, &mut first, "die");
+        continues_to(&hash, &model, &mut first, "die");
     }
 }
 
 #[test]
-fn what_is_inside_of_triangles_at_the_start_is_told() {
+fn what_is_inside_of_triangles_at_the_start_is_reported() {
     let at = |z: f64, obstacle: Obstacle| {
         let mut model = model(1e-5);
         model.parts.push(body("block", brick([-0.05, -0.04, z], [0.1, 0.08, 0.04], [4, 3, 2]), [0.0; 3]));
@@ -228,15 +228,15 @@ fn what_is_inside_of_triangles_at_the_start_is_told() {
     };
     let ground = || obstacle("ground", cube([-1.0; 3], [1.0, 1.0, 0.0]));
     assert_eq!(faults(&at(0.0, ground())), Vec::<String>::new());
-    let told = faults(&at(-0.001, ground()));
-    assert_eq!(told.len(), 20, "{told:?}");
-    assert!(told[0].contains("is 1.000e-3 m inside at the start"), "{told:?}");
+    let reported = faults(&at(-0.001, ground()));
+    assert_eq!(reported.len(), 20, "{reported:?}");
+    assert!(reported[0].contains("is 1.000e-3 m inside at the start"), "{reported:?}");
     // A point between nodes.
-    let told = faults(&at(-0.001, obstacle("tip", upward(0.3, 3))));
-    assert!(told.len() == 1 && told[0].contains("inside at the start"), "{told:?}");
+    let reported = faults(&at(-0.001, obstacle("tip", upward(0.3, 3))));
+    assert!(reported.len() == 1 && reported[0].contains("inside at the start"), "{reported:?}");
     // Altogether inside, far from the surface, and outside of a hollow one.
-    let told = faults(&at(-0.5, ground()));
-    assert!(told.len() == 1 && told[0].contains("m inside at the start"), "{told:?}");
+    let reported = faults(&at(-0.5, ground()));
+    assert!(reported.len() == 1 && reported[0].contains("m inside at the start"), "{reported:?}");
     let hollow = |z: f64| faults(&at(z, obstacle("vessel", cube([-1.0; 3], [1.0, 1.0, 0.0]).turned_over())));
     assert_eq!((hollow(-0.5).len(), hollow(0.2).len()), (0, 1));
     // Within the thickness.
@@ -280,9 +280,9 @@ fn what_is_inside_of_triangles_is_pushed_out_of_them_without_stress() {
     let moved = begin.frame().positions::<3>().iter().filter(|x| x[2] < 0.01 && (x[2] + 0.001).abs() > 1e-9).count();
     assert!((1..=4).contains(&moved), "{moved}");
     assert!(value(&to_end(&model), "energy.kinetic") < 1e-12);
-    // What is altogether inside stays there, and is told.
-    let told = faults(&at(-0.5, pushed(ground(), 0.0)));
-    assert!(!told.is_empty() && told.iter().all(|fault| fault.contains("can't be pushed out")), "{told:?}");
+    // What is altogether inside stays there, and is reported.
+    let reported = faults(&at(-0.5, pushed(ground(), 0.0)));
+    assert!(!reported.is_empty() && reported.iter().all(|fault| fault.contains("can't be pushed out")), "{reported:?}");
 }
 
 #[test]
@@ -290,6 +290,6 @@ fn triangles_are_not_for_the_plane() {
     let mut model = model(1e-5);
     model.parts.push(Part { name: "strip".into(), material: "soft".into(), shape: crate::bodies::mapped_rectangle(), ..Part::default() });
     model.obstacles.push(obstacle("die", cube([-1.0; 3], [1.0, 1.0, -0.1])));
-    let told = faults(&model);
-    assert!(told.len() == 1 && told[0].contains("obstacle[0].stl") && told[0].contains("take `polyline`"), "{told:?}");
+    let reported = faults(&model);
+    assert!(reported.len() == 1 && reported[0].contains("obstacle[0].stl") && reported[0].contains("take `polyline`"), "{reported:?}");
 }

@@ -165,7 +165,7 @@ fn see(model: &mut Model, name: &str, set: &str) {
 
 fn hold(model: &mut Model, on: &str, held: [bool; 2]) {
     let velocity = held.map(|held| held.then_some(Drive::Constant(0.0)));
-    model.constraints.push(Constraint { on: on.into(), velocity: embate_solver::model::in_space(velocity), ..Constraint::default() });
+    model.constraints.push(Constraint { on: on.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
 }
 
 #[test]
@@ -216,7 +216,7 @@ fn a_von_mises_truss_has_the_energy_of_the_closed_form_through_its_snap() {
     let displacement = [None, Some(Drive::Curve("down".into()))];
     model.constraints.push(Constraint {
         on: "truss.point1".into(),
-        displacement: embate_solver::model::in_space(displacement),
+        displacement: embate_solver::model::in_3d(displacement),
         ..Constraint::default()
     });
     see(&mut model, "apex", "truss.point1");
@@ -248,7 +248,7 @@ fn a_von_mises_truss_snaps_at_its_limit_load() {
         let force = [0.0, -share * limit];
         model.loads.push(Load::Force {
             on: "truss.point1".into(),
-            force: embate_solver::model::in_space(force),
+            force: embate_solver::model::in_3d(force),
             curve: Some("slowly".into()),
         });
         model.loads.push(Load::Damping { parts: vec![], rate: 200.0, active: [0.0, f64::INFINITY] });

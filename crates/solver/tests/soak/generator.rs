@@ -79,18 +79,15 @@ pub(crate) fn model(seed: u64) -> Model {
             element_triangles: dice.choice(&elements_of(ELEMENTS, 3)),
             stress_state: state.into(),
             shape: shape(dice, centre),
-            velocity: embate_solver::model::in_space(towards.map(|x| x * speed)),
+            velocity: embate_solver::model::in_3d(towards.map(|x| x * speed)),
             ..Part::default()
         };
         if is_round {
             part.velocity[0] = 0.0;
         } else {
             part.spin = if dice.chance(0.3) { dice.number(-1.0, 1.0) * speed / CELL } else { 0.0 };
-            part.placement = Placement {
-                rotation: dice.number(0.0, 6.3),
-                rotation_point: embate_solver::model::in_space(centre),
-                ..Placement::default()
-            };
+            part.placement =
+                Placement { rotation: dice.number(0.0, 6.3), rotation_point: embate_solver::model::in_3d(centre), ..Placement::default() };
             part.rigid = dice.chance(0.08).then(Motion::default);
         }
         model.parts.push(part);
@@ -99,7 +96,7 @@ pub(crate) fn model(seed: u64) -> Model {
     obstacles(dice, &mut model, speed, is_round);
     if dice.chance(0.2) {
         let acceleration = [0.0, -speed * speed / CELL];
-        model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: embate_solver::model::in_space(acceleration), curve: None });
+        model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: embate_solver::model::in_3d(acceleration), curve: None });
     }
     let viscosity = if dice.chance(0.3) { [0.06, 1.2] } else { [0.0; 2] };
     model.run = Run { end: 4.0 * CELL / speed, max_steps: Some(dice.whole(200, 3000) as u64), bulk_viscosity: viscosity, ..Run::default() };
@@ -195,7 +192,7 @@ fn contacts(dice: &mut Dice, model: &mut Model, is_round: bool) {
     for (i, first) in names.iter().enumerate() {
         for second in &names[i + 1..] {
             let pass = Formulation::SinglePass { slave: dice.whole(0, 1) };
-            // Pinballs are cylinders of the plane.
+            // Pinballs are cylinders in 2D.
             let last = if is_round { Formulation::DoublePass } else { Formulation::Pinball };
             let formulation = dice.choice(&[Formulation::DoublePass, Formulation::DoublePass, pass, Formulation::Segment, last]);
             let contact = Contact::between(&format!("{first}_{second}"), first, second);

@@ -1,4 +1,4 @@
-//! Random models in space: bodies of any shape, element and law in cells, and scenes in which contact is
+//! Random models in 3D: bodies of any shape, element and law in cells, and scenes in which contact is
 //! hard: crossed bars, wires, sheets of one element, chains of rings, coils, tetrahedra, thin bodies under
 //! thick ones. The same seed gives the same model.
 
@@ -28,7 +28,7 @@ pub(crate) fn model(seed: u64) -> Model {
     let softness = dice.order(1e-6, 1.0);
     let sound = SPEED_OF_SOUND * softness.sqrt();
     let mut scene = Scene { softness, sound, speed: dice.order(0.02, 1.0) * sound, travel: 4.0 * WIDTH, model: Model::default() };
-    scene.model.name = format!("soak in space {seed}");
+    scene.model.name = format!("soak in 3D {seed}");
     scene.model.output.pictures = false;
     let families: [fn(&mut Scene, &mut Dice); 9] =
         [any_bodies, any_bodies, crossed_bars, wires, thin_sheet, chain, coil, tetrahedra, under_a_thick_body];

@@ -1,4 +1,4 @@
-//! Whether nodes of one body are inside another one, from elements alone: a check of contact in space that
+//! Whether nodes of one body are inside another one, from elements alone: a check of contact in 3D that
 //! shares nothing with it.
 //!
 //! A node is inside an element where the element's shape functions say so. Its depth is its distance from the

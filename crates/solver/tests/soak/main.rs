@@ -2,17 +2,17 @@
 //! nothing explains.
 //!
 //! `cargo test --release -p embate-solver --test embate-soak -- --seconds 7200 --first 1` (a minute from
-//! model 1 if nothing is said; `--count 1 --first N` for one model). Odd numbers are models of the plane,
-//! even ones of space; `--dimension 2` or `3` for one of them alone. Two of sixteen models run again with
-//! scalar lanes and two threads and must end with the same state hash. `hashes.txt` has that of the first
-//! models as it was: a change of the code that should change no result leaves it so, one that changes results
-//! makes it anew (`EMBATE_BLESS=1`, `--count 400`). What is found is told with the number of the model. In
-//! space, where all bodies meet in `double_pass`, elements tell whether nodes of one body are deep in another
-//! one (`inside.rs`): a run that does not say so is a finding.
+//! model 1 if nothing is said; `--count 1 --first N` for one model). Odd numbers are models in 2D, even ones
+//! in 3D; `--dimension 2` or `3` for one of them alone. Two of sixteen models run again with scalar lanes and
+//! two threads and must end with the same state hash. `hashes.txt` has that of the first models as it was: a
+//! change of the code that should change no result leaves it so, one that changes results makes it again
+//! (`EMBATE_BLESS=1`, `--count 400`). What is found is reported with the number of the model. In 3D, where
+//! all bodies meet in `double_pass`, elements say whether nodes of one body are deep in another one
+//! (`inside.rs`): a run that does not say so is a finding.
 //!
 //! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of
 //! springs that are stiff against theirs, or of elements that collapse within a few. Those are counted. The
-//! others are told, and more than [`DRIFTING`] of all is a finding.
+//! others are reported, and more than [`DRIFTING`] of all is a finding.
 
 mod generator;
 mod generator_space;
@@ -36,7 +36,7 @@ const DRIFTING: f64 = 0.001;
 const FEW: f64 = 2.0;
 /// What is left of a drift with a quarter of the step where the step explains it.
 const LEFT: f64 = 0.5;
-/// Depth against the local thickness that is not told by no run, and looks at the bodies in one.
+/// Depth against the local thickness that is not reported by no run, and looks at the bodies in one.
 const SILENT: f64 = 0.35;
 const LOOKS: u64 = 24;
 /// Models until memory has been used for the first time, and how much it may grow after them, bytes.
@@ -85,12 +85,12 @@ fn main() {
         }
         match catch_unwind(AssertUnwindSafe(|| run(seed, &mut steps, &mut hashes))) {
             Ok((end, drift, faults)) => {
-                if let Some(Drift { told: drift, left }) = drift {
+                if let Some(Drift { reported: drift, left }) = drift {
                     let by_step = left < LEFT;
                     *(if by_step { &mut stepping } else { &mut drifting }) += 1;
                     // Said at once: a soak takes hours.
                     if !by_step {
-                        println!("drift model {seed}: {drift}, {left:.2} of it with a quarter of the step; {}", told(seed));
+                        println!("drift model {seed}: {drift}, {left:.2} of it with a quarter of the step; {}", reported(seed));
                     }
                 }
                 let name = match end {
@@ -99,7 +99,7 @@ fn main() {
                     End::Done => "done".into(),
                 };
                 *ends.entry(name).or_default() += 1;
-                found.extend(faults.into_iter().map(|fault| format!("model {seed}: {fault}; {}", told(seed))));
+                found.extend(faults.into_iter().map(|fault| format!("model {seed}: {fault}; {}", reported(seed))));
             }
             Err(panic) => {
                 let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
@@ -135,7 +135,7 @@ fn main() {
     assert!(found.is_empty(), "{} finding(s)", found.len());
 }
 
-/// Whether the table of hashes is to be made anew.
+/// Whether the table of hashes is to be made again.
 fn is_blessed() -> bool {
     std::env::var_os("EMBATE_BLESS").is_some()
 }
@@ -152,7 +152,7 @@ fn model(seed: u64) -> Model {
 
 /// A drift of energy that neither erosion nor forces that were not solved explain.
 struct Drift {
-    told: String,
+    reported: String,
     /// What is left of it with a quarter of the step.
     left: f64,
 }
@@ -170,7 +170,7 @@ fn run(seed: u64, steps: &mut u64, hashes: &mut BTreeMap<u64, String>) -> (End, 
     *steps += simulation.steps();
     let summary = simulation.summary();
     let drift = drift(&summary, &result, simulation.sweeps().1 > 0).or_else(|| borrowed(&simulation));
-    let drift = drift.map(|(size, told)| Drift { told, left: finer(&model, &simulation) / size });
+    let drift = drift.map(|(size, reported)| Drift { reported, left: finer(&model, &simulation) / size });
     let mut faults = wrong(&summary, &result);
     if is_blessed() {
         hashes.insert(seed, summary.state_hash.clone());
@@ -195,7 +195,7 @@ fn run(seed: u64, steps: &mut u64, hashes: &mut BTreeMap<u64, String>) -> (End, 
     (result.err().map_or(End::Done, |error| End::Failed(error.kind())), drift, faults)
 }
 
-/// Runs a model to its end; in space, where contact is that of all bodies, the deepest node of a body in
+/// Runs a model to its end; in 3D, where contact is that of all bodies, the deepest node of a body in
 /// another one.
 fn looked_at(model: &Model, simulation: &mut Simulation) -> (Result<(), Error>, Option<inside::Deepest>) {
     let is_of_all = |contact: &embate_solver::model::Contact| {
@@ -221,8 +221,8 @@ fn looked_at(model: &Model, simulation: &mut Simulation) -> (Result<(), Error>, 
 /// A drift of energy that neither erosion nor contact forces which were `unsolved` explain.
 fn drift(summary: &Summary, result: &Result<(), Error>, unsolved: bool) -> Option<(f64, String)> {
     let drifted = summary.energy_drift > ENERGY || matches!(result, Err(Error::EnergyDrift { .. }));
-    let told = || (summary.energy_drift, format!("energy drift {:.2e} after {} steps", summary.energy_drift, summary.steps));
-    (drifted && summary.erosion.is_none() && !unsolved).then(told)
+    let reported = || (summary.energy_drift, format!("energy drift {:.2e} after {} steps", summary.energy_drift, summary.steps));
+    (drifted && summary.erosion.is_none() && !unsolved).then(reported)
 }
 
 /// Drift of energy until the same time with a quarter of the step; NaN if that does not come so far.
@@ -238,13 +238,13 @@ fn finer(model: &Model, coarse: &Simulation) -> f64 {
     fine.summary().energy_drift.max(-fine.ledger().stores.hourglass / fine.ledger().largest)
 }
 
-/// Energy that hourglass control has given without having taken it: the books close, and yet it comes from
+/// Energy that hourglass control has given without having taken it: the ledger close, and yet it comes from
 /// nowhere.
 fn borrowed(simulation: &Simulation) -> Option<(f64, String)> {
     let ledger = simulation.ledger();
     let share = ledger.stores.hourglass / ledger.largest;
-    let told = || format!("hourglass energy is {share:.2e} of the largest total after {} steps", simulation.steps());
-    (share < -ENERGY).then(|| (-share, told()))
+    let reported = || format!("hourglass energy is {share:.2e} of the largest total after {} steps", simulation.steps());
+    (share < -ENERGY).then(|| (-share, reported()))
 }
 
 /// Drifts of momentum, and numbers that are none.
@@ -262,7 +262,7 @@ fn wrong(summary: &Summary, result: &Result<(), Error>) -> Vec<String> {
 }
 
 /// What a model is made of.
-fn told(seed: u64) -> String {
+fn reported(seed: u64) -> String {
     let model = model(seed);
     let parts = model.parts.iter().map(|part| format!("{} of {}", part.element, model.materials[&part.material].law));
     let contacts = model.contacts.iter().map(|contact| format!("{:?} {:?}", contact.formulation, contact.interface));

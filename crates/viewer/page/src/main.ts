@@ -27,24 +27,24 @@ const root = document.getElementById("app")!;
 async function start(): Promise<void> {
   apply("auto");
   const requests = new Requests();
-  let told: Runs;
+  let served: Runs;
   try {
-    told = await requests.json<Runs>("api/runs", 0);
+    served = await requests.json<Runs>("api/runs", 0);
   } catch (fault) {
     fill(root, unreachable(fault));
     return;
   }
-  const faulty = told.runs.filter((run): run is FaultyRun => "fault" in run);
-  if (faulty.length === told.runs.length) {
+  const faulty = served.runs.filter((run): run is FaultyRun => "fault" in run);
+  if (faulty.length === served.runs.length) {
     document.title = "embate: can't be shown";
     fill(root, faultyRuns(faulty));
     return;
   }
-  page(told, requests);
+  page(served, requests);
 }
 
-function page(told: Runs, requests: Requests): void {
-  const app = new App(told, requests);
+function page(served: Runs, requests: Requests): void {
+  const app = new App(served, requests);
   apply(app.view.theme);
   const names = () => {
     const percent = app.live?.progress && !app.live.ended ? `${Math.floor((100 * app.live.progress.time) / (app.live.progress.end ?? app.end))} % · ` : "";
@@ -63,7 +63,7 @@ function page(told: Runs, requests: Requests): void {
   onSystem(() => {
     if (app.view.theme !== "auto") return;
     apply("auto");
-    app.events.tell("theme");
+    app.events.emit("theme");
   });
 
   const probes = new Probes(app);

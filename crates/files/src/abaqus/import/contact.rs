@@ -227,7 +227,7 @@ pub(super) fn rigid_body(importer: &mut Importer<'_>, at: usize) -> Result<(), F
     Ok(())
 }
 
-/// Surfaces are read with the geometry; here it is only told which nothing can be made of.
+/// Surfaces are read with the geometry; here it is only reported which nothing can be made of.
 pub(super) fn surface(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
     let name = importer.block(at).parameter("NAME").unwrap_or_default();
     for instance in importer.deck.instances_of(at) {

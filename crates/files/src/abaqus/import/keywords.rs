@@ -39,18 +39,24 @@ const PRINTS: &str = "what is written is `[output]`: all fields 100 times, the h
 pub(super) static KEYWORDS: &[Keyword] = &[
     key("AMPLITUDE", Used, &["NAME", "DEFINITION", "TIME", "VALUE"], "a curve: TABULAR by lines, SMOOTH STEP by smooth steps", condition::amplitude),
     key("ASSEMBLY", Used, &["NAME"], "the mesh", done),
-    key("BOUNDARY", Used, &["TYPE", "AMPLITUDE", "OP"], "`[[constraint]]`: fixed, or displacement, velocity, acceleration by an amplitude; of a reference node the motion of its rigid body", condition::boundary),
+    key("BOUNDARY", Used, &["TYPE", "AMPLITUDE", "OP"], "`[[constraint]]`: fixed, or displacement, velocity, \
+        acceleration by an amplitude; of a reference node the motion of its rigid body", condition::boundary),
     key("BULK VISCOSITY", Used, &[], "`run.bulk_viscosity`", step::bulk_viscosity),
-    key("CLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]` with `force`: the sum over the set, per depth; of solids the whole", condition::nodal_force),
+    key("CLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]` with `force`: the sum over the set, per depth; of solids \
+        the whole", condition::nodal_force),
     key("CONTACT", Used, &["OP"], "see *CONTACT INCLUSIONS", done),
     key("CONTACT FILE", Approximated, ANY, PRINTS, done),
-    key("CONTACT INCLUSIONS", Used, &["ALL EXTERIOR"], "`[[contact]]` with `bodies = \"all\"`, or `between` for pairs", contact::inclusions),
+    key("CONTACT INCLUSIONS", Used, &["ALL EXTERIOR"], "`[[contact]]` with `bodies = \"all\"`, or `between` for \
+        pairs", contact::inclusions),
     key("CONTACT OUTPUT", Approximated, ANY, PRINTS, done),
-    key("CONTACT PAIR", Approximated, &["INTERACTION", "MECHANICAL CONSTRAINT", "TYPE", "CPSET", "OP"], "`[[contact]]` with `between`, by penalty in double pass (NODE TO SURFACE: single pass), whatever enforcement the deck asks for; penetrations at the start are pushed out without stress, of solids they count as zero", contact::pair),
+    key("CONTACT PAIR", Approximated, &["INTERACTION", "MECHANICAL CONSTRAINT", "TYPE", "CPSET", "OP"], "`[[contact]]` \
+        with `between`, by penalty in double pass (NODE TO SURFACE: single pass), whatever enforcement the deck asks \
+        for; penetrations at the start are pushed out without stress, of solids they count as zero", contact::pair),
     key("CONTACT PRINT", Approximated, ANY, PRINTS, done),
     key("CONTACT PROPERTY ASSIGNMENT", Used, &[], "friction and law of the contact of all bodies", contact::property),
     key("DENSITY", Used, &[], "`density`", material::density),
-    key("DLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]`: P1 to P6 a `pressure` on these edges or faces, GRAV `gravity`", condition::distributed),
+    key("DLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]`: P1 to P6 a `pressure` on these edges or faces, GRAV \
+        `gravity`", condition::distributed),
     key("DSLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]` with `pressure`, which follows its surface", condition::surface_load),
     key("DYNAMIC", Used, &["EXPLICIT", "DIRECT", "ELEMENT BY ELEMENT", "FIXED TIME INCREMENTATION"], "`run.end`; the time step follows from the elements", step::dynamic),
     key("EL FILE", Approximated, ANY, PRINTS, done),
@@ -66,9 +72,11 @@ pub(super) static KEYWORDS: &[Keyword] = &[
     key("ENERGY OUTPUT", Approximated, ANY, PRINTS, done),
     key("EQUATION", Ignored, ANY, "refused: linear equations between nodes have no counterpart", step::refused),
     key("FILE OUTPUT", Approximated, ANY, PRINTS, done),
-    key("FRICTION", Used, &["TAUMAX", "EXPONENTIAL DECAY", "SLIP TOLERANCE"], "`friction` of contacts, with `friction_limit`, or `friction_dynamic` and `friction_decay`", contact::friction),
+    key("FRICTION", Used, &["TAUMAX", "EXPONENTIAL DECAY", "SLIP TOLERANCE"], "`friction` of contacts, with \
+        `friction_limit`, or `friction_dynamic` and `friction_decay`", contact::friction),
     key("HEADING", Used, &[], "`title`", step::heading),
-    key("HYPERELASTIC", Approximated, &["NEO HOOKE", "MOONEY-RIVLIN"], "`neo_hookean` or `mooney_rivlin` with the same moduli at rest; the energy of volume is K/4 (J^2 - 1 - 2 ln J) instead of K/2 (J - 1)^2", material::hyperelastic),
+    key("HYPERELASTIC", Approximated, &["NEO HOOKE", "MOONEY-RIVLIN"], "`neo_hookean` or `mooney_rivlin` with the \
+        same moduli at rest; the energy of volume is K/4 (J^2 - 1 - 2 ln J) instead of K/2 (J - 1)^2", material::hyperelastic),
     key("INITIAL CONDITIONS", Used, &["TYPE"], "TYPE=VELOCITY: `velocity` of parts", condition::initial),
     key("INSTANCE", Used, &["NAME", "PART"], "the mesh, in its place", done),
     key("MATERIAL", Used, &["NAME"], "`[material.NAME]`", material::material),
@@ -84,15 +92,20 @@ pub(super) static KEYWORDS: &[Keyword] = &[
     key("PLASTIC", Used, &["HARDENING"], "law `j2` for one or two rows, `j2_table` for more", material::plastic),
     key("PREPRINT", Approximated, ANY, "what is printed is what `embate check` prints", done),
     key("RESTART", Approximated, ANY, PRINTS, done),
-    key("RIGID BODY", Used, &["REF NODE", "ELSET", "ANALYTICAL SURFACE"], "`rigid` of parts; of an analytical surface of the plane `[[obstacle]]` with `polyline`, its free side left of the way from START on", contact::rigid_body),
-    key("SECTION CONTROLS", Approximated, ANY, "hourglass control and the like are those of the element; `hourglass` of the part is its coefficient", done),
-    key("SHELL SECTION", Approximated, &["ELSET", "MATERIAL"], "a part in plane stress: bending out of the plane is not computed", material::section),
+    key("RIGID BODY", Used, &["REF NODE", "ELSET", "ANALYTICAL SURFACE"], "`rigid` of parts; of an analytical \
+        surface in 2D `[[obstacle]]` with `polyline`, its free side left of the way from START on", contact::rigid_body),
+    key("SECTION CONTROLS", Approximated, ANY, "hourglass control and the like are those of the element; `hourglass` \
+        of the part is its coefficient", done),
+    key("SHELL SECTION", Approximated, &["ELSET", "MATERIAL"], "a part in plane stress: bending out of the plane is \
+        not computed", material::section),
     key("SOLID SECTION", Used, &["ELSET", "MATERIAL", "CONTROLS"], "`[[part]]`", material::section),
     key("STEP", Used, &["NAME", "NLGEOM", "INC"], "the run", step::step),
     key("SURFACE", Used, &["NAME", "TYPE", "INTERNAL"], "a group of lines of the mesh, of solids of faces", contact::surface),
-    key("SURFACE BEHAVIOR", Used, &["PRESSURE-OVERCLOSURE"], "HARD: the automatic penalty; LINEAR: `penalty`; TABULAR: `law = \"pressure_gap\"`", contact::behaviour),
+    key("SURFACE BEHAVIOR", Used, &["PRESSURE-OVERCLOSURE"], "HARD: the automatic penalty; LINEAR: `penalty`; \
+        TABULAR: `law = \"pressure_gap\"`", contact::behaviour),
     key("SURFACE INTERACTION", Used, &["NAME"], "keys of contacts that name it", contact::interaction),
-    key("TIE", Approximated, &["NAME", "TYPE", "ADJUST", "POSITION TOLERANCE"], "`[[contact]]` with `tied`, by penalty; only what touches at the start is tied", contact::tie),
+    key("TIE", Approximated, &["NAME", "TYPE", "ADJUST", "POSITION TOLERANCE"], "`[[contact]]` with `tied`, by \
+        penalty; only what touches at the start is tied", contact::tie),
     key("TRANSFORM", Ignored, ANY, "refused: conditions in turned axes have no counterpart", step::refused),
 ];
 

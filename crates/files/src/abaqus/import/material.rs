@@ -131,7 +131,12 @@ pub(super) fn hyperelastic(importer: &mut Importer<'_>, at: usize) -> Result<(),
     let bulk = if d1 > 0.0 { 2.0 / d1 } else { 40.0 * (c10 + c01) };
     current(importer, at)?.rubber = Some([c10, c01, bulk]);
     if d1 <= 0.0 {
-        importer.note(at, Approximated, "D1 = 0: the bulk modulus is 20 times the shear modulus (Poisson's ratio 0.475), as an explicit computation needs one; the energy of volume is K/4 (J^2 - 1 - 2 ln J)");
+        importer.note(
+            at,
+            Approximated,
+            "D1 = 0: the bulk modulus is 20 times the shear modulus (Poisson's ratio \
+            0.475), as an explicit computation needs one; the energy of volume is K/4 (J^2 - 1 - 2 ln J)",
+        );
     }
     rows_left_out(importer, at);
     Ok(())
@@ -166,7 +171,8 @@ pub(super) fn section(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
     }
     if thickness != 1.0 {
         let text = format!(
-            "thickness {thickness}: embate computes per unit of depth; forces, masses and energies of the results are to be multiplied by it"
+            "thickness {thickness}: embate computes per unit of depth; forces, masses and energies of the results \
+                are to be multiplied by it"
         );
         importer.approximated(at, &text);
     }

@@ -22,7 +22,7 @@ use super::deck::Deck;
 use super::mesh::{self, Names};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{SYNTAX, UNKNOWN};
-use crate::reach::{Bounds, Reach};
+use crate::path_policy::{Bounds, PathPolicy};
 use embate_solver::error::Fault;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -46,7 +46,7 @@ pub struct Imported {
 /// # Errors
 /// Faults of the text or the mesh, with their places; what can't be left out without making another model
 /// (equations, several materials on one element, no step).
-pub fn import(path: &Path, units: &Units, reach: Reach) -> Result<Imported, Vec<Fault>> {
+pub fn import(path: &Path, units: &Units, reach: PathPolicy) -> Result<Imported, Vec<Fault>> {
     let shown = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
     let text =
         Text::read(path, &shown, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", reach)).map_err(|fault| vec![fault])?;
@@ -71,8 +71,8 @@ struct Importer<'a> {
     used: Vec<bool>,
     units: Units,
     entries: Vec<Entry>,
-    /// Whether the reader of a block has told what became of the block as a whole.
-    told: bool,
+    /// Whether the reader of a block has reported what became of the block as a whole.
+    reported: bool,
     /// Sets that the mesh file gets besides those of the deck, and their names.
     sets_added: String,
     names_added: BTreeSet<String>,
@@ -105,7 +105,7 @@ impl<'a> Importer<'a> {
             used: mesh::used(deck),
             units,
             entries: Vec::new(),
-            told: false,
+            reported: false,
             sets_added: String::new(),
             names_added: BTreeSet::new(),
             title: String::new(),
@@ -138,12 +138,12 @@ impl<'a> Importer<'a> {
                 self.note(at, Outcome::Ignored, "embate has no counterpart of this keyword; what it says and its data lines do not act");
                 continue;
             };
-            self.told = false;
+            self.reported = false;
             if block.keyword == "PART" && self.deck.instances_of(at).is_empty() {
                 self.note(at, Outcome::Ignored, "no instance has this part; nothing of it is in the model");
             }
             (keyword.read)(self, at)?;
-            if !self.told {
+            if !self.reported {
                 self.note(at, keyword.outcome, keyword.doc);
             }
             if keyword.parameters != ["*"] {
@@ -164,7 +164,7 @@ impl<'a> Importer<'a> {
         &self.text.blocks[at]
     }
 
-    /// Components of positions, velocities and forces: 2 in the plane, 3 of solids.
+    /// Components of positions, velocities and forces: 2 in 2D, 3 of solids.
     fn dimension(&self) -> usize {
         usize::from(self.deck.dimension())
     }
@@ -173,7 +173,7 @@ impl<'a> Importer<'a> {
         self.dimension() == 3
     }
 
-    /// What is done with penetrations at the start: in the plane bodies are pushed apart without stress, as
+    /// What is done with penetrations at the start: in 2D bodies are pushed apart without stress, as
     /// the deck means it; of solids they count as zero.
     fn initial_penetration(&self) -> &'static str {
         if self.is_solid() { "initial_penetration = \"ignore\"\n" } else { "initial_penetration = \"push_out\"\n" }
@@ -186,7 +186,7 @@ impl<'a> Importer<'a> {
 
     /// Adds a line to the report.
     fn note(&mut self, at: usize, outcome: Outcome, text: &str) {
-        self.told = true;
+        self.reported = true;
         let block = self.block(at);
         let entry = Entry { outcome, keyword: block.keyword.clone(), place: self.text.place(block.line), text: text.to_string() };
         if !self.entries.contains(&entry) {
@@ -202,9 +202,9 @@ impl<'a> Importer<'a> {
     }
 
     fn approximated(&mut self, at: usize, text: &str) {
-        let told = self.told;
+        let reported = self.reported;
         self.note(at, Outcome::Approximated, text);
-        self.told = told;
+        self.reported = reported;
     }
 
     /// The numbers of a data line; empty fields are `None`.

@@ -1,4 +1,4 @@
-//! What became of each keyword of a deck: used, approximated, ignored. Nothing is left out in silence.
+//! What became of each keyword of a deck: used, approximated, ignored. Nothing is left out without a message.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -70,7 +70,7 @@ impl Importer<'_> {
     pub(super) fn write(&mut self) -> Result<String, Fault> {
         let mut w = Writing { taken: self.group_names(), ..Writing::default() };
         let _ =
-            writeln!(w.out, "# Made from {} by `embate import`; import.txt tells what became of each keyword.\n", self.text.shown_name());
+            writeln!(w.out, "# Made from {} by `embate import`; import.txt lists what became of each keyword.\n", self.text.shown_name());
         if !self.title.is_empty() {
             let _ = writeln!(w.out, "title = {}\n", quoted(&self.title));
         }
@@ -139,7 +139,12 @@ impl Importer<'_> {
         }
         if !self.is_solid() && w.parts.iter().any(|part| part.thickness != w.parts[0].thickness) {
             let at = w.parts[0].at;
-            self.note(at, Ignored, "sections have different thicknesses: each part is computed per unit of depth, so those of different thickness don't fit together");
+            self.note(
+                at,
+                Ignored,
+                "sections have different thicknesses: each part is computed per unit of depth, so \
+                those of different thickness don't fit together",
+            );
         }
         Ok(())
     }
@@ -270,7 +275,7 @@ impl Importer<'_> {
             [[stress, _]] => format!("law = \"j2\"\n{elastic}yield = {}\n", pressure(*stress)),
             [[first, _], [second, strain]] if second >= first => {
                 let text = format!(
-                    "material {}: hardening goes on with the same slope beyond the plastic strain {}",
+                    "material {}: hardening continues with the same slope beyond the plastic strain {}",
                     material.name,
                     number(*strain)
                 );

@@ -17,7 +17,7 @@ use super::tree::Place;
 use super::units::shorten;
 use super::value::Datum;
 use crate::gmsh::messages::MESH_FILE;
-use crate::reach::{Bounds, Reach};
+use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
 use embate_solver::mesh::shapes::Values;
@@ -159,11 +159,11 @@ pub(super) struct Meshes<'a> {
 
 impl<'a> Meshes<'a> {
     /// Those of a file in `folder`, none of them read yet; some may be given instead of a file.
-    pub(super) fn new(folder: &'a Path, reach: Reach, given: &'a GivenMeshes) -> Self {
+    pub(super) fn new(folder: &'a Path, reach: PathPolicy, given: &'a GivenMeshes) -> Self {
         Self { folder, bounds: Bounds::of(folder, "model's", reach), given, read: Vec::new(), loaded: Vec::new() }
     }
 
-    /// Files that could not be read are tried again, so that their faults are told again.
+    /// Files that could not be read are tried again, so that their faults are reported again.
     pub(super) fn forget_faults(&mut self) {
         self.read.retain(|(.., index)| index.is_some());
     }
@@ -190,7 +190,7 @@ impl<'a> Meshes<'a> {
                     Some(self.loaded.len() - 1)
                 }
                 Err(wrong) => {
-                    wrong.into_iter().for_each(|fault| tell(fault, &file, (record, place), faults));
+                    wrong.into_iter().for_each(|fault| report(fault, &file, (record, place), faults));
                     None
                 }
             }
@@ -209,7 +209,7 @@ impl<'a> Meshes<'a> {
         if !self.is_there(&path, &file, (record, place), faults) {
             return None;
         }
-        stl::read(&path, &file, scale).map_err(|fault| tell(fault, &file, (record, place), faults)).ok()
+        stl::read(&path, &file, scale).map_err(|fault| report(fault, &file, (record, place), faults)).ok()
     }
 
     /// Whether a file may be read and is one; else its fault is noted.
@@ -230,7 +230,7 @@ impl<'a> Meshes<'a> {
 }
 
 /// Notes a fault within a file.
-fn tell(fault: Fault, file: &str, (record, place): (&Record, Place), faults: &mut Faults) {
+fn report(fault: Fault, file: &str, (record, place): (&Record, Place), faults: &mut Faults) {
     let within = if fault.path.is_empty() { String::new() } else { format!(", {}", fault.path) };
     let message = format!("{}{within}: {}", shorten(file), fault.message);
     faults.value(fault.kind, &record.key("file"), place, (message, fault.help));

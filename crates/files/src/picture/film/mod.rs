@@ -16,8 +16,8 @@ use super::field::{Scalar, names};
 use super::{PictureError, write_png, write_whole};
 use crate::outline::LineReader;
 use crate::picture::space::obstacle::Shape;
-use crate::threads::{Rooms, Threads};
-use embate_solver::archive::{Archive, Keep, Kept, Section};
+use crate::threads::{ScratchPool, Threads};
+use embate_solver::archive::{Archive, ArchiveResult, Persist, Section};
 use embate_solver::output::{Cells, Frame};
 use show::Show;
 use std::path::Path;
@@ -53,7 +53,7 @@ pub struct Film {
     /// Added to stored positions, m: keeps `f32` exact enough far from the origin.
     origin: Option<[f64; 3]>,
     line_reader: LineReader,
-    /// Of a film of space.
+    /// Of a film in 3D.
     space: Option<Space>,
     stored: Vec<Stored>,
     /// Every `stride`-th frame is kept; and the last.
@@ -65,20 +65,20 @@ pub struct Film {
 /// Its section in a checkpoint.
 const SECTION: &str = "film";
 
-impl Keep for Film {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for Film {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { cells: _, settings: _, bytes_max: _, space: _, scalars, missing, origin, line_reader, stored, stride, added } = self;
         // Another choice of colours makes another film.
         let own: Vec<String> = scalars.iter().map(Scalar::label).collect();
         let mut labels = own.clone();
-        labels.keep(archive)?;
+        labels.persist(archive)?;
         archive.check(labels == own, "the film shows other fields")?;
-        missing.keep(archive)?;
-        origin.keep(archive)?;
-        line_reader.far.keep(archive)?;
-        stored.keep(archive)?;
-        stride.keep(archive)?;
-        added.keep(archive)
+        missing.persist(archive)?;
+        origin.persist(archive)?;
+        line_reader.far.persist(archive)?;
+        stored.persist(archive)?;
+        stride.persist(archive)?;
+        added.persist(archive)
     }
 }
 
@@ -107,7 +107,7 @@ impl Film {
         let mut film = Self::new(cells, settings);
         film.choose_scalars(frame);
         let mut archive = Archive::of(kept);
-        let is_read = archive.section(SECTION).and_then(|()| film.keep(&mut archive)).is_ok() && archive.finish().is_ok();
+        let is_read = archive.section(SECTION).and_then(|()| film.persist(&mut archive)).is_ok() && archive.finish().is_ok();
         let sizes = [frame.nodes(), film.cells.len()];
         if is_read && film.stored.iter().all(|stored| stored.gone.iter().all(|&cell| (cell as usize) < sizes[1])) {
             film.enter_space(frame);
@@ -122,11 +122,11 @@ impl Film {
     /// All that it has so far.
     pub(crate) fn kept(&mut self) -> Vec<Section> {
         let mut archive = Archive::new();
-        let written = archive.section(SECTION).and_then(|()| self.keep(&mut archive));
+        let written = archive.section(SECTION).and_then(|()| self.persist(&mut archive));
         written.and_then(|()| archive.finish()).unwrap_or_default()
     }
 
-    /// Prepares for frames of space, if this is one.
+    /// Prepares for frames in 3D, if this is one.
     fn enter_space(&mut self, frame: &Frame) {
         if frame.dimension == 3 && self.space.is_none() {
             let mut space = Space::new(&self.cells, frame);
@@ -135,7 +135,7 @@ impl Film {
         }
     }
 
-    /// Gives stored frames of space the skins that they had.
+    /// Gives stored frames in 3D the skins that they had.
     fn put_skins_on(&mut self) {
         let Some(space) = &mut self.space else { return };
         for stored in &mut self.stored {
@@ -143,7 +143,7 @@ impl Film {
         }
     }
 
-    fn is_in_space(&self) -> bool {
+    fn is_in_3d(&self) -> bool {
         self.space.is_some()
     }
 
@@ -265,7 +265,7 @@ impl Film {
             return Err(PictureError::Field { name: self.settings.field.clone(), available: available.clone() });
         }
         let show = self.show();
-        let mesh = if self.is_in_space() { Mesh::default() } else { Mesh::new(&self.cells) };
+        let mesh = if self.is_in_3d() { Mesh::default() } else { Mesh::new(&self.cells) };
         let notes = self.notes();
         let wide = self.settings.width.min(ANIMATION_WIDTH);
         let high = f64::from(self.settings.height) * f64::from(wide) / f64::from(self.settings.width.max(1));
@@ -296,12 +296,12 @@ impl Film {
         let mut palette = palette;
         let still = palette.indices(stage.still(), None);
         let path = folder.join("animation.gif");
-        let rooms = Rooms::default();
+        let scratch_pool = ScratchPool::default();
         write_whole(&path, |out| {
             let mut animation = Animation::start(out, &canvas, &palette, &path)?;
             for chosen in chosen.chunks(FRAMES_AT_ONCE * threads.count()) {
                 let room = || (stage.clone(), canvas.clone(), palette.clone());
-                let pictures: Vec<Indices> = threads.map(chosen, &rooms, room, |(stage, canvas, palette), &index| {
+                let pictures: Vec<Indices> = threads.map(chosen, &scratch_pool, room, |(stage, canvas, palette), &index| {
                     self.draw(index, stage, mesh, show, notes, canvas);
                     palette.indices(canvas, Some((stage.still(), &still)))
                 });
@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn a_film_of_space_keeps_the_skin_alone_and_goes_on_from_what_was_kept() {
+    fn a_film_of_3d_keeps_the_skin_alone_and_continues_from_what_was_kept() {
         let size = [6, 5, 4];
         let cells = block(size);
         let count = cells.len();

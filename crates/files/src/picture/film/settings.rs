@@ -7,12 +7,12 @@ use embate_solver::model::Camera;
 pub struct FilmSettings {
     /// Title, at the upper left.
     pub title: String,
-    /// Whether bodies are also shown mirrored at x = 0, at y = 0 and, in space, at z = 0 (symmetric models).
+    /// Whether bodies are also shown mirrored at x = 0, at y = 0 and, in 3D, at z = 0 (symmetric models).
     pub mirror: [bool; 3],
     /// Lower and upper corner of what is shown, mirror images included, m; none: all bodies, and obstacles
-    /// near them. In space to the right and upwards in the picture, from the image of the origin.
+    /// near them. In 3D to the right and upwards in the picture, from the image of the origin.
     pub view: Option<[[f64; 2]; 2]>,
-    /// From where a model of space is seen.
+    /// From where a model in 3D is seen.
     pub camera: Camera,
     /// Whether forces are those of whole bodies, and not per metre of depth.
     pub of_whole_bodies: bool,

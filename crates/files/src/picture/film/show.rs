@@ -19,7 +19,7 @@ pub(super) struct Show {
     pub(super) view: Extent,
     /// Side of the mirror lines on which the model lies.
     pub(super) sides: [f64; 2],
-    /// In space: box around the bodies and their mirror images, m.
+    /// In 3D: box around the bodies and their mirror images, m.
     pub(super) bodies: Extent<3>,
 }
 
@@ -30,7 +30,7 @@ impl Film {
         // The first scalar that is not zero throughout; if all are, the last (equivalent stress before
         // plastic strain).
         let scalar = (0..self.scalars.len()).find(|k| all(*k).any(|v| v != 0.0)).or(self.scalars.len().checked_sub(1));
-        let (sides, bodies, view) = if self.is_in_space() { self.view_in_space() } else { self.view_in_plane() };
+        let (sides, bodies, view) = if self.is_in_3d() { self.view_in_3d() } else { self.view_in_plane() };
         let view = self.settings.view.unwrap_or(view);
         let Some(chosen) = scalar else { return Show { scalar, range: [0.0, 1.0], key: Key::Empty, view, sides, bodies } };
         let kind = self.scalars[chosen];
@@ -52,14 +52,14 @@ impl Film {
 
     /// Nothing, the box around bodies and mirror images, and what is seen of them and of the obstacles near
     /// them.
-    fn view_in_space(&self) -> ([f64; 2], Extent<3>, Extent) {
+    fn view_in_3d(&self) -> ([f64; 2], Extent<3>, Extent) {
         let (own, sight) = (self.bodies(), self.sight());
         let bodies = mirrored(own, self.settings.mirror);
         let view = self.stored.iter().map(|frame| self.seen(frame, own, bodies, &sight)).fold(NOTHING, joined);
         ([1.0; 2], bodies, sight.aimed(view))
     }
 
-    /// What is seen of one frame in space: of nodes in the box `own`, and of the obstacles near `bodies`.
+    /// What is seen of one frame in 3D: of nodes in the box `own`, and of the obstacles near `bodies`.
     fn seen(&self, frame: &Stored, own: Extent<3>, bodies: Extent<3>, sight: &Sight) -> Extent {
         let origin = self.origin();
         let places = frame.places::<3>().iter().map(|p| [0, 1, 2].map(|k| f64::from(p[k]) + origin[k]));
@@ -68,13 +68,13 @@ impl Film {
         sight.view(nodes.chain(solids.iter().flat_map(|solid| solid.seen(bodies))))
     }
 
-    /// Obstacles of a frame of space, beside these bodies.
+    /// Obstacles of a frame in 3D, beside these bodies.
     pub(super) fn solids(&self, frame: &Stored, bodies: Extent<3>) -> Vec<Solid> {
         let shapes = self.space.iter().flat_map(|space| &space.shapes);
         frame.surfaces.iter().zip(shapes).filter_map(|(points, shape)| shape.solid(points, bodies)).collect()
     }
 
-    /// How a film of space is seen.
+    /// How a film in 3D is seen.
     pub(super) fn sight(&self) -> Sight {
         Sight::new(&self.settings.camera, self.settings.mirror)
     }
@@ -110,7 +110,7 @@ impl Film {
         view.map(|corner| std::array::from_fn(|k| corner[k] + origin[k]))
     }
 
-    /// Box of all bodies of the plane and of the obstacles near them, m.
+    /// Box of all bodies in 2D and of the obstacles near them, m.
     pub(super) fn view(&self, sides: [f64; 2]) -> Extent {
         let bodies = self.bodies();
         self.stored.iter().map(|frame| self.obstacles(frame, bodies, sides)).fold(bodies, joined)
@@ -123,7 +123,7 @@ impl Film {
         let Show { scalar, range, key, view: whole, sides, mut bodies } = show.clone();
         let mut view = whole;
         if self.settings.view.is_none() {
-            let own = if self.is_in_space() {
+            let own = if self.is_in_3d() {
                 let own = self.box_of::<3>(frame);
                 bodies = mirrored(own, self.settings.mirror);
                 let sight = self.sight();

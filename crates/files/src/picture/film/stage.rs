@@ -1,4 +1,4 @@
-//! The pictures of a film's frames, of the plane or of space, and the colours of its animation.
+//! The pictures of a film's frames, in 2D or 3D, and the colours of its animation.
 //! What is shown was decided in `show`; `scene` and `space` draw.
 
 use super::show::Show;
@@ -10,7 +10,7 @@ use crate::picture::scene::{self, Scene};
 use crate::picture::sheet::Plan;
 use crate::picture::space;
 
-/// Frames whose colours an animation of space is given.
+/// Frames whose colours an animation in 3D is given.
 const SAMPLED: usize = 6;
 
 /// Where frames are drawn.
@@ -35,7 +35,7 @@ impl Film {
         let longest = notes.iter().max_by_key(|note| note.chars().count()).map_or("", String::as_str);
         let (title, mirror) = (&self.settings.title, self.settings.mirror);
         let plan = Plan { title, mirror, sides: show.sides, size, view: show.view, key: show.key.clone(), note: longest };
-        if self.is_in_space() { Stage::Space(space::Scene::new(&plan, &self.sight())) } else { Stage::Plane(Scene::new(&plan)) }
+        if self.is_in_3d() { Stage::Space(space::Scene::new(&plan, &self.sight())) } else { Stage::Plane(Scene::new(&plan)) }
     }
 
     /// Draws a stored frame.

@@ -1,10 +1,10 @@
-//! A frame as a film keeps it: single precision, and in space the skin alone.
+//! A frame as a film keeps it: single precision, and in 3D the skin alone.
 //! Made of the frames of a run; the checkpoint of a run has them too.
 
 use crate::outline::Line;
 use crate::picture::space::obstacle::Shape;
 use crate::picture::space::{Skin, Skinner};
-use embate_solver::archive::{Archive, Keep, Kept};
+use embate_solver::archive::{Archive, ArchiveResult, Persist};
 use embate_solver::output::{Cells, Frame};
 use std::sync::Arc;
 
@@ -12,16 +12,16 @@ use std::sync::Arc;
 pub(super) struct Stored {
     pub(super) number: usize,
     pub(super) time: f64,
-    /// From the film's origin, m, one after the other: of all nodes, in space of those of the skin.
+    /// From the film's origin, m, one after the other: of all nodes, in 3D of those of the skin.
     pub(super) positions: Vec<f32>,
     /// Eroded cells, ascending.
     pub(super) gone: Vec<u32>,
     pub(super) obstacles: Vec<Line>,
-    /// In space: points of each obstacle, m.
+    /// In 3D: points of each obstacle, m.
     pub(super) surfaces: Vec<Vec<[f64; 3]>>,
-    /// In space: what is seen of the cells.
+    /// In 3D: what is seen of the cells.
     pub(super) skin: Option<Arc<Skin>>,
-    /// One list per scalar: of nodes or cells, in space of the skin's nodes, or facets and bars.
+    /// One list per scalar: of nodes or cells, in 3D of the skin's nodes, or facets and bars.
     pub(super) values: Vec<Vec<f32>>,
 }
 
@@ -40,20 +40,20 @@ impl Stored {
     }
 }
 
-impl Keep for Stored {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for Stored {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         // The skin follows from the cells that are gone.
         let Self { number, time, positions, gone, obstacles, surfaces, skin: _, values } = self;
-        number.keep(archive)?;
-        time.keep(archive)?;
-        positions.keep(archive)?;
-        gone.keep(archive)?;
+        number.persist(archive)?;
+        time.persist(archive)?;
+        positions.persist(archive)?;
+        gone.persist(archive)?;
         let mut lines: Vec<(Vec<[f64; 2]>, bool)> =
             std::mem::take(obstacles).into_iter().map(|line| (line.points, line.is_endless)).collect();
-        lines.keep(archive)?;
+        lines.persist(archive)?;
         *obstacles = lines.into_iter().map(|(points, is_endless)| Line { points, is_endless }).collect();
-        surfaces.keep(archive)?;
-        values.keep(archive)
+        surfaces.persist(archive)?;
+        values.persist(archive)
     }
 }
 
@@ -63,7 +63,7 @@ pub(in crate::picture) fn gone(frame: &Frame) -> Vec<u32> {
     (0..).zip(&alive.values).filter(|(_, alive)| **alive == 0.0).map(|(cell, _)| cell).collect()
 }
 
-/// What a film of space needs to store its frames.
+/// What a film in 3D needs to store its frames.
 #[derive(Clone, Debug)]
 pub(super) struct Space {
     skinner: Skinner,

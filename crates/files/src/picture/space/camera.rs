@@ -1,4 +1,4 @@
-//! From places in space to places in a picture: the directions in which a camera looks, and the mirror images
+//! From places in 3D to places in a picture: the directions in which a camera looks, and the mirror images
 //! of a model. Comes from `output.camera`; `film` and `mesh` choose with it how much is shown, `scene` turns
 //! metres into pixels.
 
@@ -14,8 +14,8 @@ pub(super) struct Directions {
 }
 
 impl Directions {
-    /// Those of a camera. Where its directions can't be told (a zero vector, or upwards where it looks from),
-    /// others take their place.
+    /// Those of a camera. Where its directions can't be reported (a zero vector, or upwards where it looks
+    /// from), others take their place.
     pub(super) fn of(camera: &Camera) -> Self {
         let usual = Camera::default();
         let towards = unit(camera.from).or(unit(usual.from)).unwrap_or([0.0, 0.0, 1.0]);

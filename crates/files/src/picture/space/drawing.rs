@@ -40,7 +40,7 @@ pub(super) struct Drawing<'a> {
 
 /// What is known of each facet of a moment.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Room {
+pub(super) struct Scratch {
     normals: Vec<[f32; 3]>,
     /// Height of each facet, pixels; negative for those that are not drawn.
     heights: Vec<f32>,
@@ -54,7 +54,7 @@ impl Drawing<'_> {
     pub(super) fn draw(
         &self,
         samples: &mut Samples,
-        room: &mut Room,
+        room: &mut Scratch,
         map: &[[f32; 3]],
         style: Style,
         colour: impl Fn(usize, &Facet) -> Colour,
@@ -112,14 +112,14 @@ impl Drawing<'_> {
     }
 
     /// Draws an edge if it is a border, a crease, or the end of the body to the eye.
-    fn outline(&self, samples: &mut Samples, room: &Room, edge: &Edge, style: Style) {
+    fn outline(&self, samples: &mut Samples, room: &Scratch, edge: &Edge, style: Style) {
         let [a, b] = edge.facets;
         let b = if b == NONE { a } else { b };
         let (first, second) = (room.normals[a as usize], room.normals[b as usize]);
         let ends = edge.nodes.map(|node| self.points[node as usize]);
         let bits = |node: u32| self.planes.get(node as usize).copied().unwrap_or(0);
         if bits(edge.nodes[0]) & bits(edge.nodes[1]) != 0 {
-            return; // the body goes on in its mirror image
+            return; // the body continues in its mirror image
         }
         let sign = if self.is_turned { -1.0 } else { 1.0 };
         let (front, back) = (sign * first[2] > 0.0, sign * second[2] > 0.0);

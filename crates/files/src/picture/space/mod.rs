@@ -1,11 +1,11 @@
-//! Pictures of models of space: shaded bodies with hidden surfaces, seen from a camera afar.
+//! Pictures of models in 3D: shaded bodies with hidden surfaces, seen from a camera afar.
 //!
 //! The way of a picture: `sides` finds which sides of cells lie against each other, `skin` takes those that
 //! are seen, `camera` says where places are in the picture, `shade` lights facets, `drawing` hands them to
 //! `raster`, which keeps what is nearest; `obstacle` adds obstacles as a veil and `scene` lays out. Of a
 //! post-mortem's pictures `outlook` chooses the direction and cuts away what veils, `shot` draws the bodies
-//! of a panel as an image within an SVG, `near` and `spot` lay out the neighbourhood of a culprit and its
-//! place. Cells, frames and the choice of a field come from `film` and `mesh`, as in the plane; title and
+//! of a panel as an image within an SVG, `near` and `spot` lay out the neighbourhood of a failure location
+//! and its place. Cells, frames and the choice of a field come from `film` and `mesh`, as in 2D; title and
 //! legend are those of `sheet`.
 
 mod camera;

@@ -1,7 +1,7 @@
-//! The neighbourhood of a culprit of space at a few times: shaded elements with their numbers, what veils the
-//! culprit cut away.
+//! The neighbourhood of a failure location in 3D at a few times: shaded elements with their numbers, what
+//! veils the failure location cut away.
 //!
-//! Elements and times come from a trace, as in the plane, whose layout and legend this takes; `outlook`
+//! Elements and times come from a trace, as in 2D, whose layout and legend this takes; `outlook`
 //! chooses the direction, `shot` draws the bodies.
 
 use super::camera::Directions;
@@ -27,14 +27,14 @@ use std::fmt::Write;
 
 /// Facets have no lines but those of their parts.
 const PLAIN: Style = Style { edge: [1.0, 0.0], outline: [1.0, 0.0] };
-/// Half the thickness of lines of elements and of the culprit, pixels.
+/// Half the thickness of lines of elements and of the failure location, pixels.
 const LINE: f64 = 0.55;
 const CULPRIT_LINE: f64 = 1.9;
 /// Numbers and forces are shown where nothing is nearer by more than this, pixels.
 const LIFT: f64 = 4.0;
 
-/// The picture as the text of an SVG file; `mark` is what the culprit is called in it, `depth` the unit of
-/// forces. `frame`: the model where it failed.
+/// The picture as the text of an SVG file; `mark` is what the failure location is called in it, `depth` the
+/// unit of forces. `frame`: the model where it failed.
 pub(crate) fn neighbourhood(
     title: &str,
     near: &Neighbourhood,
@@ -65,7 +65,8 @@ struct Scene<'a> {
     cells: Cells,
     skin: Skin,
     outlook: Outlook,
-    /// Width and height of a panel, pixels; middle of what is shown, from the culprit, m; pixels for a metre.
+    /// Width and height of a panel, pixels; middle of what is shown, from the failure location, m; pixels for
+    /// a metre.
     size: [f64; 2],
     middle: [f64; 2],
     scale: f64,
@@ -103,7 +104,7 @@ fn triangles(surfaces: &[Surface]) -> Vec<[[f64; 3]; 3]> {
 impl<'a> Scene<'a> {
     fn new(near: &'a Neighbourhood, panels: &[Panel<'_>], camera: &Camera, frame: &Frame) -> Self {
         let cells = cells(near);
-        // What is far without end is told by the whole model.
+        // What is far without end is reported by the whole model.
         let mut reader = LineReader::default();
         reader.surfaces(frame);
         let surfaces: Vec<Vec<Surface>> = panels
@@ -168,7 +169,7 @@ impl<'a> Scene<'a> {
             writeln!(out, "<rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\" fill=\"none\" stroke=\"{}\"/>", hex(BORDER));
     }
 
-    /// Bodies with the lines of their parts, the culprit's last; obstacles.
+    /// Bodies with the lines of their parts, the failure location's last; obstacles.
     fn draw(&self, shot: &mut Shot, moment: &Moment, surfaces: &[Surface]) {
         let place = |node: u32| moment.positions[node as usize];
         let places: Vec<[f64; 3]> = self.skin.nodes.iter().map(|&node| place(node)).collect();
@@ -182,7 +183,7 @@ impl<'a> Scene<'a> {
         for bar in &self.skin.bars {
             shot.rod(bar.nodes.map(|node| places[node as usize]), 2.0 * LINE + 1.0, self.legend.fill(value(bar.cell), is_ring(bar.cell)));
         }
-        for ends in self.culprit_edges() {
+        for ends in self.failure_location_edges() {
             shot.rod(ends.map(place), CULPRIT_LINE, CULPRIT);
         }
         let bodies = moment.positions.iter().filter(|&&x| is_finite(x)).fold(nothing(), |all, &x| joined(all, [x, x]));
@@ -193,8 +194,8 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// Edges of the culprit's element.
-    fn culprit_edges(&self) -> Vec<[u32; 2]> {
+    /// Edges of the failure location's element.
+    fn failure_location_edges(&self) -> Vec<[u32; 2]> {
         let Some(element) = self.near.element else { return Vec::new() };
         if !is_sound(&self.cells, element) {
             return Vec::new();
@@ -213,8 +214,8 @@ impl<'a> Scene<'a> {
         edges
     }
 
-    /// The number of each element that hangs together with the culprit on that of its facets which is seen
-    /// best.
+    /// The number of each element that hangs together with the failure location on that of its facets which
+    /// is seen best.
     fn labels(&self, out: &mut String, shot: &Shot, moment: &Moment, spot: &impl Fn([f64; 3]) -> [f64; 2]) {
         let mut best: Vec<Option<(f64, usize)>> = vec![None; self.near.cells.len()];
         for (index, facet) in self.skin.facets.iter().enumerate() {
@@ -261,7 +262,7 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The culprit's name in a corner; a ring around its node, a line to what is small.
+    /// The failure location's name in a corner; a ring around its node, a line to what is small.
     fn mark(&self, out: &mut String, moment: &Moment, [left, top]: [f64; 2], spot: &impl Fn([f64; 3]) -> [f64; 2], mark: &str) {
         let colour = hex(CULPRIT);
         if let Some(x) = self.near.node.map(|node| moment.positions[node]).filter(|&x| is_finite(x)) {
@@ -276,7 +277,7 @@ impl<'a> Scene<'a> {
         name(out, mark, corner);
     }
 
-    /// The smaller side of the box around the culprit's element, pixels.
+    /// The smaller side of the box around the failure location's element, pixels.
     fn least(&self, moment: &Moment, spot: &impl Fn([f64; 3]) -> [f64; 2]) -> f64 {
         let nodes = self.near.element.map_or(&[][..], |element| &self.near.cells[element].nodes);
         let all: Vec<[f64; 2]> = nodes.iter().map(|&node| spot(moment.positions[node])).collect();
@@ -292,7 +293,7 @@ fn area([a, b, c, d]: &[[f64; 3]; 4], directions: &Directions) -> f64 {
     0.5 * dot(cross(minus(c, a), minus(d, b)), directions.towards).max(0.0)
 }
 
-/// Middle of a panel: the culprit's node, or the mean of its element's.
+/// Middle of a panel: the failure location's node, or the mean of its element's.
 fn centre(near: &Neighbourhood, moment: &Moment) -> [f64; 3] {
     let of_node = near.node.map(|node| vec![node]);
     let nodes = of_node.or_else(|| near.element.map(|element| near.cells[element].nodes.clone())).unwrap_or_default();
@@ -301,6 +302,6 @@ fn centre(near: &Neighbourhood, moment: &Moment) -> [f64; 3] {
         sum.map(|v| v / places.len().max(1) as f64)
     };
     let own: Vec<[f64; 3]> = nodes.iter().map(|&node| moment.positions[node]).filter(|&x| is_finite(x)).collect();
-    // Where the culprit is nowhere any more: the mean of what is left.
+    // Where the failure location is nowhere any more: the mean of what is left.
     if own.is_empty() { mean(moment.positions.iter().copied().filter(|&x| is_finite(x)).collect()) } else { mean(own) }
 }

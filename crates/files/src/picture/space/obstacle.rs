@@ -1,4 +1,4 @@
-//! Obstacles of space in pictures: facets as they are; of a plane without end a finite piece around the
+//! Obstacles in 3D in pictures: facets as they are; of a plane without end a finite piece around the
 //! bodies, with a grid on it. Surfaces come from `outline`, boxes around bodies from `film` and `mesh`;
 //! drawings go to `scene`.
 

@@ -1,4 +1,4 @@
-//! From where a place in a model of space is seen best, and what must be cut away where it is seen from
+//! From where a place in a model in 3D is seen best, and what must be cut away where it is seen from
 //! nowhere: for the pictures of a post-mortem.
 //!
 //! Cells and places come from `near` and `spot`. Of the model's own camera and the eight corners of a box

@@ -1,9 +1,9 @@
-//! Layout of a picture of space: the plot on its sheet, below it a cross of the axes and a scale; then one
+//! Layout of a picture in 3D: the plot on its sheet, below it a cross of the axes and a scale; then one
 //! moment after the other on a copy. `film` and `mesh` say what there is to show; `drawing` draws bodies and
 //! obstacles, the canvas goes to `animation` or to a PNG.
 
 use super::camera::{Directions, Sight};
-use super::drawing::{Colour, Drawing, Room, Style};
+use super::drawing::{Colour, Drawing, Scratch, Style};
 use super::obstacle::Solid;
 use super::raster::{FINE, Samples};
 use super::skin::{Facet, Skin};
@@ -38,7 +38,7 @@ pub(in crate::picture) struct Scene {
     obstacles: Samples,
     points: Vec<[f32; 3]>,
     planes: Vec<u8>,
-    room: Room,
+    room: Scratch,
 }
 
 /// One moment of a film.
@@ -83,7 +83,7 @@ impl Scene {
             obstacles: Samples::new(wide, high),
             points: Vec::new(),
             planes: Vec::new(),
-            room: Room::default(),
+            room: Scratch::default(),
         };
         scene.draw_border();
         scene.draw_cross();
@@ -145,7 +145,7 @@ impl Scene {
         Style { edge: [unit * style.edge[0], style.edge[1]], outline: [unit * style.outline[0], style.outline[1]] }
     }
 
-    /// Turns places from `origin` (m) into samples from the plot's corner, and tells on which mirror planes
+    /// Turns places from `origin` (m) into samples from the plot's corner, and reports on which mirror planes
     /// they lie.
     fn place(&mut self, origin: [f64; 3], places: impl Iterator<Item = [f64; 3]>, sign: [f64; 3]) {
         let directions = self.sight.directions.mirrored(sign);

@@ -27,7 +27,7 @@ pub(super) fn normals(skin: &Skin, points: &[[f32; 3]], normals: &mut Vec<[f32; 
 }
 
 /// Brightness at the corners of a facet. `halved`: axes, as unit vectors of the picture, on whose mirror
-/// planes a node lies; there the surface goes on in its mirror image.
+/// planes a node lies; there the surface continues in its mirror image.
 pub(super) fn lights(skin: &Skin, normals: &[[f32; 3]], facet: usize, halved: &dyn Fn(u32) -> [Option<[f32; 3]>; 3]) -> [f32; 4] {
     let own = normals[facet];
     // What is seen from behind, as through a hole, has light too.

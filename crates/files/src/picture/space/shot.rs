@@ -1,11 +1,11 @@
-//! One look at bodies and obstacles of space, as an image within an SVG: what `near` and `spot` write their
+//! One look at bodies and obstacles in 3D, as an image within an SVG: what `near` and `spot` write their
 //! lines and names on.
 //!
-//! Bodies are drawn as in all pictures of space; the image is a PNG in the text of the SVG itself, so that a
+//! Bodies are drawn as in all pictures in 3D; the image is a PNG in the text of the SVG itself, so that a
 //! picture stays one file.
 
 use super::camera::Directions;
-use super::drawing::{Colour, Drawing, Room, Style};
+use super::drawing::{Colour, Drawing, Scratch, Style};
 use super::obstacle::Solid;
 use super::raster::{FINE, Samples};
 use super::scene::AXES;
@@ -37,7 +37,7 @@ pub(super) struct Shot {
     at: [f64; 2],
     bodies: Samples,
     obstacles: Option<Samples>,
-    room: Room,
+    room: Scratch,
 }
 
 impl Shot {
@@ -46,7 +46,7 @@ impl Shot {
         let fine = SHARP * FINE as f64;
         let [wide, high] = size.map(|side| (SHARP * side).ceil().clamp(1.0, 4096.0) as usize);
         let bodies = Samples::new(wide, high);
-        Self { directions, size, scale: fine * scale, fine, origin, at, bodies, obstacles: None, room: Room::default() }
+        Self { directions, size, scale: fine * scale, fine, origin, at, bodies, obstacles: None, room: Scratch::default() }
     }
 
     /// To the right, downwards and towards the viewer, samples.
@@ -123,7 +123,8 @@ impl Shot {
         let Some(bytes) = png(&canvas) else { return };
         let _ = writeln!(
             out,
-            "<image x=\"{left:.1}\" y=\"{top:.1}\" width=\"{:.2}\" height=\"{:.2}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>",
+            "<image x=\"{left:.1}\" y=\"{top:.1}\" width=\"{:.2}\" height=\"{:.2}\" preserveAspectRatio=\"none\" \
+                href=\"data:image/png;base64,{}\"/>",
             wide as f64 / SHARP,
             high as f64 / SHARP,
             base64(&bytes)

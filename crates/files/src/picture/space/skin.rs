@@ -1,5 +1,5 @@
 //! The skin of solid cells: the sides that nothing lies against, their edges, and the facets around each
-//! node. Made of the cells of a film, and again when cells have gone; obstacles of space are skins too.
+//! node. Made of the cells of a film, and again when cells have gone; obstacles in 3D are skins too.
 //! Positions come with each frame; `scene` draws.
 
 use super::sides::{NONE, Sides, corners, is_sound, sides_of};
@@ -70,12 +70,12 @@ pub(crate) struct Skinner {
     turned: Vec<CellKind>,
 }
 
-/// Cells of each shape by which it is told which way its sides are numbered.
+/// Cells of each shape by which it is reported which way its sides are numbered.
 const TOLD_BY: usize = 100;
 
 impl Skinner {
     /// Looks for the sides that lie against each other: the work that grows with the number of cells. Places
-    /// of the nodes, m, tell which side of a facet is outside.
+    /// of the nodes, m, say which side of a facet is outside.
     pub(crate) fn new(cells: &Cells, place: &dyn Fn(u32) -> [f64; 3]) -> Self {
         let sides = Sides::new(cells);
         let outer = (0..sides.len() as u32).filter(|&side| sides.partner(side).is_none()).collect();
@@ -92,7 +92,7 @@ impl Skinner {
         Skin::of(facets, bars)
     }
 
-    /// What can be seen of them, of cells of the plane too: facets and bars by the nodes of the frame, each
+    /// What can be seen of them, of cells in 2D too: facets and bars by the nodes of the frame, each
     /// by its cell, ascending.
     pub(crate) fn seen(&self, cells: &Cells, gone: &[u32]) -> (Vec<Facet>, Vec<Bar>) {
         let is_there = |cell: usize| gone.binary_search(&(cell as u32)).is_err();
@@ -134,8 +134,8 @@ fn is_turned(cells: &Cells, kind: CellKind, place: &dyn Fn(u32) -> [f64; 3]) -> 
         };
         sides_of(kind).iter().map(six).sum()
     };
-    let told_by = (0..cells.len()).filter(|&cell| cells.kinds[cell] == kind && is_sound(cells, cell)).take(TOLD_BY);
-    let balance: i32 = told_by.map(|cell| if volume(cell) < 0.0 { -1 } else { 1 }).sum();
+    let reported_by = (0..cells.len()).filter(|&cell| cells.kinds[cell] == kind && is_sound(cells, cell)).take(TOLD_BY);
+    let balance: i32 = reported_by.map(|cell| if volume(cell) < 0.0 { -1 } else { 1 }).sum();
     balance < 0
 }
 

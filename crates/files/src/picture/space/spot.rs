@@ -1,4 +1,4 @@
-//! Where in a model of space something is: all bodies, shaded, with a mark; what veils the place is cut away.
+//! Where in a model in 3D something is: all bodies, shaded, with a mark; what veils the place is cut away.
 //!
 //! Cells and positions come from the simulation of a failed run; layout and legend are those of the plane's
 //! picture.

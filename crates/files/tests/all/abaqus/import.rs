@@ -1,6 +1,6 @@
-//! Whole decks become models, and the report tells what became of each keyword.
+//! Whole decks become models, and the report says what became of each keyword.
 
-use embate_files::Reach;
+use embate_files::PathPolicy;
 use embate_files::abaqus::import::{Imported, Outcome, Units, import, table_markdown};
 use embate_files::model_file;
 use embate_solver::error::Fault;
@@ -20,7 +20,7 @@ fn imported(name: &str, deck: &str, units: &str) -> Result<(Imported, PathBuf), 
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("import-{name}"));
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("deck.inp"), deck).unwrap();
-    let imported = import(&folder.join("deck.inp"), &Units::parse(units).unwrap(), Reach::Folder)?;
+    let imported = import(&folder.join("deck.inp"), &Units::parse(units).unwrap(), PathPolicy::Folder)?;
     fs::write(folder.join("mesh.inp"), &imported.mesh).unwrap();
     fs::write(folder.join("model.toml"), &imported.model).unwrap();
     Ok((imported, folder))
@@ -229,7 +229,7 @@ fn what_would_make_another_model_is_refused_with_its_line() {
 }
 
 #[test]
-fn what_does_not_act_is_told() {
+fn what_does_not_act_is_reported() {
     for (more, text) in [
         ("*FOO,BAR=1\n2.\n", "embate has no counterpart of this keyword"),
         ("*BOUNDARY\n7,1,1,0.5\n", "a displacement that jumps at the start"),
@@ -244,8 +244,8 @@ fn what_does_not_act_is_told() {
         ("*MATERIAL,NAME=n\n", "no section has the material n"),
     ] {
         let (made, folder) = imported("ignored", &deck("CPE4", more), "m,kg,s").unwrap();
-        let told = made.report.entries.iter().any(|entry| entry.outcome == Outcome::Ignored && entry.text.contains(text));
-        assert!(told, "{more}: {}", made.report.text());
+        let reported = made.report.entries.iter().any(|entry| entry.outcome == Outcome::Ignored && entry.text.contains(text));
+        assert!(reported, "{more}: {}", made.report.text());
         model(&folder);
     }
 }

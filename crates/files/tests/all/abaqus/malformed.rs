@@ -6,7 +6,7 @@ use embate_files::abaqus::parse;
 use proptest::prelude::*;
 use std::path::Path;
 
-/// What is changed to what, the line, and how message and cure begin.
+/// What is changed to what, the line, and how message and remedy begin.
 type Case = (&'static str, &'static str, u32, &'static str, &'static str);
 
 #[rustfmt::skip]
@@ -32,8 +32,8 @@ const CASES: &[Case] = &[
     ("type=cpe4r", "typ=cpe4r", 13, "*ELEMENT has no type", "add TYPE"),
     ("type=cpe4r", "type=CPE8R", 13, "element type CPE8R is of second order", "use elements with nodes at their corners"),
     ("type=cpe4r", "type=C3D20R", 13, "element type C3D20R is of second order", "use elements with nodes at their corners"),
-    ("type=cpe4r", "type=R3D4", 13, "element type R3D4 is a shell or a surface in space", "take solids"),
-    ("type=cpe4r", "type=C3D4", 19, "element 3 is a CPE3, beside solids", "bodies are all plane"),
+    ("type=cpe4r", "type=R3D4", 13, "element type R3D4 is a shell or a surface in 3D", "take solids"),
+    ("type=cpe4r", "type=C3D4", 19, "element 3 is a CPE3, beside solids", "bodies are all 2D"),
     ("type=cpe4r", "type=ABC", 13, "element type ABC is not known", "use elements"),
     (" 2, 2, 3, 6, 5\n", " 2, 2, 3, 6\n", 17, "an element CPE4R of 4 numbers", "look at the type"),
     (" 2, 2, 3, 6, 5\n", " 2, 2, 3, 6, 5, 1\n", 17, "an element CPE4R of 6 numbers", "look at the type"),

@@ -1,7 +1,7 @@
-//! Decks of solids: faces, instances in space, and what does not go with solids.
+//! Decks of solids: faces, instances in 3D, and what does not go with solids.
 
 use super::{group, read};
-use embate_files::Reach;
+use embate_files::PathPolicy;
 use embate_files::abaqus::import::{Units, import};
 use embate_files::model_file::load_text;
 use embate_solver::mesh::cell::CellKind;
@@ -233,14 +233,14 @@ fn imported(deck: &str) -> (Model, String, String) {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("deck.inp"), deck).unwrap();
     let units = Units::parse("mm,t,s").unwrap();
-    let made = import(&folder.path().join("deck.inp"), &units, Reach::Folder).unwrap_or_else(|faults| panic!("{faults:#?}"));
+    let made = import(&folder.path().join("deck.inp"), &units, PathPolicy::Folder).unwrap_or_else(|faults| panic!("{faults:#?}"));
     fs::write(folder.path().join("mesh.inp"), &made.mesh).unwrap();
     let model = load_text("m", &made.model, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}\n{}", made.model));
     (model, made.model, made.report.text())
 }
 
 #[test]
-fn a_deck_of_solids_becomes_a_model_of_space() {
+fn a_deck_of_solids_becomes_a_model_of_3d() {
     let (model, text, report) = imported(DECK);
     assert!(report.contains("nothing was ignored"), "{report}");
     assert!(model.is_of_whole_bodies() && Mesh::<3>::new(&model).is_ok());
@@ -280,7 +280,7 @@ fn a_deck_of_solids_becomes_a_model_of_space() {
 }
 
 #[test]
-fn what_solids_can_not_have_is_told() {
+fn what_solids_can_not_have_is_reported() {
     let (model, text, report) =
         imported(&DECK.replace("*CONTACT PAIR, INTERACTION=ROUGH\nUNDER, OVER\n", "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n"));
     assert!(matches!(&model.contacts[0].partners, Partners::Bodies(parts) if parts.is_empty()), "{text}");

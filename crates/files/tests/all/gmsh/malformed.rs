@@ -12,7 +12,7 @@ fn changed(name: &str, from: &str, to: &str) -> Vec<u8> {
 }
 
 /// One wrong file: fixture, what is changed to what, and the fault that is expected: its place and how
-/// message and cure begin.
+/// message and remedy begin.
 type Case = (&'static str, &'static str, &'static str, &'static str, &'static str, &'static str);
 
 #[rustfmt::skip]
@@ -97,7 +97,7 @@ const CASES: &[Case] = &[
     ("plate-v2-binary", "\n$Nodes\n30\n", "\n$Nodes\n31\n", "m.msh, byte", "expected $EndNodes, found other bytes", "the section's counts"),
     ("plate-v2-binary", "\n$Elements\n52\n", "\n$Elements\n51\n", "m.msh, byte", "expected $EndElements, found other bytes", "the section's counts"),
     ("plate-v2-binary", "\n$Elements\n52\n", "\n$Elements\n5000\n", "m.msh, byte", "the file announces 5000 elements, but only", "the count is wrong"),
-    ("plate-v2-binary", "2.2 1 8\n\u{1}", "2.2 1 8\n\u{2}", "m.msh, line 3", "the file's byte order can't be told from the bytes [2, 0, 0, 0]", "the number one is expected here"),
+    ("plate-v2-binary", "2.2 1 8\n\u{1}", "2.2 1 8\n\u{2}", "m.msh, line 3", "the file's byte order can't be derived from the bytes [2, 0, 0, 0]", "the number one is expected here"),
     ("plate-v4-binary", "$Nodes\n\u{17}\0", "$Nodes\n\u{16}\0", "m.msh, byte", "the file announces 30 nodes, but its blocks hold 22", "the counts don't agree"),
     ("plate-v4-binary", "$Nodes\n\u{17}\0\0\0\0\0\0\0", "$Nodes\n\u{17}\0\0\0\0\0\0\u{7f}", "m.msh, byte", "the file announces 9151314442816847895 blocks, but only", "the count is wrong"),
     ("plate-v4-binary", "$Elements\n\u{9}\0", "$Elements\n\u{8}\0", "m.msh, byte", "the file announces 48 elements, but its blocks hold 16", "the counts don't agree"),

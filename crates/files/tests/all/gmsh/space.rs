@@ -1,4 +1,4 @@
-//! Meshes of space: volumes are bodies, surfaces their sides; every form and every fault that the plane
+//! Meshes in 3D: volumes are bodies, surfaces their sides; every form and every fault that the plane
 //! doesn't have.
 
 use super::{faults, group, mesh};
@@ -278,7 +278,7 @@ fn counts_that_are_too_large_are_refused_before_anything_is_allocated() {
     }
 }
 
-/// A folder with the mesh of these tests and a square of the plane.
+/// A folder with the mesh of these tests and a square in 2D.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("solids.msh"), version_2(&nodes(), &elements())).unwrap();
@@ -319,21 +319,18 @@ fn groups_of_a_file_of_solids_are_parts_surfaces_and_nodes_of_a_model() {
 }
 
 #[test]
-fn parts_of_the_plane_and_of_space_from_files_do_not_go_together() {
+fn parts_of_2d_and_of_3d_from_files_do_not_go_together() {
     let folder = folder();
     let part = "[[part]]\nname = \"c\"\nmaterial = \"steel\"\nmesh = { file = \"square.msh\", group = \"square\" }\n";
     let found = load_text("m", &format!("{MODEL}{part}"), folder.path(), &[]).unwrap_err();
-    assert!(
-        found.entries.iter().any(|it| it.kind.code == "E0212" && it.message.contains("`c`") | it.message.contains("in the plane")),
-        "{found}"
-    );
+    assert!(found.entries.iter().any(|it| it.kind.code == "E0212" && it.message.contains("`c`") | it.message.contains("is 2D")), "{found}");
     let group = MODEL.replace("group = \"block\"", "group = \"upper\"");
     let found = load_text("m", &group, folder.path(), &[]).unwrap_err();
     assert!(
         found.entries.iter().any(|it| it.kind.code == "E0206" && it.message.ends_with("is a group of surfaces, not of volumes")),
         "{found}"
     );
-    // The square alone stays a model of the plane; extruded it goes with the solids.
+    // The square alone stays a model in 2D; extruded it goes with the solids.
     let alone = format!("run.end = 1\n[material.steel]\nlaw = \"elastic\"\ndensity = 1\nyoung = 1\npoisson = 0\n{part}");
     assert_eq!(load_text("m", &alone, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}")).dimension(), 2);
     let extruded = format!("{MODEL}{part}extrude = {{ from = 9, length = 1, elements = 1 }}\n");

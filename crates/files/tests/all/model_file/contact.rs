@@ -255,7 +255,7 @@ fn loads_boundaries_and_joins_are_read() {
 }
 
 #[test]
-fn a_wall_is_told_that_it_is_an_obstacle_now() {
+fn a_wall_is_reported_that_it_is_an_obstacle_now() {
     let help = "walls are obstacles now: [[obstacle]] with plane = { point, normal }";
     each_has(&[
         (and("[[wall]]\nnormal = [1, 0]"), "wall", &format!("a model has no key `wall` | {help}")),
@@ -380,12 +380,12 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
         ),
         (changed("fixed = \"x\"", "velocity.x = \"free\""), "constraint[0].velocity.x", "can't be \"free\" here"),
         (ball("rigid = { x = 0 }\nvelocity = [1, 0]"), "part[2].velocity[0]", "`x` is not free"),
-        (ball("rigid = { z = 1 }"), "part[2].rigid.z", "there is no `z` in the plane"),
+        (ball("rigid = { z = 1 }"), "part[2].rigid.z", "there is no `z` in 2D"),
         (ball("rigid = { w = 0 }"), "part[2].rigid.w", "give `x`, `y`, `z`, `rotation`, or some of them"),
         (ball("rigid = true\n").replace("\"plate.left\"", "\"ball.outer\""), "constraint[0].on", "part `ball` is rigid"),
-        (both.replace("[\"tube\", \"plate\"]", "[\"tube.outer\", \"ball\"]"), "contact[0].between", "nothing can give way"),
-        (both.replace(BETWEEN, "bodies = [\"tube\", \"ball\"]\n"), "contact[0].bodies", "nothing can give way"),
-        (both.replace("parts = [\"plate\"]", "parts = [\"ball\"]"), "obstacle[0].parts", "nothing can give way"),
+        (both.replace("[\"tube\", \"plate\"]", "[\"tube.outer\", \"ball\"]"), "contact[0].between", "nothing can deform"),
+        (both.replace(BETWEEN, "bodies = [\"tube\", \"ball\"]\n"), "contact[0].bodies", "nothing can deform"),
+        (both.replace("parts = [\"plate\"]", "parts = [\"ball\"]"), "obstacle[0].parts", "nothing can deform"),
         (changed("[0, \"1 ms\"]", "[0, 0]"), "curve.ramp.time[1]", "0 s does not follow 0 s: the times must ascend"),
         (changed("[0, \"5 m/s\"]", "[0]"), "curve.ramp.value", "there are 2 times, but 1 values"),
         (and("[curve.free]\ntime = [0]\nvalue = [0]"), "curve.free", "a curve can't be called `free`"),

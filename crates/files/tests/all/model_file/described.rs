@@ -114,7 +114,7 @@ fn values(kind: Kind) -> Vec<Bad> {
             let inside = |it: Bad| Bad { value: format!("[1.0, {}, 0]", it.value), at: "[1]", ..it };
             let mut all: Vec<Bad> = scalar(range).into_iter().map(inside).collect();
             all.extend(
-                ["5", "[1]", "[1, 2, 3, 4]", "\"1 m\"", "true"].map(|value| bad(value, "", "must be a list of 2 numbers (3 in space)")),
+                ["5", "[1]", "[1, 2, 3, 4]", "\"1 m\"", "true"].map(|value| bad(value, "", "must be a list of 2 numbers (3 in 3D)")),
             );
             all
         }

@@ -166,7 +166,7 @@ const CASES: &[Case] = &[
     (
         "fixed = \"x\"",
         "fixed = [\"x\", \"z\"]",
-        &["31:9 there is no `z` in the plane | leave it out, or make the parts solid: `extrude` them, or give them a shape of space"],
+        &["31:9 there is no `z` in 2D | leave it out, or make the parts solid: `extrude` them, or give them a 3D shape"],
     ),
     (
         "fixed = \"x\"",
@@ -212,7 +212,7 @@ fn each_malformed_model_has_exactly_its_messages() {
 }
 
 #[test]
-fn an_empty_file_is_told_what_a_model_needs() {
+fn an_empty_file_is_reported_what_a_model_needs() {
     let all = shown("");
     assert_eq!(all[0], "0:0 the model has no [run] | How long the simulation runs and what stops it.");
     assert!(all.len() == 3 && all[1].contains("[material.NAME]") && all[2].contains("[[part]]"), "{all:?}");
@@ -319,7 +319,7 @@ fn a_missing_parameter_is_one_fault_and_nothing_follows_from_it() {
         ("eos = \"jwl\"\npressure_b = 1e9\nr1 = 4\nr2 = 1\nomega = 0.3\nenergy_initial = 1e9", "pressure_a"),
     ] {
         let found = faults(&changed("young = \"200 GPa\"", &format!("young = \"200 GPa\"\n{eos}")));
-        let told: Vec<String> = found.iter().map(|fault| format!("{} {}", fault.kind.code, fault.message)).collect();
-        assert!(matches!(&told[..], [one] if one.starts_with("E0107") && one.contains(&format!("`{missing}`"))), "{eos}: {told:?}");
+        let reported: Vec<String> = found.iter().map(|fault| format!("{} {}", fault.kind.code, fault.message)).collect();
+        assert!(matches!(&reported[..], [one] if one.starts_with("E0107") && one.contains(&format!("`{missing}`"))), "{eos}: {reported:?}");
     }
 }

@@ -113,14 +113,14 @@ fn solids_that_can_not_be_are_refused_with_the_place() {
         (format!("{RECTANGLE}revolve = {{ elements = 2 }}"), "revolve.elements", "2 elements can't go all around"),
         (format!("{RECTANGLE}revolve = {{ elements = 2, angle = 1, axis = [0, 0] }}"), "revolve.axis", "has no direction"),
         (format!("{}\nextrude = {{ length = 1, elements = 1 }}", sphere("elements = 2")), "extrude", "is a solid as it is"),
-        (RECTANGLE.to_string(), "rectangle", "in the plane, but part `"),
+        (RECTANGLE.to_string(), "rectangle", "2D, but part `"),
     ];
     for (shape, path, message) in cases {
         let found = faults(&solids(&shape));
         let path = format!("part[1].{path}");
         assert!(found.iter().any(|fault| fault.path == path && fault.message.contains(message)), "{shape}: {found:#?}");
     }
-    // In the plane nothing leads out of it.
+    // In 2D nothing leads out of it.
     let found = faults(&with(&format!("translation = [0, 0, 1]\nrotation = {{ angle = 1, axis = [0, 1, 0] }}\n{RECTANGLE}")));
     for path in ["part[1].translation", "part[1].rotation.axis"] {
         assert!(found.iter().any(|fault| fault.path == path && fault.message.contains("leads out of the plane")), "{found:#?}");
@@ -128,7 +128,7 @@ fn solids_that_can_not_be_are_refused_with_the_place() {
 }
 
 #[test]
-fn what_folds_over_or_needs_triangles_is_told_when_it_is_meshed() {
+fn what_folds_over_or_needs_triangles_is_reported_when_it_is_meshed() {
     let folded = "quadrilateral = { corners = [[0, 0], [1, 0], [1, 1], [0, 1]], elements = [8, 8], bottom_arc = [0.5, 2] }";
     let tight = "path = { points = [[0, 0], [1, 0], [1, 0.1], [0, 0.1]], width = 0.5, elements = [2, 8] }";
     for shape in [folded, tight] {

@@ -20,7 +20,7 @@ fn sound(sections: &str) -> Model {
 }
 
 /// Path and words of the faults.
-fn told(sections: &str) -> Vec<String> {
+fn reported(sections: &str) -> Vec<String> {
     faults(&boxes(sections)).iter().map(|fault| format!("{}: {} | {}", fault.path, fault.message, fault.help)).collect()
 }
 
@@ -41,10 +41,10 @@ fn springs_between_solids_are_whole_ones() {
         ("elongation = [0, 1]\nforce = [0, \"5 N/m\"]", "spring[0].force[1]"),
         ("stiffness = 1\nstrength = \"5 N/m\"", "spring[0].strength"),
     ] {
-        let found = told(&format!("{BETWEEN}{line}"));
+        let found = reported(&format!("{BETWEEN}{line}"));
         assert!(found.len() == 1 && found[0].starts_with(&format!("{path}: ")), "{line}: {found:#?}");
     }
-    let found = told(&format!("{BETWEEN}stiffness = \"2 kN/m/m\""));
+    let found = reported(&format!("{BETWEEN}stiffness = \"2 kN/m/m\""));
     assert!(found[0].contains("N/m") && !found[0].contains("Pa\""), "{found:?}");
 }
 
@@ -56,7 +56,7 @@ fn masses_of_solids_are_whole_ones() {
         "[[obstacle]]\nname = \"ball\"\nsphere = { centre = [0, 0, 9], radius = 1 }\nmotion = { x = \"free\", rotation = \"free\" }\n";
     let obstacle = sound(&format!("{ball}mass = \"2 kg\"\ninertia = \"30 kg m^2\"")).obstacles.pop().unwrap();
     assert_eq!((obstacle.mass, obstacle.inertia), (Some(2.0), Some(30.0)));
-    assert_eq!(told(&format!("{ball}mass = \"2 kg/m\"\ninertia = \"30 kg m\"")).len(), 2);
+    assert_eq!(reported(&format!("{ball}mass = \"2 kg/m\"\ninertia = \"30 kg m\"")).len(), 2);
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn a_contact_stiffness_of_solids_is_per_node_or_per_area() {
     assert_eq!(law("\"2e9 N/m\""), per_node);
     assert_eq!(law("2e9"), per_node);
     assert_eq!(law("\"2e9 Pa/m\""), ContactLaw::Penalty(Penalty::Pressure(2e9)));
-    let found = told(&format!("{floor}penalty = \"2e9 N/m/m\""));
+    let found = reported(&format!("{floor}penalty = \"2e9 N/m/m\""));
     assert!(
         found.len() == 1 && found[0].starts_with("obstacle[0].penalty: ") && found[0].contains("in N/m/m | write it like \"1 N/m\""),
         "{found:?}"
@@ -76,11 +76,11 @@ fn a_contact_stiffness_of_solids_is_per_node_or_per_area() {
 
 #[test]
 fn bars_beside_solids_have_an_area() {
-    // A box is no bar, which is told too.
+    // A box is no bar, which is reported too.
     let bars = |area: &str| {
         let part = "[[part]]\nname = \"bars\"\nmaterial = \"steel\"\nelement = \"bar2\"\n";
         let text = format!("{part}box = {{ corner = [5, 0, 0], size = [1, 1, 1], elements = [1, 1, 1] }}\narea = {area}");
-        told(&text).into_iter().filter(|fault| fault.starts_with("part[2].area")).collect::<Vec<_>>()
+        reported(&text).into_iter().filter(|fault| fault.starts_with("part[2].area")).collect::<Vec<_>>()
     };
     assert_eq!(bars("\"1 cm^2\""), Vec::<String>::new());
     assert_eq!(bars("\"1 cm\"").len(), 1);
@@ -103,22 +103,22 @@ fn parts_that_are_solids_by_their_mesh_alone_have_the_units_of_solids() {
         let text = format!("{steel}{}{}{sections}\n", part("one", file), part("two", "cube.inp"));
         embate_files::model_file::load_text("model.toml", &text, folder.path(), &[])
     };
-    let told = |file: &str, sections: &str| {
+    let reported = |file: &str, sections: &str| {
         let entries = load(file, sections).map_or_else(|diagnostics| diagnostics.entries, |_| Vec::new());
         entries.iter().map(|fault| format!("{}: {} | {}", fault.path, fault.message, fault.help)).collect::<Vec<_>>()
     };
     let model = load("cube.inp", "[[point_mass]]\non = \"one\"\nmass = \"2 kg\"\n[[load]]\non = \"low\"\nforce = [0, 0, \"3 N\"]").unwrap();
     assert!(model.is_of_whole_bodies());
     assert_eq!(model.point_masses, [PointMass { on: "one".into(), mass: 2.0 }]);
-    // What is wrong is told once, and with the unit of solids.
-    let found = told("cube.inp", "[[point_mass]]\non = \"one\"\nmass = \"2 kg/m\"");
+    // What is wrong is reported once, and with the unit of solids.
+    let found = reported("cube.inp", "[[point_mass]]\non = \"one\"\nmass = \"2 kg/m\"");
     assert!(found.len() == 1 && found[0].starts_with("point_mass[0].mass: ") && !found[0].contains("\"1 kg/m\""), "{found:?}");
-    // One of the meshes is faulty: it is told, and the other one decides.
-    let found = told("wrong.inp", "[[point_mass]]\non = \"two\"\nmass = \"2 kg\"");
+    // One of the meshes is faulty: it is reported, and the other one decides.
+    let found = reported("wrong.inp", "[[point_mass]]\non = \"two\"\nmass = \"2 kg\"");
     assert!(found.len() == 1 && found[0].starts_with("part[0].mesh.file: "), "{found:?}");
     // Of the plane nothing changes.
     let plane = |mass: &str| {
-        let found = told("flat.inp", &format!("[[point_mass]]\non = \"one\"\nmass = \"{mass}\""));
+        let found = reported("flat.inp", &format!("[[point_mass]]\non = \"one\"\nmass = \"{mass}\""));
         found.into_iter().filter(|fault| fault.starts_with("point_mass")).count()
     };
     assert_eq!((plane("2 kg"), plane("2 kg/m")), (0, 1));
@@ -141,45 +141,45 @@ fn each_is_refused(text: &dyn Fn(&str) -> String, cases: &[(&str, &str, &str)]) 
 }
 
 #[test]
-fn what_only_the_plane_knows_is_refused_in_space_on_its_line() {
+fn what_only_the_plane_knows_is_refused_in_3d_on_its_line() {
     let cases = [
         (
             "[[contact]]\nbodies = \"all\"\nformulation = \"segment\"",
             "contact[0].formulation",
-            "in space there are no segments: nodes meet facets, and edges meet edges | take `double_pass`, `single_pass` or `pinball`",
+            "in 3D there are no segments: nodes meet facets, and edges meet edges | take `double_pass`, `single_pass` or `pinball`",
         ),
         (
             "[[obstacle]]\ncircle = { centre = [0, -2], radius = 1 }",
             "obstacle[0].circle",
-            "there are no circles in space | take `sphere` or `cylinder`",
+            "there are no circles in 3D | take `sphere` or `cylinder`",
         ),
         (
             "[[obstacle]]\npolyline = { points = [[0, -2], [1, -2]] }",
             "obstacle[0].polyline",
-            "there are no polylines in space | take `plane`, `sphere`, `cylinder` or `stl`, or a rigid part",
+            "there are no polylines in 3D | take `plane`, `sphere`, `cylinder` or `stl`, or a rigid part",
         ),
         (
             "[[obstacle]]\nplane = { point = [0, 0, -1], normal = [0, 0, 1], length = 2 }",
             "obstacle[0].plane.length",
-            "a plane of space has no end | leave `length` out",
+            "a plane in 3D has no end | leave `length` out",
         ),
     ];
     each_is_refused(&boxes, &cases);
 }
 
 #[test]
-fn what_only_space_knows_is_refused_in_the_plane_on_its_line() {
+fn what_only_space_knows_is_refused_in_2d_on_its_line() {
     let flat = |sections: &str| {
         let part = "[[part]]\nname = \"flat\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [1, 1], elements = [1, 1] }\n";
         let steel = "[run]\nend = \"1 ms\"\n[material.steel]\nlaw = \"elastic\"\nyoung = \"200 GPa\"\npoisson = 0.3\ndensity = 7800\n";
         format!("{steel}{part}{sections}\n")
     };
     assert!(read(&flat("rigid = { x = 0, y = 0, rotation = 0 }\n[output]\nmirror = [\"x\", \"y\"]")).is_ok());
-    let cure = "leave it out, or make the parts solid: `extrude` them, or give them a shape of space";
+    let remedy = "leave it out, or make the parts solid: `extrude` them, or give them a 3D shape";
     let (no_z, no_camera, no_half) = (
-        format!("there is no `z` in the plane | {cure}"),
-        format!("pictures of the plane are seen along z: they have no camera | {cure}"),
-        format!("a picture of the plane has no other half at z = 0 | {cure}"),
+        format!("there is no `z` in 2D | {remedy}"),
+        format!("pictures of 2D models are seen along z: they have no camera | {remedy}"),
+        format!("a picture of a 2D model has no other half at z = 0 | {remedy}"),
     );
     let cases = [
         ("rigid = { z = 0 }", "part[0].rigid.z", no_z.as_str()),
@@ -191,20 +191,20 @@ fn what_only_space_knows_is_refused_in_the_plane_on_its_line() {
 }
 
 #[test]
-fn bars_beside_parts_of_another_dimension_are_called_bars_and_told_their_shape() {
+fn bars_beside_parts_of_another_dimension_are_called_bars_and_reported_their_shape() {
     let area = |unit: &str| format!("[[part]]\nname = \"net\"\nmaterial = \"steel\"\nelement = \"bar2\"\narea = \"1e-4 {unit}\"\n");
-    // In the plane beside solids.
-    let found = told(&format!("{}truss.lines = [[[0, 0], [1, 0]]]", area("m^2")));
-    let help = "take `space_truss` with `element = \"bar2\"`: bars in space";
-    assert!(found.contains(&format!("part[2].truss: the part is in the plane, but part `low` is a solid | {help}")), "{found:#?}");
-    // In space beside what is flat.
+    // In 2D beside solids.
+    let found = reported(&format!("{}truss.lines = [[[0, 0], [1, 0]]]", area("m^2")));
+    let help = "take `space_truss` with `element = \"bar2\"`: bars in 3D";
+    assert!(found.contains(&format!("part[2].truss: the part is 2D, but part `low` is a solid | {help}")), "{found:#?}");
+    // In 3D beside what is flat.
     let flat = "[[part]]\nname = \"flat\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [1, 1], elements = [1, 1] }\n";
     let steel = "[run]\nend = \"1 ms\"\n[material.steel]\nlaw = \"elastic\"\nyoung = \"200 GPa\"\npoisson = 0.3\ndensity = 7800\n";
     let text = format!("{steel}{flat}{}space_truss.lines = [[[0, 0, 0], [1, 0, 1]]]\n", area("m^2"));
     let found: Vec<String> = faults(&text).iter().map(|fault| format!("{}: {} | {}", fault.path, fault.message, fault.help)).collect();
-    let help = "take `truss`: bars in the plane; or make the other parts solids, such as by `extrude`";
+    let help = "take `truss`: bars in 2D; or make the other parts solids, such as by `extrude`";
     assert!(
-        found.contains(&format!("part[1].space_truss: the part is of bars in space, but part `flat` is in the plane | {help}")),
+        found.contains(&format!("part[1].space_truss: the part is of bars in 3D, but part `flat` is in the plane | {help}")),
         "{found:#?}"
     );
 }

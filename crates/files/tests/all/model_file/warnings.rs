@@ -1,4 +1,4 @@
-//! Warnings at their places in the file: line, column, excerpt, consequence and cure.
+//! Warnings at their places in the file: line, column, excerpt, consequence and remedy.
 
 use super::SOUND;
 use embate_files::model_file::{Diagnostics, Loaded, load_text_with_places};
@@ -10,17 +10,17 @@ fn loaded(line: &str, set: &[String]) -> Loaded {
     load_text_with_places("model.toml", &text, Path::new("."), set).unwrap_or_else(|diagnostics| panic!("{}", diagnostics.rendered))
 }
 
-fn told(loaded: &Loaded) -> Diagnostics {
-    loaded.told(&loaded.model.warnings())
+fn reported(loaded: &Loaded) -> Diagnostics {
+    loaded.reported(&loaded.model.warnings())
 }
 
 #[test]
 fn a_warning_has_its_line_column_excerpt_consequence_and_cure() {
-    let told = told(&loaded("hardening = \"-1 GPa\"", &[]));
-    assert_eq!(told.count, 1);
-    let entry = &told.entries[0];
+    let reported = reported(&loaded("hardening = \"-1 GPa\"", &[]));
+    assert_eq!(reported.count, 1);
+    let entry = &reported.entries[0];
     assert_eq!((entry.line, entry.column, entry.path.as_str()), (10, 13, "material.steel.hardening"));
-    let text = &told.rendered;
+    let text = &reported.rendered;
     let lines: Vec<&str> = text.lines().collect();
     assert!(
         lines[0].starts_with(
@@ -35,12 +35,12 @@ fn a_warning_has_its_line_column_excerpt_consequence_and_cure() {
 
 #[test]
 fn a_warning_of_an_override_points_to_it() {
-    let told = told(&loaded("", &["material.steel.hardening=-1 GPa".into()]));
-    assert_eq!(told.entries[0].file, "--set");
+    let reported = reported(&loaded("", &["material.steel.hardening=-1 GPa".into()]));
+    assert_eq!(reported.entries[0].file, "--set");
 }
 
 #[test]
 fn without_warnings_there_is_no_text() {
-    let told = told(&loaded("", &[]));
-    assert_eq!((told.count, told.rendered.as_str()), (0, ""));
+    let reported = reported(&loaded("", &[]));
+    assert_eq!((reported.count, reported.rendered.as_str()), (0, ""));
 }

@@ -3,12 +3,12 @@
 //!
 //! What follows nodes and edges comes from the builder and knows nothing of the past. The nodes of a touch,
 //! on both sides, share the way so that the sum of squares is least, each along the directions in which it is
-//! not held; again and again until none is inside, as in the plane.
+//! not held; again and again until none is inside, as in 2D.
 
 use super::super::Sweep;
 use super::super::edge_edge::EdgeTouch;
 use super::super::node_facet::edges_at_start;
-use super::super::node_facet::tracker::{Touch, Tracker};
+use super::super::node_facet::tracker::{ContactPoint, Tracker};
 use super::super::projection::edge_edge::{crossing, point};
 use super::super::projection::node_facet::{Placed, Vector};
 use super::super::search::Search;
@@ -35,7 +35,7 @@ pub struct Look<'a> {
 /// What is inside, with the surfaces that say so.
 struct Found {
     tracker: Tracker,
-    nodes: Vec<Touch>,
+    nodes: Vec<ContactPoint>,
     /// Looked at only where no node is inside: where nodes are, edges cross too.
     edges: Vec<EdgeTouch>,
 }
@@ -45,7 +45,7 @@ impl Look<'_> {
     #[must_use]
     pub fn penetrations(&self, positions: &[Vector], tolerance: f64) -> Vec<Penetration<3>> {
         let Some(found) = self.inside(positions, tolerance) else { return Vec::new() };
-        let node = |touch: &Touch| {
+        let node = |touch: &ContactPoint| {
             let (place, depth) = (positions[touch.node as usize], self.thickness - touch.projection.gap);
             Penetration { what: Inside::Node, place, depth }
         };
@@ -60,8 +60,8 @@ impl Look<'_> {
         let mut tracker = (self.tracker)()?;
         let [_, skin] = tracker.reach();
         let touches = tracker.track(Sweep::between(positions, positions), self.thickness + DEEPEST * skin);
-        let deep = |touch: &&Touch| !touch.own && touch.projection.gap - self.thickness < -tolerance;
-        let nodes: Vec<Touch> = touches.iter().filter(deep).copied().collect();
+        let deep = |touch: &&ContactPoint| !touch.own && touch.projection.gap - self.thickness < -tolerance;
+        let nodes: Vec<ContactPoint> = touches.iter().filter(deep).copied().collect();
         let mut edges = Vec::new();
         if nodes.is_empty()
             && let Some(search) = self.edges.and_then(|make| make())
@@ -108,7 +108,7 @@ impl Movable<'_> {
         true
     }
 
-    /// Moves `nodes` out of an obstacle of which `distance` tells how far they are from its surface (m,
+    /// Moves `nodes` out of an obstacle of which `distance` says how far they are from its surface (m,
     /// negative inside) and the normal. Whether something was moved.
     pub fn push_off(&mut self, nodes: &[u32], distance: impl Fn(Vector) -> (f64, Vector)) -> bool {
         let mut is_moved = false;
@@ -125,7 +125,7 @@ impl Movable<'_> {
     }
 
     /// Moves a node and the facet that it touches to a distance.
-    fn part_node(&mut self, tracker: &Tracker, touch: &Touch, distance: f64) {
+    fn part_node(&mut self, tracker: &Tracker, touch: &ContactPoint, distance: f64) {
         let placed = Placed { surface: tracker.target(touch.pass), positions: self.positions };
         let Some(here) = placed.project(self.positions[touch.node as usize], [touch.projection.facet]) else { return };
         let facet = placed.surface.facets[here.facet as usize];

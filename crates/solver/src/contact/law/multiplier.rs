@@ -4,7 +4,7 @@
 //! Forward increment Lagrange multipliers: the constraint is that of the step's end, so no system is solved
 //! but that of the springs, and the stable step stays. The gap is held to round-off where surfaces stay
 //! together. Impacts lose the kinetic energy of the nodes that are stopped (which vanishes with the size of
-//! the elements); it is booked as lost by damping.
+//! the elements); it is entered as lost by damping.
 
 use super::{ContactLawKind, Law};
 use crate::contact::springs::{Closing, Patch};
@@ -12,7 +12,8 @@ use crate::contact::springs::{Closing, Patch};
 /// Registry entry.
 pub const KIND: ContactLawKind = ContactLawKind {
     name: "multiplier",
-    doc: "the force that leaves no penetration at the end of each step, without a smaller step; impacts lose the energy of the nodes they stop",
+    doc: "the force that leaves no penetration at the end of each step, without a smaller step; impacts lose the \
+        energy of the nodes they stop",
     source: "Carpenter, Taylor and Katona, Int. J. Numer. Meth. Engng 32 (1991) 103-128",
     parameters: &[],
 };

@@ -2,7 +2,7 @@
 //! ½ k_n G².
 //!
 //! Beyond the depth ℓ, a twentieth of the local thickness of the thinner body, it stiffens: V = ½ k d² + k S
-//! (d − ℓ)³ / 6ℓ with d = −G up to 2ℓ, and goes on with the stiffness k (1 + S) that it has there: twice
+//! (d − ℓ)³ / 6ℓ with d = −G up to 2ℓ, and continues with the stiffness k (1 + S) that it has there: twice
 //! continuously differentiable and convex. A linear spring as stiff as the elements lets a heavy body through
 //! a soft one. S is 100, or α m / (k dt²) with the mass m of the lighter side's nodes, α = 0.1 and the first
 //! step dt, where that is more: so stiff a spring stops a node within a few steps whatever the elements are.
@@ -16,7 +16,7 @@
 //! - `wave_modulus`: (K + 4µ/3) L / A, the modulus of plane waves over the height of the element; as stiff as
 //!   the element itself.
 //! - `bulk_modulus`: K L / A, as in Hallquist, Goudreau and Benson, Comput. Meth. Appl. Mech. Engng 51 (1985)
-//!   107-137 (K A² / V in space): softer for metals, nearly the same for rubber.
+//!   107-137 (K A² / V in 3D): softer for metals, nearly the same for rubber.
 //! - `time_step`: α m / (dt² A) with the node's mass m, its tributary length A, the first step dt and
 //!   α = 0.1: a spring with k = α m / dt², for bodies whose moduli differ by orders, or say nothing (the
 //!   "soft constraint" of explicit codes, LS-DYNA Theory Manual, chapter on contact). With m ~ ρ A h / 2 and
@@ -56,8 +56,8 @@ pub const LIMIT: f64 = 0.05;
 /// Fraction α of m / dt² that `penalty_from = "time_step"` takes.
 const OF_TIME_STEP: f64 = 0.1;
 
-/// κ of a node from its mass m (kg/m), the first step dt (s) and its tributary length A (m), of a body of
-/// revolution from mass and area all around: α m / (dt² A), Pa/m.
+/// κ of a node from its mass m (kg/m), the first step dt (s) and its tributary length A (m), of an
+/// axisymmetric body from mass and area all around: α m / (dt² A), Pa/m.
 #[must_use]
 pub fn of_time_step(mass: f64, time_step: f64, area: f64) -> f64 {
     OF_TIME_STEP * mass / (time_step * time_step * area)
@@ -101,11 +101,11 @@ pub fn share_of_mass(penalty: model::Penalty) -> f64 {
     }
 }
 
-/// Spring stiffness of a slave node, N/m per metre of depth (in space N/m); `passes` 1 or 2.
+/// Spring stiffness of a slave node, N/m per metre of depth (in 3D N/m); `passes` 1 or 2.
 #[must_use]
 pub fn stiffness(penalty: model::Penalty, node: Node, passes: usize) -> f64 {
     match penalty {
-        // Per metre of depth: of a body of revolution per metre of its circumference.
+        // Per metre of depth: of an axisymmetric body per metre of its circumference.
         model::Penalty::PerNode(stiffness) => stiffness * node.share * (node.own.area / node.own.length),
         // Tributary lengths end at the symmetry line already.
         model::Penalty::Pressure(pressure) => pressure * node.own.area,

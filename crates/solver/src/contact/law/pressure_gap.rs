@@ -1,9 +1,9 @@
 //! Pressure as a function of the gap: a table, linear between its points. F = A p(g), energy A ∫ p dg from
 //! the gap on.
 //!
-//! Below the deepest gap the pressure goes on with the last slope. Positive gaps with a pressure are allowed:
-//! a soft layer that is not modelled. Edges that cross press on half of what their four nodes stand for, and
-//! nodes that come in while they hold press on nothing, so that nothing is counted twice.
+//! Below the deepest gap the pressure continues with the last slope. Positive gaps with a pressure are
+//! allowed: a soft layer that is not modelled. Edges that cross press on half of what their four nodes stand
+//! for, and nodes that come in while they hold press on nothing, so that nothing is counted twice.
 
 use super::{ContactLawKind, Law, fixed_point};
 use crate::contact::springs::{Closing, Patch};
@@ -37,7 +37,7 @@ impl PressureGap {
 
     /// Pressure (Pa), its integral from the gap on (N/m) and its slope −dp/dg (Pa/m).
     fn at(&self, gap: f64) -> [f64; 3] {
-        // The first piece goes on below the table; above it there is nothing.
+        // The first piece continues below the table; above it there is nothing.
         let next = self.points.partition_point(|point| point[0] <= gap).max(1);
         let Some(&[g1, p1, i1]) = self.points.get(next) else { return [0.0; 3] };
         let [g0, p0, _] = self.points[next - 1];
@@ -96,7 +96,7 @@ mod tests {
         assert_eq!(law.at(-1.0)[0], 2.0);
         assert!((law.at(-1.0)[1] - 1.5).abs() < 1e-15);
         assert!((law.at(-2.0)[1] - 6.0).abs() < 1e-15);
-        // Beyond the table: the slope of 5 goes on.
+        // Beyond the table: the slope of 5 continues.
         assert!((law.at(-3.0)[0] - 12.0).abs() < 1e-14 && (law.at(-3.0)[1] - (6.0 + 9.5)).abs() < 1e-14);
         for gap in [-4.0, -1.7, -1.0, -0.2, 0.3] {
             let h = 1e-6;

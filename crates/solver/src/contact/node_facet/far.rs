@@ -6,7 +6,7 @@
 //! away at T', since its points lie between its corners: kept is d + 2 T, see [`sleep`]. A candidate that
 //! can't be nearer than one that has been measured need not be measured, nor one that can't be reached in the
 //! step be looked at for a passage; a node all of whose candidates are beyond what touches sleeps. Bounds are
-//! part of the state, so that a run that is resumed sleeps as the one that went on.
+//! part of the state, so that a run that is resumed sleeps as the one that continued.
 
 use super::super::projection::node_facet::{Found, Placed, Vector};
 use super::super::tracker::sleep::{self, AWAKE};

@@ -40,7 +40,7 @@ pub(in crate::contact) struct Passages(Vec<Passage>);
 
 /// What becomes of a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::contact) struct Fate {
+pub(in crate::contact) struct Outcome {
     /// The side on which it is inside at the end; zero: it is not.
     pub(in crate::contact) side: Vector,
     /// Whether it went in, and did not come out again.
@@ -80,7 +80,7 @@ impl Passages {
     }
 
     /// What becomes of a node that was inside on this side, or outside (zero).
-    pub(in crate::contact) fn fate(mut self, side: Vector) -> Fate {
+    pub(in crate::contact) fn fate(mut self, side: Vector) -> Outcome {
         // Facets come in their order: a stable order of what is at one time.
         self.0.sort_by(|a, b| a.time.total_cmp(&b.time));
         for k in 1..self.0.len() {
@@ -88,12 +88,12 @@ impl Passages {
                 self.0.swap(k - 1, k);
             }
         }
-        let mut fate = Fate { side, ..Fate::default() };
+        let mut fate = Outcome { side, ..Outcome::default() };
         for passage in self.0 {
             let is_inside = fate.side != [0.0; 3];
             match (is_inside, passage.is_out) {
-                (false, false) => fate = Fate { side: passage.normal, enters: true, is_through: false },
-                (true, true) if dot(fate.side, passage.normal) > SAME_SIDE => fate = Fate::default(),
+                (false, false) => fate = Outcome { side: passage.normal, enters: true, is_through: false },
+                (true, true) if dot(fate.side, passage.normal) > SAME_SIDE => fate = Outcome::default(),
                 (true, is_out) => fate.is_through = is_out,
                 (false, true) => {}
             }
@@ -147,7 +147,7 @@ mod tests {
 
     /// What a node does that goes straight from one place to another, with the unit cube that stands still
     /// (or a plate of the same width), and was outside.
-    fn fate_of(from: Vector, to: Vector, height: f64) -> Fate {
+    fn fate_of(from: Vector, to: Vector, height: f64) -> Outcome {
         let cells = [CellKind::Hexahedron.cell(&[0, 1, 2, 3, 4, 5, 6, 7])];
         let surface = Surface::<3>::outside(cells).unwrap();
         let corner = |k: u32| [f64::from(k & 1 ^ (k >> 1 & 1)), f64::from(k >> 1 & 1), height * f64::from(k >> 2)];
@@ -165,16 +165,16 @@ mod tests {
             let above = [0.3, 0.4, height + 0.5];
             let up = [0.0, 0.0, 1.0];
             let inside = fate_of(above, [0.4, 0.4, 0.5 * height], height);
-            assert_eq!(inside, Fate { side: up, enters: true, is_through: false });
-            assert_eq!(fate_of(above, [0.4, 0.4, -2.0], height), Fate { is_through: true, ..inside });
+            assert_eq!(inside, Outcome { side: up, enters: true, is_through: false });
+            assert_eq!(fate_of(above, [0.4, 0.4, -2.0], height), Outcome { is_through: true, ..inside });
             // Out by the far side and then beyond the rim it has gone through all the same; by a side wall it
             // is out.
             assert_eq!(fate_of(above, [3.0, 0.4, -2.0], height).is_through, height < 0.5);
-            assert_eq!(fate_of([0.9, 0.4, height + 0.1], [1.1, 0.4, 0.9 * height], height), Fate::default());
+            assert_eq!(fate_of([0.9, 0.4, height + 0.1], [1.1, 0.4, 0.9 * height], height), Outcome::default());
             // Past a corner, along an edge, and over it.
-            assert_eq!(fate_of([1.0, 0.4, height + 0.5], [1.5, 0.4, height], height), Fate::default());
-            assert_eq!(fate_of([0.5, 0.4, height + 0.5], [1.5, 0.4, height - 0.5], height), Fate::default());
-            assert_eq!(fate_of([0.5, 0.4, height], [1.5, 0.4, height], height), Fate::default());
+            assert_eq!(fate_of([1.0, 0.4, height + 0.5], [1.5, 0.4, height], height), Outcome::default());
+            assert_eq!(fate_of([0.5, 0.4, height + 0.5], [1.5, 0.4, height - 0.5], height), Outcome::default());
+            assert_eq!(fate_of([0.5, 0.4, height], [1.5, 0.4, height], height), Outcome::default());
         }
     }
 }

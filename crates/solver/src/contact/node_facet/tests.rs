@@ -5,7 +5,7 @@ use crate::bench::Random;
 use crate::contact::law::penalty::Penalty;
 use crate::contact::search;
 use crate::contact::springs::friction::Friction;
-use crate::contact::springs::{Mover, Movers, Tangential, Terms, Update};
+use crate::contact::springs::{NodeResponse, NodeResponses, Tangential, Terms, Update};
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, ContactKind, Sweep};
 use crate::contact_forces::ContactForces;
@@ -31,20 +31,20 @@ struct World {
     lost: f64,
 }
 
-impl Movers<3> for (&[f64], &[Vector], &[Vector], f64) {
+impl NodeResponses<3> for (&[f64], &[Vector], &[Vector], f64) {
     fn count(&self) -> usize {
         self.0.len()
     }
     fn leader(&self, node: u32) -> (u32, Option<[[f64; 3]; 3]>) {
         (node, None)
     }
-    fn mover(&self, node: usize) -> Mover<3> {
+    fn response(&self, node: usize) -> NodeResponse<3> {
         let give = self.3 / self.0[node];
-        Mover { velocity_old: self.1[node], velocity: self.2[node], mobility: [give, 0.0, 0.0, give, 0.0, give] }
+        NodeResponse { velocity_old: self.1[node], velocity: self.2[node], mobility: [give, 0.0, 0.0, give, 0.0, give] }
     }
 }
 
-/// What a step told.
+/// What a step reported.
 #[derive(Clone, Copy, Debug)]
 struct Told {
     /// Kinetic, of links and pull, of contact and its friction, J; all at n.
@@ -246,8 +246,8 @@ fn nodes_that_fly_at_a_box_come_back_from_all_its_faces_edges_and_corners_with_t
             let begin = world.velocities.clone();
             let mut touched = false;
             for _ in 0..160 {
-                let told = world.step();
-                touched |= told.penetration > 0.0;
+                let reported = world.step();
+                touched |= reported.penetration > 0.0;
             }
             assert!(touched, "{from:?}");
             for k in 0..8 {
@@ -271,9 +271,9 @@ fn a_node_that_slides_around_a_box_over_edges_and_corners_keeps_its_energy() {
     world.pull = (2.0, [0.0; 3]);
     let (mut begin, mut worst, mut sides) = (None, 0.0f64, [false; 6]);
     for _ in 0..6000 {
-        let told = world.step();
-        let energy = *begin.get_or_insert(told.energy);
-        worst = worst.max((told.energy / energy - 1.0).abs());
+        let reported = world.step();
+        let energy = *begin.get_or_insert(reported.energy);
+        worst = worst.max((reported.energy / energy - 1.0).abs());
         for spring in world.springs.list.iter().filter(|spring| spring.gap < 0.0) {
             for d in 0..3 {
                 sides[2 * d] |= spring.normal[d] > 0.95;
@@ -330,9 +330,9 @@ fn two_blocks_that_collide_keep_momentum_and_angular_momentum_to_round_off_and_t
         let (begin, mut energies) = (world.momenta(), Vec::new());
         let mut deepest = 0.0f64;
         for _ in 0..400 {
-            let told = world.step();
-            energies.push(told.energy);
-            deepest = deepest.max(told.penetration);
+            let reported = world.step();
+            energies.push(reported.energy);
+            deepest = deepest.max(reported.penetration);
             let now = world.momenta();
             for (a, b) in now.iter().flatten().zip(begin.iter().flatten()) {
                 assert!((a - b).abs() < 1e-13 * scale, "{friction} {stiffness}: {now:?} {begin:?}");
@@ -484,7 +484,7 @@ fn who_sleeps_would_have_been_found_as_it_was() {
             for tracker in [&mut sleepy, &mut awake] {
                 for touch in &found {
                     let Projection { normal, facet, .. } = touch.projection;
-                    *tracker.kept_mut(touch) = Memory { normal, facet, ..*tracker.kept(touch) };
+                    *tracker.kept_mut(touch) = ContactHistory { normal, facet, ..*tracker.kept(touch) };
                 }
             }
         }
@@ -493,7 +493,7 @@ fn who_sleeps_would_have_been_found_as_it_was() {
 }
 
 #[test]
-fn what_is_kept_goes_on_bit_by_bit() {
+fn what_is_kept_continues_bit_by_bit() {
     let lower = grid([0.0; 3], [0.5; 3], [3, 3, 1], |_| true);
     let upper = grid([0.13, 0.21, 0.53], [0.31, 0.37, 0.4], [3, 2, 2], |_| true);
     let recipe = Recipe { held: false, bond: 1e3, stiffness: 1e4, friction: 0.3, dt: 4e-3, passes: BOTH, edges: true };
@@ -504,13 +504,13 @@ fn what_is_kept_goes_on_bit_by_bit() {
     }
     let mut archive = Archive::new();
     archive.section("contact").unwrap();
-    whole.contact.keep(&mut archive, usize::MAX).unwrap();
+    whole.contact.persist(&mut archive, usize::MAX).unwrap();
     let sections = archive.finish().unwrap();
     let mut again = make();
     (again.positions, again.velocities, again.lost) = (whole.positions.clone(), whole.velocities.clone(), whole.lost);
     let mut archive = Archive::of(&sections);
     archive.section("contact").unwrap();
-    again.contact.keep(&mut archive, usize::MAX).unwrap();
+    again.contact.persist(&mut archive, usize::MAX).unwrap();
     archive.finish().unwrap();
     for step in 0..60 {
         let (a, b) = (whole.step(), again.step());

@@ -1,15 +1,15 @@
-//! Tied contact in space: what touches at the start stays together until the traction exceeds a strength, as
-//! in the plane ([`crate::contact::tied`]).
+//! Tied contact in 3D: what touches at the start stays together until the traction exceeds a strength, as
+//! in 2D ([`crate::contact::tied`]).
 //!
 //! Each slave node near the target is bound to the triangle of a facet below it. Its height above the
 //! triangle and its place along it, of which the corners keep their shares of the start, are kept by springs
 //! with the rows of a node against a facet ([`super::ends`]) at the node's present foot: objective, and exact
-//! in both momenta. One surface is slave. Broken ties are gone for good, what they stored is told to the
+//! in both momenta. One surface is slave. Broken ties are gone for good, what they stored is reported to the
 //! ledger; nodes that are free, and those whose ties are gone, are in ordinary contact with the same surface.
 
 use super::groups::{bend, halves};
 use super::{NodeFacet, PassInput, ends, first_edge, tangent};
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::contact::projection::node_facet::{Feature, Placed, Projection, Vector};
 use crate::contact::search::{Query, Search};
 use crate::contact::springs::{Answers, Spring, Springs, TangentSpace};
@@ -24,7 +24,7 @@ pub struct TiedFacet {
     target: SpaceSurface,
     ties: Vec<Tie>,
     /// What binds at birth; `None` when it has.
-    unborn: Option<Unborn>,
+    unborn: Option<PendingTies>,
     /// Traction that breaks a tie, Pa.
     strength: f64,
     /// Which terms ties follow.
@@ -39,7 +39,7 @@ pub struct TiedFacet {
 }
 
 /// What binds.
-pub struct Unborn {
+pub struct PendingTies {
     /// Finds what is near.
     pub search: Box<dyn Search<3>>,
     /// What is known of slaves, and of the element behind each facet of the target.
@@ -64,13 +64,13 @@ struct Tie {
     area: f64,
 }
 
-keep_all!(Tie { node, slave, facet, triangle, place, gap, stiffness, area });
+persist_all!(Tie { node, slave, facet, triangle, place, gap, stiffness, area });
 
 impl TiedFacet {
     /// For the only pass of `loose`, the ordinary contact; ties hold up to `strength` (Pa) and follow
     /// `terms`.
     #[must_use]
-    pub fn new(loose: NodeFacet, unborn: Unborn, strength: f64, terms: usize) -> Self {
+    pub fn new(loose: NodeFacet, unborn: PendingTies, strength: f64, terms: usize) -> Self {
         let target = loose.tracker().target(0).clone();
         let side = loose.tracker().side(0);
         let bound = vec![false; unborn.input.slaves.len()];
@@ -79,7 +79,7 @@ impl TiedFacet {
 
     /// Binds what is near, if that was not done before.
     pub fn bind(&mut self, positions: &[Vector]) {
-        let Some(Unborn { mut search, input, thickness }) = self.unborn.take() else { return };
+        let Some(PendingTies { mut search, input, thickness }) = self.unborn.take() else { return };
         let tracker = self.loose.tracker();
         let slaves = &tracker.surfaces()[tracker.slave(0)].nodes;
         let placed = Placed { surface: &self.target, positions };
@@ -170,10 +170,10 @@ impl Formulation<3> for TiedFacet {
         });
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { target, ties, unborn, strength: _, terms: _, side: _, loose, bound, broken, freed } = self;
         let mut is_unborn = unborn.is_some();
-        keep_each!(archive; &mut is_unborn, ties, &mut bound[..], broken, freed);
+        persist_each!(archive; &mut is_unborn, ties, &mut bound[..], broken, freed);
         archive.check(unborn.is_some() || !is_unborn, "ties of this contact are there from the start")?;
         if !is_unborn {
             *unborn = None;
@@ -184,7 +184,7 @@ impl Formulation<3> for TiedFacet {
             (tie.node as usize) < archive.nodes && (tie.slave as usize) < bound.len() && tie.triangle < triangles
         };
         archive.check(ties.iter().all(is_tie), "a tie binds what is not there")?;
-        loose.keep(archive)
+        loose.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

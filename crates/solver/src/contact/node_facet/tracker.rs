@@ -1,4 +1,4 @@
-//! Where slave nodes lie with respect to the bodies of surfaces in space, from step to step: candidates from
+//! Where slave nodes lie with respect to the bodies of surfaces in 3D, from step to step: candidates from
 //! the global search, the side from which each node came in, and the projection of the step.
 //!
 //! Positions come from the step; what is found goes to the formulation, which makes springs of it. A slave
@@ -30,7 +30,7 @@ use super::super::tracker::{SAFE, SKIN, SearchReport};
 use super::far::Candidates;
 use super::groups::{Meeting, bend, bodies_of, halves, mean_edge};
 use super::passage::{Passages, led};
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::{NONE, SpaceSurface};
 use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
@@ -57,7 +57,7 @@ const SLACK: f64 = 1.001;
 
 /// What is kept of a slave and a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Memory {
+pub struct ContactHistory {
     /// Elastic slip at n + ½ as a vector, m.
     pub slip: Vector,
     /// Facet on which it was, or [`NONE`], and the edge or node, see `Placed::rests_on`.
@@ -80,7 +80,7 @@ pub struct Memory {
     pub is_led: bool,
 }
 
-impl Default for Memory {
+impl Default for ContactHistory {
     fn default() -> Self {
         let none = [0.0; 3];
         Self {
@@ -98,7 +98,7 @@ impl Default for Memory {
     }
 }
 
-impl Memory {
+impl ContactHistory {
     /// Where its spring's gap was at n − ½, m; infinite: there was no spring.
     #[must_use]
     pub fn half(&self) -> f64 {
@@ -106,7 +106,7 @@ impl Memory {
     }
 }
 
-keep_all!(Memory { slip, facet, rest, offset, half, normal, carried, stored, side, is_led });
+persist_all!(ContactHistory { slip, facet, rest, offset, half, normal, carried, stored, side, is_led });
 
 /// A slave node and a body of the target.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -122,14 +122,14 @@ struct Group {
     own: bool,
     /// Whether it touched in the last step. Else nothing is kept of it.
     touches: bool,
-    memory: Memory,
+    memory: ContactHistory,
 }
 
-keep_all!(Group { slave, node, body, begin, end, own, touches, memory });
+persist_all!(Group { slave, node, body, begin, end, own, touches, memory });
 
 /// A slave node that is inside a body, or near it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
+pub struct ContactPoint {
     /// Pass that found it.
     pub pass: u32,
     /// Index of the node in its surface.
@@ -169,7 +169,7 @@ enum Place {
     Lost,
 }
 
-/// Follows the nodes of surfaces in space along the bodies of other surfaces, or of their own.
+/// Follows the nodes of surfaces in 3D along the bodies of other surfaces, or of their own.
 pub struct Tracker {
     surfaces: Vec<SpaceSurface>,
     passes: Vec<Pass>,
@@ -195,7 +195,7 @@ pub struct Tracker {
     /// Travel of the last step, of the last search, m.
     travel: f64,
     searched_at: f64,
-    touches: Vec<Touch>,
+    touches: Vec<ContactPoint>,
     pairs: Vec<Pair>,
     report: SearchReport,
 }
@@ -298,7 +298,7 @@ impl Tracker {
             // A node that edges stand for touches without a spring.
             let is_closed = |group: &&Group| group.touches && group.memory.half() < open;
             let target = &self.surfaces[pass.target];
-            for Group { node, memory: Memory { facet, rest, .. }, .. } in pass.groups.iter().filter(is_closed) {
+            for Group { node, memory: ContactHistory { facet, rest, .. }, .. } in pass.groups.iter().filter(is_closed) {
                 closed.extend(target.sharing(*facet, *rest).map(|facet| (pass.slave, *node, facet)));
             }
         }
@@ -319,24 +319,24 @@ impl Tracker {
 
     /// What [`Tracker::track`] found last.
     #[must_use]
-    pub fn touches(&self) -> &[Touch] {
+    pub fn touches(&self) -> &[ContactPoint] {
         &self.touches
     }
 
     /// What is kept of a touch: nothing where slave and body did not touch in the last step.
     #[must_use]
-    pub fn kept(&self, touch: &Touch) -> &Memory {
+    pub fn kept(&self, touch: &ContactPoint) -> &ContactHistory {
         &self.passes[touch.pass as usize].groups[touch.group as usize].memory
     }
 
     /// The same to change it.
-    pub fn kept_mut(&mut self, touch: &Touch) -> &mut Memory {
+    pub fn kept_mut(&mut self, touch: &ContactPoint) -> &mut ContactHistory {
         &mut self.passes[touch.pass as usize].groups[touch.group as usize].memory
     }
 
     /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and
     /// body. Nodes farther than `extra` (m) beyond that are not looked at.
-    pub fn track(&mut self, sweep: Sweep<'_, 3>, extra: f64) -> &[Touch] {
+    pub fn track(&mut self, sweep: Sweep<'_, 3>, extra: f64) -> &[ContactPoint] {
         self.report.steps += 1;
         let mut sweep = sweep;
         if std::mem::replace(&mut self.is_new, false) {
@@ -378,7 +378,7 @@ impl Tracker {
             })
     }
 
-    /// Groups and candidates anew; what groups remember goes on.
+    /// Groups and candidates again; what groups remember continues.
     fn find_candidates(&mut self, sweep: Sweep<'_, 3>, extra: f64) {
         let way = |node: &u32| length(minus(sweep.new[*node as usize], sweep.old[*node as usize]));
         let fastest = self.nodes.iter().map(way).fold(0.0, f64::max);
@@ -450,9 +450,9 @@ impl Tracker {
             (group.memory.side, group.memory.is_led) = (side, is_led);
             self.deepest = self.deepest.max(-projection.gap);
             let Group { slave, node, own, .. } = *group;
-            self.touches.push(Touch { pass: number as u32, slave, node, projection, own, group: index as u32 });
+            self.touches.push(ContactPoint { pass: number as u32, slave, node, projection, own, group: index as u32 });
         } else {
-            group.memory = Memory::default();
+            group.memory = ContactHistory::default();
         }
     }
 
@@ -464,7 +464,7 @@ impl Tracker {
         let faces = |facet: u32| facing.is_none_or(|own| dot(own, placed.facet_normal(facet)) < FACING);
         let passages =
             |candidates: &Candidates<'_>| Passages::of(&placed, sweep, group.node, candidates.in_passage().filter(|&facet| faces(facet)));
-        let Memory { facet: likely, side: before, is_led: was_led, .. } = group.memory;
+        let ContactHistory { facet: likely, side: before, is_led: was_led, .. } = group.memory;
         let was_inside = before != [0.0; 3];
         let side = if was_inside { before } else { passages(candidates).fate(before).side };
         let came = side != [0.0; 3];
@@ -480,9 +480,9 @@ impl Tracker {
         if may_lead && let Some((led, along)) = led(candidates, &placed, x, side, found.as_ref(), (likely, &faces)) {
             return Place::Touches(led, along, true);
         }
-        // Who goes on with its face needs no second look.
-        let goes_on = |found: &Projection| group.touches && dot(group.memory.normal, found.normal) > SAME_FACE;
-        if !group.own && !found.as_ref().is_some_and(goes_on) {
+        // Who continues with its face needs no second look.
+        let continues = |found: &Projection| group.touches && dot(group.memory.normal, found.normal) > SAME_FACE;
+        if !group.own && !found.as_ref().is_some_and(continues) {
             let own = self.own_normal(pass.slave, group.slave, sweep.new);
             if found.is_none_or(|found| dot(own, found.normal) >= FACING) {
                 let faces = |facet: u32| dot(own, placed.facet_normal(facet)) < FACING;
@@ -511,7 +511,7 @@ impl Tracker {
     }
 
     /// Whether a face holds a node that is over its rim or beyond it, by the projection and the way from the
-    /// rim: `side` is the one from which it came, `is_flush` tells whether it lies on the body's surface as
+    /// rim: `side` is the one from which it came, `is_flush` says whether it lies on the body's surface as
     /// far as one can tell.
     fn is_held(
         &self,
@@ -556,9 +556,9 @@ impl Tracker {
     }
 
     /// Keeps what is known of the past.
-    pub(super) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    pub(super) fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         for pass in &mut self.passes {
-            keep_each!(archive; &mut pass.groups, &mut pass.candidates, &mut pass.clear, &mut pass.wakes, &mut pass.band);
+            persist_each!(archive; &mut pass.groups, &mut pass.candidates, &mut pass.clear, &mut pass.wakes, &mut pass.band);
             let (groups, candidates) = (pass.groups.len(), pass.candidates.len());
             archive.check(pass.wakes.len() == groups && pass.clear.len() == candidates, "a contact knows distances of others")?;
             let (slaves, target, facets) = (&self.surfaces[pass.slave].nodes, &self.surfaces[pass.target].nodes, pass.bodies.len());
@@ -572,7 +572,7 @@ impl Tracker {
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
         }
-        keep_each!(archive; &mut self.searched, &mut self.is_new, &mut self.radius, &mut self.deepest, &mut self.travel, &mut self.searched_at, &mut self.report.steps, &mut self.report.searches);
+        persist_each!(archive; &mut self.searched, &mut self.is_new, &mut self.radius, &mut self.deepest, &mut self.travel, &mut self.searched_at, &mut self.report.steps, &mut self.report.searches);
         archive.check(self.searched.is_empty() || self.searched.len() == self.nodes.len(), "a contact was searched at other nodes")
     }
 
@@ -583,7 +583,7 @@ impl Tracker {
             let slaves = &self.surfaces[pass.slave].nodes;
             let known = before.groups.iter().filter(|group| group.touches).filter_map(|group| {
                 let slave = slaves.binary_search(&group.node).ok()? as u32;
-                let memory = Memory { facet: NONE, rest: [NONE; 2], ..group.memory };
+                let memory = ContactHistory { facet: NONE, rest: [NONE; 2], ..group.memory };
                 Some(Group { slave, begin: 0, end: 0, memory, ..*group })
             });
             pass.groups = known.collect();

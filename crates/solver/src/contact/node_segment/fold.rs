@@ -7,10 +7,10 @@ use super::segment_ends;
 use crate::contact::projection::node_segment::{Projection, Target, Vector};
 use crate::contact::springs::End;
 
-/// A share of a node below this is none: rounding must not tell which segment is the nearest one.
+/// A share of a node below this is none: rounding must not say which segment is the nearest one.
 const SAME_PLACE: f64 = 1e-9;
 
-/// The other segment at a node of the target at which a projection lies, if it goes on there: neither is
+/// The other segment at a node of the target at which a projection lies, if it continues there: neither is
 /// nearer. None of a node's own.
 pub(super) fn other_at_node(node: u32, projection: &Projection, target: &Target) -> Option<u32> {
     let [before, after] = projection.weights.map(|weight| weight.abs() <= SAME_PLACE);

@@ -4,14 +4,14 @@
 //! A node is as deep as its spring says. A facet is as deep in a circle, ball or cylinder as its place
 //! nearest to the middle, which is exact: that is looked at before the bodies may have gone an eighth of
 //! their least thickness, after 16 steps at least, and in each step while the obstacle moves. What is deeper
-//! counts as in the plane: than a fifth of the thickness in two steps, or 0.22 in one.
+//! counts as in 2D: than a fifth of the thickness in two steps, or 0.22 in one.
 
 use super::super::Scene;
 use super::super::findings::{BETWEEN_LOOKS, CAST, DEEPEST_IN_PLANE, Findings, MOST_STEPS, Overlap, SEEN, way_until_next};
-use crate::archive::{Archive, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::NONE;
-use crate::model::in_space;
+use crate::model::in_3d;
 use crate::rigid::Body;
 use crate::tensor::Dim;
 use crate::vector::{length, minus};
@@ -30,7 +30,7 @@ pub trait Thick<const D: usize>: Send + Sync {
     /// Least local thickness of all, m.
     fn least(&self) -> f64;
 
-    /// Shows all facets, in space as triangles.
+    /// Shows all facets, in 3D as triangles.
     fn facets(&self, see: See<'_, D>);
 }
 
@@ -140,7 +140,7 @@ where
             return;
         }
         self.place(scene);
-        let place = in_space(scene.sweep.new[node as usize]);
+        let place = in_3d(scene.sweep.new[node as usize]);
         self.way = self.way.max(0.5 * way);
         let thickness = self.bodies.at(node).min(self.obstacle);
         self.findings.see(Overlap { place, depth, thickness, nodes: [node, NONE], time: scene.time }, false);
@@ -150,7 +150,7 @@ where
     pub fn see_through(&mut self, node: u32, (depth, place): (f64, [f64; D]), scene: &Scene<'_, D>) {
         self.place(scene);
         let thickness = self.bodies.at(node).min(self.obstacle);
-        let found = Overlap { place: in_space(place), depth, thickness, nodes: [node, NONE], time: scene.time };
+        let found = Overlap { place: in_3d(place), depth, thickness, nodes: [node, NONE], time: scene.time };
         if found.ratio() > DEEPEST_IN_PLANE {
             self.findings.see(found, false);
             self.findings.miss();
@@ -173,7 +173,7 @@ where
             if let Some((depth, place)) = deepest(&local[..corners.len()])
                 && depth > SEEN * thickness
             {
-                let place = in_space(body.place(place));
+                let place = in_3d(body.place(place));
                 findings.see(Overlap { place, depth, thickness, nodes: [node, NONE], time: scene.time }, false);
             }
         });
@@ -194,12 +194,12 @@ where
     }
 
     /// Keeps what was found.
-    pub fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        keep_each!(archive; &mut self.findings, &mut self.was_deep, &mut self.next, &mut self.steps);
+    pub fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        persist_each!(archive; &mut self.findings, &mut self.was_deep, &mut self.next, &mut self.steps);
         Ok(())
     }
 
-    /// Goes on with what another one knew, whose surfaces were those before they changed.
+    /// Continues with what another one knew, whose surfaces were those before they changed.
     pub fn inherit(&mut self, old: &Self) {
         (self.findings, self.was_deep) = (old.findings, old.was_deep);
     }

@@ -10,15 +10,15 @@
 //! Nodes do not see a circle that comes in between them. [`RoundSegments`] does: the same circle against
 //! segments, for circles smaller than these.
 
-use super::{Manner, Memory, Shape, State, Way};
-use crate::archive::{Archive, Keep, Kept};
+use super::{ContactHistory, Manner, Shape, State, Way};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::contact::Vector;
 use crate::contact::depths::Depths;
 use crate::contact::initial::kept;
 use crate::contact::law::penalty::stiffening;
 use crate::contact::node_segment::{Slave, segment_ends};
 use crate::contact::springs::{Answers, End, Spring, Springs};
-use crate::contact::tracker::{Certificate, SearchReport, Touch, Tracker};
+use crate::contact::tracker::{Certificate, ContactPoint, SearchReport, Tracker};
 use crate::contact::{Formulation, Scene};
 use crate::vector::{dot, minus};
 use std::any::Any;
@@ -71,7 +71,7 @@ impl Circle {
     }
 
     /// Normal along which a node that went from `from` to `to` is pushed.
-    fn normal(&self, from: Vector, to: Vector, memory: &mut Memory) -> Vector {
+    fn normal(&self, from: Vector, to: Vector, memory: &mut ContactHistory) -> Vector {
         let (moved, radius) = ([to[0] - from[0], to[1] - from[1]], unit(to));
         let inside = |x: Vector| dot(x, x) < self.radius * self.radius;
         let held = match memory.state {
@@ -104,7 +104,7 @@ impl Circle {
 }
 
 impl Shape for Circle {
-    fn meet(&self, way: Way, memory: &mut Memory) -> Option<(f64, Vector)> {
+    fn meet(&self, way: Way, memory: &mut ContactHistory) -> Option<(f64, Vector)> {
         let [from, to] = [way.from, way.to].map(|x| [x[0] - self.middle[0], x[1] - self.middle[1]]);
         if !self.hollow {
             let normal = self.normal(from, to, memory);
@@ -158,7 +158,7 @@ impl RoundSegments {
     }
 
     /// The spring at a body that is near, and its ends.
-    fn spring(&self, touch: &Touch, positions: &[Vector]) -> (Spring, [End; 3]) {
+    fn spring(&self, touch: &ContactPoint, positions: &[Vector]) -> (Spring, [End; 3]) {
         let projection = touch.projection;
         let (normal, centre) = (projection.normal, positions[touch.node as usize]);
         // Where the circle touches.
@@ -198,10 +198,10 @@ impl Formulation for RoundSegments {
         }
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { slave: _, radius: _, reach: _, body: _, ignores_start: _, depths: _, factor: _, tracker, has_begun } = self;
-        tracker.keep(archive)?;
-        has_begun.keep(archive)
+        tracker.persist(archive)?;
+        has_begun.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn a_node_that_goes_through_a_circle_within_a_step_is_held_on_the_side_where_it_came_in() {
         let circle = Circle { middle: [2.0, 0.0], radius: 0.1, hollow: false };
-        let mut memory = Memory { state: State::Free, ..Memory::default() };
+        let mut memory = ContactHistory { state: State::Free, ..ContactHistory::default() };
         let (gap, normal) = circle.meet(Way { from: [0.0, 0.0], to: [5.0, 0.0] }, &mut memory).unwrap();
         assert_eq!((gap, normal, memory.state), (-3.1, [-1.0, 0.0], State::Held));
         // On its way back it is still held, and free only where it came from.

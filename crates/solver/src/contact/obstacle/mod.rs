@@ -18,9 +18,9 @@ use super::node_segment::Slave;
 use super::springs::{Answers, End, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
-use crate::archive::{Archive, Keep, Kept, Misfit, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, persist_all, persist_each};
 use crate::contact::springs::TangentSpace;
-use crate::model::in_space;
+use crate::model::in_3d;
 use crate::outline::Outline;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
@@ -32,7 +32,7 @@ use std::any::Any;
 pub trait Shape: Send + Sync {
     /// Gap (m, negative inside) and unit normal along which a node is pushed out; `None` where it does not
     /// meet the obstacle.
-    fn meet(&self, way: Way, memory: &mut Memory) -> Option<(f64, Vector)>;
+    fn meet(&self, way: Way, memory: &mut ContactHistory) -> Option<(f64, Vector)>;
 
     /// Depth of the place of a segment that is deepest in it, m (negative outside), and that place, if that
     /// may be between its ends.
@@ -57,7 +57,7 @@ pub struct Way {
 
 /// What an obstacle remembers of a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Memory {
+pub struct ContactHistory {
     /// Where the node is.
     pub state: State,
     /// Whether its spring pushed in the last update.
@@ -96,7 +96,7 @@ pub struct OutlineShape<const D: usize = 2> {
     pub body: usize,
     /// From point to point, the solid on the right, m.
     pub points: Vec<[f64; D]>,
-    /// In space: facets of it, outward; a triangle repeats its last point.
+    /// In 3D: facets of it, outward; a triangle repeats its last point.
     pub facets: Vec<[u32; 4]>,
 }
 
@@ -108,7 +108,7 @@ where
     #[must_use]
     pub fn now(&self, bodies: &Bodies<D>) -> Outline {
         let body = bodies.state(self.body);
-        let place = |&point: &[f64; D]| in_space(body.place(point));
+        let place = |&point: &[f64; D]| in_3d(body.place(point));
         Outline { name: self.name.clone(), points: self.points.iter().map(place).collect(), facets: self.facets.clone() }
     }
 }
@@ -133,7 +133,7 @@ pub struct NodeObstacle {
     nodes: Vec<(u32, Slave)>,
     /// Where their springs stiffen, and the thickness of their bodies there at the start, m.
     walls: Vec<(Stiffening, f64)>,
-    memories: Vec<Memory>,
+    memories: Vec<ContactHistory>,
     /// Nodes within this distance get a spring, m.
     reach: f64,
     /// Whether gaps that are negative when it begins to act count as zero.
@@ -178,7 +178,7 @@ impl NodeObstacle {
     #[must_use]
     pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, manner: Manner, bodies: Box<dyn Thick<2>>) -> Self {
         let Manner { reach, factor, ignores_start } = manner;
-        let memories = vec![Memory::default(); nodes.len()];
+        let memories = vec![ContactHistory::default(); nodes.len()];
         let thickness = shape.radius().map_or(f64::INFINITY, |radius| 2.0 * radius);
         let wall = |thickness: f64| (stiffening(thickness, factor), thickness);
         let walls = nodes.iter().map(|&(node, _)| wall(bodies.at(node).min(thickness))).collect();
@@ -188,14 +188,14 @@ impl NodeObstacle {
     }
 }
 
-keep_all!(Near { indices, since, place });
+persist_all!(Near { indices, since, place });
 
-impl Keep for Memory {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for ContactHistory {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { state, presses, normal, offset } = self;
         let mut number = STATES.iter().position(|it| it == state).unwrap_or(0) as u8;
-        keep_each!(archive; &mut number, presses, normal, offset);
-        *state = *STATES.get(usize::from(number)).ok_or_else(|| Misfit::new("a node is neither before nor behind an obstacle"))?;
+        persist_each!(archive; &mut number, presses, normal, offset);
+        *state = *STATES.get(usize::from(number)).ok_or_else(|| ArchiveError::new("a node is neither before nor behind an obstacle"))?;
         Ok(())
     }
 }
@@ -271,15 +271,15 @@ impl Formulation for NodeObstacle {
         self.has_begun = true;
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
             shape: _, body: _, walls: _, reach: _, ignores_start: _, found: _, sees_facets: _,
             nodes, memories, has_begun, near, behind,
         } = self;
-        nodes.iter_mut().try_for_each(|(_, slave)| slave.slip.keep(archive))?;
-        keep_each!(archive; &mut memories[..], has_begun, near);
-        behind.keep(archive)?;
+        nodes.iter_mut().try_for_each(|(_, slave)| slave.slip.persist(archive))?;
+        persist_each!(archive; &mut memories[..], has_begun, near);
+        behind.persist(archive)?;
         archive.check(near.indices.iter().all(|&index| (index as usize) < nodes.len()), "an obstacle looks at nodes that are not there")
     }
 
@@ -338,10 +338,10 @@ impl Formulation for Both {
         self.find();
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         // Where the second begins counts within a step.
         let Self { parts, split: _, findings: _ } = self;
-        parts.iter_mut().try_for_each(|part| part.keep(archive))?;
+        parts.iter_mut().try_for_each(|part| part.persist(archive))?;
         self.find();
         Ok(())
     }

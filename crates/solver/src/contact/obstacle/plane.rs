@@ -6,7 +6,7 @@
 //! plate; and so it stays until the node is in front again. Nodes do not see its ends; its ends see segments,
 //! as slave nodes.
 
-use super::{Memory, Shape, State, Way};
+use super::{ContactHistory, Shape, State, Way};
 use crate::contact::Vector;
 
 /// The line, in the frame of its body.
@@ -45,7 +45,7 @@ impl Plane {
         (x[0] * n[0] + x[1] * n[1] - self.thickness, x[0] * n[1] - x[1] * n[0])
     }
 
-    /// Whether a node in front of it may meet it in the coming update: its way goes on as it came.
+    /// Whether a node in front of it may meet it in the coming update: its way continues as it came.
     fn is_ahead(&self, (from_gap, from): (f64, f64), (gap, at): (f64, f64)) -> bool {
         let steps = if gap < from_gap { (gap / (from_gap - gap)).min(1.0) } else { 0.0 };
         (at + steps * (at - from)).abs() <= self.half
@@ -53,7 +53,7 @@ impl Plane {
 }
 
 impl Shape for Plane {
-    fn meet(&self, way: Way, memory: &mut Memory) -> Option<(f64, Vector)> {
+    fn meet(&self, way: Way, memory: &mut ContactHistory) -> Option<(f64, Vector)> {
         let (gap, at) = self.place(way.to);
         if self.half == f64::INFINITY {
             return Some((gap, self.normal));

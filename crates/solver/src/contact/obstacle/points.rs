@@ -1,4 +1,4 @@
-//! Points of a surface in space that meet a round obstacle: the nodes and, where that may come in between
+//! Points of a surface in 3D that meet a round obstacle: the nodes and, where that may come in between
 //! them, points on the facets.
 //!
 //! A facet is divided n times along its edges. A point has fixed shares of its facet's corners, so it has a
@@ -43,7 +43,7 @@ impl Point {
         self.ends().fold([0.0; 3], |sum, (node, share)| [0, 1, 2].map(|d| sum[d] + share * positions[node as usize][d]))
     }
 
-    /// What tells it from others.
+    /// What reports it from others.
     #[must_use]
     pub fn key(&self) -> ([u32; 4], [u64; 4]) {
         (self.nodes, self.shares.map(f64::to_bits))

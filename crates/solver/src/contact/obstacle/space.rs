@@ -1,11 +1,11 @@
-//! Nodes against a rigid obstacle in space: a half-space, a ball or a cylinder, whole or hollow, fixed or
+//! Nodes against a rigid obstacle in 3D: a half-space, a ball or a cylinder, whole or hollow, fixed or
 //! carried by a rigid body. Where a ball or a cylinder may come in between the nodes, points on the facets
 //! meet it as well ([`super::points`]).
 //!
 //! The shape lives in the frame of its rigid body and says how far a point is from its surface; positions
 //! come from the step, reactions go to the body. The distance is continuous and its gradient the normal, so
 //! springs give back what they took; what goes through a whole ball or cylinder within one step is not held
-//! but told.
+//! but reported.
 
 use super::super::findings::Findings;
 use super::super::initial::kept;
@@ -18,7 +18,7 @@ use super::super::{Formulation, Scene};
 use super::Manner;
 use super::behind::{Behind, Thick, divisions, may_be_between};
 use super::points::{Point, points};
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::Corners;
 use crate::tensor::{Dim, cross, dot};
@@ -27,7 +27,7 @@ use std::any::Any;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// A vector of space.
+/// A vector in 3D.
 pub type Vector = [f64; 3];
 
 /// Shape of an obstacle in the frame of its body.
@@ -35,7 +35,7 @@ pub type Vector = [f64; 3];
 pub enum Solid {
     /// Everything behind a plane.
     HalfSpace {
-        /// A point of the plane, m.
+        /// A point in 2D, m.
         point: Vector,
         /// Unit normal that points out.
         normal: Vector,
@@ -155,7 +155,7 @@ const MOST_DIVISIONS: usize = 8;
 
 /// What an obstacle remembers of a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Memory {
+struct ContactHistory {
     /// Whether its spring pushed in the last update.
     presses: bool,
     /// Gap that counts as zero, m.
@@ -164,7 +164,7 @@ struct Memory {
     slip: Vector,
 }
 
-keep_all!(Memory { presses, offset, slip });
+persist_all!(ContactHistory { presses, offset, slip });
 
 /// The surface that an obstacle meets.
 #[derive(Clone, Copy)]
@@ -188,7 +188,7 @@ pub struct NodeSolid {
     facets: Vec<Range<usize>>,
     /// Where their springs stiffen, and the thickness of their bodies there at the start, m.
     walls: Vec<(Stiffening, f64)>,
-    memories: Vec<Memory>,
+    memories: Vec<ContactHistory>,
     /// What is within this distance gets a spring, m.
     reach: f64,
     /// Whether gaps that are negative when it begins to act count as zero.
@@ -222,7 +222,7 @@ impl NodeSolid {
         };
         let walls = points.iter().map(wall).collect();
         let sees_facets = !ignores_start && divisions.iter().any(|&count| may_be_between(count));
-        let (memories, behind, nodes) = (vec![Memory::default(); points.len()], Behind::new(bodies, own), nodes.len());
+        let (memories, behind, nodes) = (vec![ContactHistory::default(); points.len()], Behind::new(bodies, own), nodes.len());
         let (has_begun, found) = (false, Vec::new());
         Self { solid, body, points, nodes, facets, walls, memories, reach, ignores_start, has_begun, found, behind, sees_facets }
     }
@@ -236,7 +236,7 @@ impl NodeSolid {
         let (distance, normal) = self.solid.distance(to);
         let pressed = std::mem::replace(&mut memory.presses, false);
         if !distance.is_finite() {
-            *memory = Memory::default();
+            *memory = ContactHistory::default();
             return;
         }
         // What lies between nodes that touch a round obstacle is a little inside from the start.
@@ -296,7 +296,7 @@ impl NodeSolid {
             let range = self.facets[number].clone();
             if self.is_far(&self.points[range.start], scene) {
                 // What is far has slipped and pressed nowhere.
-                self.memories[range].fill(Memory::default());
+                self.memories[range].fill(ContactHistory::default());
             } else {
                 range.for_each(|index| self.meet(index, scene, springs));
             }
@@ -328,14 +328,14 @@ impl Formulation<3> for NodeSolid {
         }
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
             solid: _, body: _, points: _, nodes: _, facets: _, walls: _, reach: _, ignores_start: _, found: _, sees_facets: _,
             memories, has_begun, behind,
         } = self;
-        keep_each!(archive; &mut memories[..], has_begun);
-        behind.keep(archive)
+        persist_each!(archive; &mut memories[..], has_begun);
+        behind.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
@@ -363,7 +363,7 @@ mod tests {
     use crate::contact::law::penalty::Penalty;
     use crate::contact::obstacle::behind::Unknown;
     use crate::contact::springs::friction::Friction;
-    use crate::contact::springs::{Mover, Movers, Tangential, Terms, Update};
+    use crate::contact::springs::{NodeResponse, NodeResponses, Tangential, Terms, Update};
     use crate::contact::traces::Traces;
     use crate::contact::{Contact, ContactKind, Sweep};
     use crate::contact_forces::ContactForces;
@@ -373,16 +373,16 @@ mod tests {
 
     struct Nodes<'a>(&'a [f64], &'a [Vector], f64);
 
-    impl Movers<3> for Nodes<'_> {
+    impl NodeResponses<3> for Nodes<'_> {
         fn count(&self) -> usize {
             self.0.len()
         }
         fn leader(&self, node: u32) -> (u32, Option<[[f64; 3]; 3]>) {
             (node, None)
         }
-        fn mover(&self, node: usize) -> Mover<3> {
+        fn response(&self, node: usize) -> NodeResponse<3> {
             let give = self.2 / self.0[node];
-            Mover { velocity_old: self.1[node], velocity: self.1[node], mobility: [give, 0.0, 0.0, give, 0.0, give] }
+            NodeResponse { velocity_old: self.1[node], velocity: self.1[node], mobility: [give, 0.0, 0.0, give, 0.0, give] }
         }
     }
 
@@ -533,14 +533,14 @@ mod tests {
             let positions = [at, [0, 1, 2].map(|d| at[d] + [0.02, 0.05, 0.01][d])];
             for stiffness in [1e2, 1e4, 1e6] {
                 for friction in [0.0, 0.4] {
-                    let told = fly(solid, false, friction, stiffness, &positions, |_| velocity, 400);
-                    let [begin, end] = told.kinetic;
+                    let reported = fly(solid, false, friction, stiffness, &positions, |_| velocity, 400);
+                    let [begin, end] = reported.kinetic;
                     assert!(
-                        told.pressed && (end + told.lost - begin).abs() < 0.01 * begin,
+                        reported.pressed && (end + reported.lost - begin).abs() < 0.01 * begin,
                         "{solid:?} {stiffness} {friction}: {begin} {end} {}",
-                        told.lost
+                        reported.lost
                     );
-                    assert!(if friction > 0.0 { told.lost > 0.0 } else { told.lost == 0.0 });
+                    assert!(if friction > 0.0 { reported.lost > 0.0 } else { reported.lost == 0.0 });
                 }
             }
         }
@@ -550,14 +550,14 @@ mod tests {
     fn a_free_obstacle_takes_the_momentum_and_the_angular_momentum_that_nodes_lose() {
         for (solid, at, velocity) in solids() {
             for friction in [0.0, 0.5] {
-                let told = fly(solid, true, friction, 1e4, &[at], |_| velocity, 300);
+                let reported = fly(solid, true, friction, 1e4, &[at], |_| velocity, 300);
                 assert!(
-                    told.pressed && told.momentum.iter().flatten().all(|change| change.abs() < 1e-12),
+                    reported.pressed && reported.momentum.iter().flatten().all(|change| change.abs() < 1e-12),
                     "{solid:?}: {:?}",
-                    told.momentum
+                    reported.momentum
                 );
-                let [begin, end] = told.kinetic;
-                assert!((end + told.lost - begin).abs() < 0.02 * begin, "{solid:?} {friction}: {begin} {end} {}", told.lost);
+                let [begin, end] = reported.kinetic;
+                assert!((end + reported.lost - begin).abs() < 0.02 * begin, "{solid:?} {friction}: {begin} {end} {}", reported.lost);
             }
         }
     }

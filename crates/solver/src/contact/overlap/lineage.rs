@@ -1,7 +1,7 @@
-//! Which regions of a look go on from which of the look before: those that share most of their triangles.
+//! Which regions of a look continue from which of the look before: those that share most of their triangles.
 //!
 //! Two overlaps of the same bodies may lie in one large triangle. That alone makes neither of them part of
-//! the other: a region goes on from that with which it shares most triangles, and if it was the most of
+//! the other: a region continues from that with which it shares most triangles, and if it was the most of
 //! several in turn, they have merged. Numbers decide nothing: what is as much counts as well.
 
 use super::{Known, Region};
@@ -18,7 +18,7 @@ pub(super) fn owners(regions: &[Region]) -> Vec<Owner> {
     owners
 }
 
-/// The regions `before` from which each region goes on, ascending.
+/// The regions `before` from which each region continues, ascending.
 pub(super) fn parents(owners: &[Owner], before: &[Known], regions: &[Region]) -> Vec<Vec<u32>> {
     // How many triangles each shares with which.
     let shared = |region: &Region| {
@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn regions_in_one_triangle_go_on_each_from_its_own_in_whatever_order_they_are() {
+    fn regions_in_one_triangle_continue_run_each_from_its_own_in_whatever_order_they_are() {
         assert_eq!(lineage(&[&[1, 2, 3], &[3, 4, 5]], &[&[2, 3], &[3, 4, 5]]), [[0], [1]]);
         assert_eq!(lineage(&[&[3, 4, 5], &[1, 2, 3]], &[&[2, 3], &[3, 4, 5]]), [[1], [0]]);
     }

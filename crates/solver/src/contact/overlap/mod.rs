@@ -1,5 +1,5 @@
-//! Where bodies overlap in space, how deep, and whether something pushes them apart there: a judge of contact
-//! that shares no reasoning with the search, the trackers and the springs.
+//! Where bodies overlap in 3D, how deep, and whether something pushes them apart there: an overlap check of
+//! contact that shares no reasoning with the search, the trackers and the springs.
 //!
 //! It looks at the bodies as they are, not at pairs and their histories. `piercing` finds which edges pierce
 //! which triangles by exact predicates, `regions` closes the contours and finds what lies inside, the area
@@ -18,8 +18,8 @@
 //! by the travel ∑ dt max |v|). So nothing gets through a body between two looks, and on its way through it
 //! is deeper than that at one of them. What is nearly too deep is looked at more often.
 //!
-//! A region that is deeper than τ/20 gets a spring on its volume (`net`): the net under the springs of nodes
-//! and edges.
+//! A region that is deeper than τ/20 gets a spring on its volume (`volume_spring`): the volume spring under
+//! the springs of nodes and edges.
 //!
 //! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour
 //! in one body does not close, as where it begins between facets that share a node, what is behind pierced
@@ -27,7 +27,7 @@
 
 mod lineage;
 mod near;
-mod net;
+mod volume_spring;
 mod piercing;
 mod predicates;
 mod regions;
@@ -39,24 +39,24 @@ mod winding;
 pub use skin::Bodies;
 pub use thickness::Walls;
 
+use super::checked::Look;
 use super::findings::{BETWEEN_LOOKS, CAST, DEEPEST, Findings, MOST_STEPS, Overlap, PLACES, way_until_next};
-use super::judged::Look;
 use super::projection::node_facet::{Vector, corners_below, square_to_triangle, unit};
 use super::spin;
 use super::springs::Answers;
 use super::{Scene, Sweep};
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::NONE;
 use crate::tensor::dot;
 use crate::vector::length;
 use near::Near;
-use net::Net;
 use piercing::Piercing;
 use regions::{Region, Work};
 use skin::{Edge, Skin};
 use std::cell::Cell;
 use thickness::Thickness;
 use tree::Tree;
+use volume_spring::VolumeSpring;
 
 /// From this fraction on, depth is measured to the side of entry.
 const SIDED: f64 = 0.15;
@@ -85,7 +85,7 @@ struct Known {
     /// Area, the mean of both sides, now and when it was found the time before, m².
     size: f64,
     size_before: f64,
-    /// V now and when it was found the time before, and how the net saw it grow since then, m³.
+    /// V now and when it was found the time before, and how the volume spring saw it grow since then, m³.
     volume: f64,
     before: f64,
     since: f64,
@@ -97,17 +97,17 @@ struct Known {
     offset: f64,
     /// Whether the forces do not hold it.
     is_loose: bool,
-    /// Of the net: its depth (negative: it is open), m, area over which it spreads, m² (zero: there is no
-    /// net), and local thickness when it was cast, m.
+    /// Of the volume spring: its depth (negative: it is open), m, area over which it spreads, m² (zero: there
+    /// is no volume spring), and local thickness when it was cast, m.
     depth: f64,
     area: f64,
     thick: f64,
-    /// Gap (m) and energy (J) of the net at n − ½; infinite: there was none.
+    /// Gap (m) and energy (J) of the volume spring at n − ½; infinite: there was none.
     half: f64,
     stored: f64,
 }
 
-keep_all!(Known {
+persist_all!(Known {
     bodies,
     began,
     size,
@@ -126,8 +126,8 @@ keep_all!(Known {
     stored
 });
 
-/// The judge of one contact.
-pub struct Judge {
+/// The overlap check of one contact.
+pub struct OverlapCheck {
     skin: Skin,
     tree: Tree,
     near: Near,
@@ -140,15 +140,15 @@ pub struct Judge {
     moduli: Vec<[f64; 2]>,
     /// Whether overlaps at the start count as none.
     ignores_start: bool,
-    /// Whether regions get nets.
+    /// Whether regions get volume springs.
     casts: bool,
     work: Work,
     piercings: Vec<Piercing>,
     /// Regions of the last look, and what is known of them.
     regions: Vec<Region>,
     known: Vec<Known>,
-    /// The nets of this step.
-    nets: Vec<Net>,
+    /// The volume springs of this step.
+    volume_springs: Vec<VolumeSpring>,
     /// Triangles in the regions, and in which.
     owners: Vec<lineage::Owner>,
     /// Where the vertices were when regions were found the time before.
@@ -176,7 +176,7 @@ struct Sample {
     overlap: Overlap,
 }
 
-impl Judge {
+impl OverlapCheck {
     /// For the bodies of a contact at their initial `positions`, m.
     #[must_use]
     pub fn new(bodies: &Bodies<'_>, positions: &[Vector], ignores_start: bool) -> Self {
@@ -201,7 +201,7 @@ impl Judge {
             piercings: Vec::new(),
             regions: Vec::new(),
             known: Vec::new(),
-            nets: Vec::new(),
+            volume_springs: Vec::new(),
             owners: Vec::new(),
             places: Vec::new(),
             next: f64::NEG_INFINITY,
@@ -213,7 +213,7 @@ impl Judge {
         }
     }
 
-    /// The same without nets: it tells, and holds nothing.
+    /// The same without volume springs: it reports, and holds nothing.
     #[must_use]
     pub fn without_nets(self) -> Self {
         Self { casts: false, ..self }
@@ -243,15 +243,15 @@ impl Judge {
         nodes.iter().map(at).collect()
     }
 
-    /// Looks at the step, if it is time. In between, regions that have nets are found anew where these can't
-    /// go on with their nodes.
+    /// Looks at the step, if it is time. In between, regions that have volume springs are found again where
+    /// these can't continue with their nodes.
     pub fn look(&mut self, sweep: Sweep<'_, 3>, time: f64) {
         self.steps += 1;
         self.has_looked = !(sweep.travel < self.next && self.steps < MOST_STEPS);
         if !self.has_looked && self.follow(sweep) {
             return;
         }
-        self.nets.clear();
+        self.volume_springs.clear();
         std::mem::swap(&mut self.places, &mut self.skin.x);
         if !self.skin.place(sweep.new) {
             self.has_looked = false;
@@ -262,7 +262,7 @@ impl Judge {
         self.inherit_known();
         if self.has_looked {
             self.see(time);
-            // What has no closed contour gets no net: to look sooner would help nothing.
+            // What has no closed contour gets no volume spring: to look sooner would help nothing.
             let closed = self.known.iter().zip(&self.regions).filter(|(_, region)| !region.is_open);
             let deepest = closed.map(|(known, _)| known.ratio).fold(0.0, f64::max);
             self.next = sweep.travel + way_until_next(deepest, DEEPEST, BETWEEN_LOOKS, self.least);
@@ -299,7 +299,7 @@ impl Judge {
         }
     }
 
-    /// What is known of the regions of the look before goes to those that go on from them.
+    /// What is known of the regions of the look before goes to those that continue from them.
     fn inherit_known(&mut self) {
         let before = std::mem::take(&mut self.known);
         let parents = lineage::parents(&self.owners, &before, &self.regions);
@@ -496,7 +496,7 @@ impl Judge {
     }
 }
 
-impl Look<3> for Judge {
+impl Look<3> for OverlapCheck {
     fn see_step(&mut self, scene: &Scene<'_, 3>) {
         self.look(scene.sweep, scene.time);
     }
@@ -510,7 +510,7 @@ impl Look<3> for Judge {
             let (region, known) = (&self.regions[number], &mut self.known[number]);
             let has_direction = length(region.area) > DIRECTED * region.size && known.began != [0.0; 3];
             let is_turned = has_direction && dot(known.began, region.area) < 0.0;
-            // What was found in this step gets its net in the next.
+            // What was found in this step gets its volume spring in the next.
             let was_loose = known.is_loose;
             known.is_loose = known.ratio > SHALLOW && known.volume >= known.before && !(push > 0.0) && !region.is_open;
             if known.ratio > DEEPEST || is_turned || (known.is_loose && was_loose) {
@@ -530,13 +530,14 @@ impl Look<3> for Judge {
         &self.inside
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { known, nets, owners, next, found_at, steps, findings, inside, skin, .. } = self;
-        keep_each!(archive; known, nets, owners, next, found_at, steps, findings, inside, &mut skin.x[..]);
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Self { known, volume_springs, owners, next, found_at, steps, findings, inside, skin, .. } = self;
+        persist_each!(archive; known, volume_springs, owners, next, found_at, steps, findings, inside, &mut skin.x[..]);
         let are_there = owners.is_sorted() && owners.iter().all(|&(_, owner)| (owner as usize) < known.len());
         archive.check(are_there, "overlaps are known that are not there")?;
-        let are_nodes = |net: &Net| net.rows.iter().all(|(node, _)| self.skin.nodes.binary_search(node).is_ok());
-        let are_nets = nets.iter().all(|net| (net.region as usize) < known.len() && are_nodes(net));
+        let are_nodes =
+            |volume_spring: &VolumeSpring| volume_spring.rows.iter().all(|(node, _)| self.skin.nodes.binary_search(node).is_ok());
+        let are_nets = volume_springs.iter().all(|volume_spring| (volume_spring.region as usize) < known.len() && are_nodes(volume_spring));
         archive.check(are_nets, "nets are known of overlaps that are not there")
     }
 

@@ -153,7 +153,7 @@ struct End {
 }
 
 /// The pieces of the contours of some piercings, for the first and the second triangle of each pair, which
-/// are told too; pieces without two ends are those of triangles in `loose`.
+/// are reported too; pieces without two ends are those of triangles in `loose`.
 pub(super) fn contours(skin: &Skin, piercings: &[Piercing], pieces: &mut Vec<Piece>, pairs: &mut Vec<[u32; 2]>, loose: &mut Vec<u32>) {
     let mut ends: Vec<End> = Vec::with_capacity(2 * piercings.len());
     for &Piercing { edge, triangle, enters, place, .. } in piercings {

@@ -1,7 +1,7 @@
 //! The surfaces of a contact as triangles: the flat pieces that contact itself projects on, four around the
 //! middle of a facet of four nodes, with their edges and bodies.
 //!
-//! Topology is fixed, places are taken anew for each look. Vertices are the surfaces' nodes, ascending, then
+//! Topology is fixed, places are taken again for each look. Vertices are the surfaces' nodes, ascending, then
 //! the middles of facets of four nodes.
 
 use crate::contact::boxes::{Aabb, around};
@@ -30,7 +30,7 @@ pub(super) struct Facet {
     pub(super) is_mirror: bool,
 }
 
-/// What is told of the bodies of a contact.
+/// What is known of the bodies of a contact.
 pub struct Bodies<'a> {
     /// The whole outside of all of them, also where it lies on symmetry planes.
     pub outside: &'a SpaceSurface,

@@ -44,7 +44,7 @@ fn block(low: Vector, high: Vector, counts: [usize; 3], is_tet: bool, nodes: &mu
 }
 
 /// Two blocks: the first from the origin to `size`, the second from `low` to `high`, of so many elements.
-fn two(size: Vector, [low, high]: [Vector; 2], counts: [[usize; 3]; 2], are_tets: [bool; 2]) -> (Judge, Vec<Vector>) {
+fn two(size: Vector, [low, high]: [Vector; 2], counts: [[usize; 3]; 2], are_tets: [bool; 2]) -> (OverlapCheck, Vec<Vector>) {
     let (mut nodes, mut cells) = (Vec::new(), Vec::new());
     block([0.0; 3], size, counts[0], are_tets[0], &mut nodes, &mut cells);
     let second = nodes.len() as u32;
@@ -52,11 +52,11 @@ fn two(size: Vector, [low, high]: [Vector; 2], counts: [[usize; 3]; 2], are_tets
     let surface = SpaceSurface::outside(cells.iter().filter_map(|nodes| Cell::of(3, nodes))).unwrap();
     let body_of = |node: u32| u32::from(node >= second);
     let bodies = Bodies { outside: &surface, is_mirror: &|_| false, body_of: &body_of, side_of: None };
-    (Judge::new(&bodies, &nodes, false), nodes)
+    (OverlapCheck::new(&bodies, &nodes, false), nodes)
 }
 
-fn look(judge: &mut Judge, nodes: &[Vector]) {
-    judge.look(Sweep::between(nodes, nodes), 0.0);
+fn look(overlap_check: &mut OverlapCheck, nodes: &[Vector]) {
+    overlap_check.look(Sweep::between(nodes, nodes), 0.0);
 }
 
 fn close(a: f64, b: f64, scale: f64) -> bool {
@@ -75,18 +75,22 @@ fn a_corner_an_edge_and_a_face_in_a_block_have_their_volumes_areas_and_depths() 
                 ([[0.9, 0.2, 0.3], [2.0, 0.7, 0.6]], [0.1, 0.5, 0.3], [0.15, 0.0, 0.0], 0.1),
             ];
             for ([low, high], sizes, area, depth) in cases {
-                let (mut judge, nodes) = two([1.0; 3], [low, high], counts, are_tets);
-                look(&mut judge, &nodes);
-                let found: Vec<&Region> = judge.regions.iter().collect();
+                let (mut overlap_check, nodes) = two([1.0; 3], [low, high], counts, are_tets);
+                look(&mut overlap_check, &nodes);
+                let found: Vec<&Region> = overlap_check.regions.iter().collect();
                 assert_eq!(found.len(), 1, "{low:?} {are_tets:?} {counts:?}");
                 let region = found[0];
                 assert!(!region.is_open);
                 assert!(close(region.volume, sizes[0] * sizes[1] * sizes[2], 1.0), "{low:?} {}", region.volume);
                 assert!((0..3).all(|d| close(region.area[d], area[d], 1.0)), "{low:?} {:?}", region.area);
                 // Vertices of one element alone need not be where it is deepest.
-                assert!(judge.findings.now.depth <= depth * (1.0 + 1e-12), "{:?}", judge.findings.now);
+                assert!(overlap_check.findings.now.depth <= depth * (1.0 + 1e-12), "{:?}", overlap_check.findings.now);
                 if low[1] > -0.1 {
-                    assert!(close(judge.findings.now.depth, depth, 1.0), "{low:?} {are_tets:?} {counts:?} {:?}", judge.findings.now);
+                    assert!(
+                        close(overlap_check.findings.now.depth, depth, 1.0),
+                        "{low:?} {are_tets:?} {counts:?} {:?}",
+                        overlap_check.findings.now
+                    );
                 }
             }
         }
@@ -95,17 +99,21 @@ fn a_corner_an_edge_and_a_face_in_a_block_have_their_volumes_areas_and_depths() 
 
 #[test]
 fn a_bar_through_a_bar_is_a_region_that_turns_round_and_what_only_touches_is_none() {
-    let (mut judge, nodes) = two([1.0; 3], [[-1.0, 0.3, 0.7], [2.0, 0.6, 0.8]], [[2; 3], [4, 1, 1]], [false; 2]);
-    look(&mut judge, &nodes);
-    let region = &judge.regions[0];
+    let (mut overlap_check, nodes) = two([1.0; 3], [[-1.0, 0.3, 0.7], [2.0, 0.6, 0.8]], [[2; 3], [4, 1, 1]], [false; 2]);
+    look(&mut overlap_check, &nodes);
+    let region = &overlap_check.regions[0];
     assert!(close(region.volume, 0.03, 1.0) && length(region.area) < 1e-12, "{region:?}");
-    assert!((judge.findings.now.depth - 0.3).abs() < 0.11 && close(judge.findings.now.thickness, 0.1, 1.0), "{:?}", judge.findings.now);
+    assert!(
+        (overlap_check.findings.now.depth - 0.3).abs() < 0.11 && close(overlap_check.findings.now.thickness, 0.1, 1.0),
+        "{:?}",
+        overlap_check.findings.now
+    );
     for low in [[1.0, 0.0, 0.0], [1.0, 0.5, 0.0], [1.0, 1.0, 1.0], [0.0, 0.0, 1.0]] {
-        let (mut judge, nodes) = two([1.0; 3], [low, low.map(|c| c + 1.0)], [[2; 3], [2; 3]], [false; 2]);
-        look(&mut judge, &nodes);
+        let (mut overlap_check, nodes) = two([1.0; 3], [low, low.map(|c| c + 1.0)], [[2; 3], [2; 3]], [false; 2]);
+        look(&mut overlap_check, &nodes);
         // Ties are broken one way or the other: nothing, or something without a volume.
-        assert!(judge.regions.iter().all(|region| region.volume.abs() < 1e-15), "{low:?}");
-        assert!(judge.findings.now.depth < 1e-15);
+        assert!(overlap_check.regions.iter().all(|region| region.volume.abs() < 1e-15), "{low:?}");
+        assert!(overlap_check.findings.now.depth < 1e-15);
     }
 }
 
@@ -116,13 +124,13 @@ fn sides_that_are_flush_leave_no_hole_in_a_contour() {
             for (low, high) in
                 [([0.9, 0.0, 0.0], [2.0, 1.0, 1.0]), ([0.9, 0.25, 0.0], [2.0, 0.75, 1.0]), ([0.5, 0.5, 0.0], [2.0, 2.0, 0.5])]
             {
-                let (mut judge, nodes) = two([1.0; 3], [low, high], counts, are_tets);
-                look(&mut judge, &nodes);
+                let (mut overlap_check, nodes) = two([1.0; 3], [low, high], counts, are_tets);
+                look(&mut overlap_check, &nodes);
                 let expected = (1.0 - low[0]) * (high[1].min(1.0) - low[1]) * (high[2].min(1.0) - low[2]);
-                let found: f64 = judge.regions.iter().map(|region| region.volume).sum();
+                let found: f64 = overlap_check.regions.iter().map(|region| region.volume).sum();
                 assert!((found - expected).abs() < 1e-12, "{low:?} {counts:?} {are_tets:?}: {found} {expected}");
-                assert!(judge.regions.iter().all(|region| !region.is_open), "{low:?} {counts:?} {are_tets:?}");
-                assert!(judge.findings.now.depth < 1.0 - low[0] + 1e-12, "{:?}", judge.findings.now);
+                assert!(overlap_check.regions.iter().all(|region| !region.is_open), "{low:?} {counts:?} {are_tets:?}");
+                assert!(overlap_check.findings.now.depth < 1.0 - low[0] + 1e-12, "{:?}", overlap_check.findings.now);
             }
         }
     }
@@ -130,12 +138,12 @@ fn sides_that_are_flush_leave_no_hole_in_a_contour() {
 
 #[test]
 fn thickness_is_that_of_the_body_and_follows_it() {
-    let (judge, mut nodes) = two([1.0, 2.0, 0.1], [[5.0; 3], [6.0; 3]], [[3, 3, 1], [2; 3]], [false, true]);
-    let mut judge = judge;
-    assert!(close(judge.least, 0.1, 1.0));
+    let (overlap_check, mut nodes) = two([1.0, 2.0, 0.1], [[5.0; 3], [6.0; 3]], [[3, 3, 1], [2; 3]], [false, true]);
+    let mut overlap_check = overlap_check;
+    assert!(close(overlap_check.least, 0.1, 1.0));
     nodes.iter_mut().for_each(|x| x[2] *= 0.5);
-    look(&mut judge, &nodes);
-    assert!(close(judge.thickness.least(&judge.skin), 0.05, 1.0));
+    look(&mut overlap_check, &nodes);
+    assert!(close(overlap_check.thickness.least(&overlap_check.skin), 0.05, 1.0));
 }
 
 fn turn(v: Vector, by: Vector) -> Vector {
@@ -152,7 +160,7 @@ proptest! {
         by in prop::array::uniform3(-2.0..2.0_f64), shift in prop::array::uniform3(0.2..0.9_f64), noise in 0.0..0.08_f64,
         seed in 0..1000_u32, are_tets in prop::array::uniform2(any::<bool>()), counts in prop::array::uniform2(prop::array::uniform3(1..4_usize)),
     ) {
-        let (mut judge, mut nodes) = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], counts, are_tets);
+        let (mut overlap_check, mut nodes) = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], counts, are_tets);
         let second = counts[0].iter().map(|count| count + 1).product::<usize>();
         let mut state = seed.wrapping_mul(2_654_435_761) | 1;
         let mut random = || { state ^= state << 13; state ^= state >> 17; state ^= state << 5; f64::from(state) / f64::from(u32::MAX) - 0.5 };
@@ -163,16 +171,16 @@ proptest! {
             }
             *x = x.map(|c| c + noise * random());
         }
-        look(&mut judge, &nodes);
-        prop_assert!(judge.regions.iter().all(|region| !region.is_open && (region.is_closed || region.size < 1e-6)));
-        let volume = |judge: &Judge| judge.regions.iter().map(|region| region.volume).sum::<f64>();
-        let whole = volume(&judge);
+        look(&mut overlap_check, &nodes);
+        prop_assert!(overlap_check.regions.iter().all(|region| !region.is_open && (region.is_closed || region.size < 1e-6)));
+        let volume = |overlap_check: &OverlapCheck| overlap_check.regions.iter().map(|region| region.volume).sum::<f64>();
+        let whole = volume(&overlap_check);
         prop_assert!(whole >= -1e-14);
         let mut rows = vec![[0.0; 3]; nodes.len()];
-        for region in judge.regions.iter() {
+        for region in overlap_check.regions.iter() {
             let (mut sum, mut one) = ([0.0; 3], [0.0; 3]);
             for &(vertex, row) in &region.gradient {
-                let node = judge.skin.nodes[vertex as usize] as usize;
+                let node = overlap_check.skin.nodes[vertex as usize] as usize;
                 (0..3).for_each(|d| {
                     rows[node][d] += row[d];
                     sum[d] += row[d];
@@ -189,24 +197,24 @@ proptest! {
             for (value, step) in at.iter_mut().zip([h, -h]) {
                 let mut moved = nodes.clone();
                 moved[node][d] += step;
-                let mut judge = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], counts, are_tets).0;
-                look(&mut judge, &moved);
-                *value = volume(&judge);
+                let mut overlap_check = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], counts, are_tets).0;
+                look(&mut overlap_check, &moved);
+                *value = volume(&overlap_check);
             }
             let difference = (at[0] - at[1]) / (2.0 * h);
             prop_assert!((difference - rows[node][d]).abs() < 1e-8 + 3e-6 * rows[node][d].abs().max(0.01), "{node} {d}: {difference} {:?}", rows[node]);
         }
     }
 
-    /// Bodies of any form, those that overlap themselves included: the springs of nets have no sum and no
-    /// moment, also where they go on with their nodes.
+    /// Bodies of any form, those that overlap themselves included: the springs of volume springs have no sum
+    /// and no moment, also where they continue with their nodes.
     #[test]
     fn nets_keep_both_momenta_whatever_bodies_are_like(
         shift in prop::array::uniform3(0.2..0.9_f64), noise in 0.0..1.5_f64, seed in 0..1000_u32, are_tets in prop::array::uniform2(any::<bool>()),
         steps in 0..4_u32, by in prop::array::uniform3(-1.0..1.0_f64),
     ) {
-        let (mut judge, mut nodes) = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], [[3, 2, 2], [2; 3]], are_tets);
-        (0..nodes.len() as u32).for_each(|node| judge.set_modulus(node, 1.0, 0.0));
+        let (mut overlap_check, mut nodes) = two([1.0; 3], [[0.0; 3], [1.0, 1.2, 0.7]], [[3, 2, 2], [2; 3]], are_tets);
+        (0..nodes.len() as u32).for_each(|node| overlap_check.set_modulus(node, 1.0, 0.0));
         let mut state = seed.wrapping_mul(2_654_435_761) | 1;
         let mut random = || { state ^= state << 13; state ^= state >> 17; state ^= state << 5; f64::from(state) / f64::from(u32::MAX) - 0.5 };
         for (number, x) in nodes.iter_mut().enumerate() {
@@ -214,7 +222,7 @@ proptest! {
             *x = [0, 1, 2].map(|d| x[d] + by[d] + noise * random());
         }
         let (mut finds, mut travel) = (0, 0.0);
-        judge.look(Sweep { old: &nodes, new: &nodes, travel }, 0.0);
+        overlap_check.look(Sweep { old: &nodes, new: &nodes, travel }, 0.0);
         for _ in 0..steps {
             let old = nodes.clone();
             for x in &mut nodes {
@@ -222,13 +230,13 @@ proptest! {
                 *x = turned.map(|c| c + 2e-3 * random());
             }
             travel += 1e-4;
-            judge.look(Sweep { old: &old, new: &nodes, travel }, 0.0);
-            finds += u32::from(judge.found_at == travel);
+            overlap_check.look(Sweep { old: &old, new: &nodes, travel }, 0.0);
+            finds += u32::from(overlap_check.found_at == travel);
         }
-        // Only nets that can't go on were found anew.
+        // Only volume springs that can't continue were found again.
         prop_assert!(noise > 0.1 || finds == 0, "{finds} of {steps}");
         let mut springs = Springs::default();
-        judge.push_nets(&mut springs, |_| ());
+        overlap_check.push_nets(&mut springs, |_| ());
         for spring in &springs.list {
             let ends: Vec<_> = springs.ends(spring).collect();
             let (mut sum, mut moment, mut size) = ([0.0; 3], [0.0; 3], 0.0);
@@ -246,10 +254,10 @@ proptest! {
 }
 
 #[test]
-fn a_net_that_goes_on_with_its_nodes_is_as_deep_in_the_end_as_the_volume_grew() {
+fn a_net_that_continues_with_its_nodes_is_as_deep_in_the_end_as_the_volume_grew() {
     // A block turns while it goes into another one and out again.
-    let (mut judge, nodes) = two([1.0; 3], [[0.2, 0.1, 0.93], [0.8, 0.9, 1.9]], [[2; 3], [3, 2, 2]], [false; 2]);
-    (0..nodes.len() as u32).for_each(|node| judge.set_modulus(node, 1.0, 0.0));
+    let (mut overlap_check, nodes) = two([1.0; 3], [[0.2, 0.1, 0.93], [0.8, 0.9, 1.9]], [[2; 3], [3, 2, 2]], [false; 2]);
+    (0..nodes.len() as u32).for_each(|node| overlap_check.set_modulus(node, 1.0, 0.0));
     let place = |step: f64| {
         let mut moved = nodes.clone();
         for x in &mut moved[27..] {
@@ -261,10 +269,10 @@ fn a_net_that_goes_on_with_its_nodes_is_as_deep_in_the_end_as_the_volume_grew() 
     let (mut cast, mut followed, mut travel, mut old) = (None, 0, 0.0, place(0.0));
     for step in 0..100 {
         let new = place(f64::from(step));
-        judge.look(Sweep { old: &old, new: &new, travel }, 0.0);
-        let is_found = judge.found_at == travel;
-        let [known] = &judge.known[..] else { panic!("{:?}", judge.known) };
-        assert!(known.area > 0.0 && judge.nets.len() == 1, "{step}");
+        overlap_check.look(Sweep { old: &old, new: &new, travel }, 0.0);
+        let is_found = overlap_check.found_at == travel;
+        let [known] = &overlap_check.known[..] else { panic!("{:?}", overlap_check.known) };
+        assert!(known.area > 0.0 && overlap_check.volume_springs.len() == 1, "{step}");
         let (area, begin) = *cast.get_or_insert((known.area, known.volume));
         let mut fresh = two([1.0; 3], [[0.2, 0.1, 0.93], [0.8, 0.9, 1.9]], [[2; 3], [3, 2, 2]], [false; 2]).0;
         look(&mut fresh, &new);
@@ -281,8 +289,8 @@ fn a_net_that_goes_on_with_its_nodes_is_as_deep_in_the_end_as_the_volume_grew() 
 #[test]
 fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
     // Two blocks of facets that shake, one of them on a way through the other; all nodes within the travel
-    // that is told.
-    let (mut judge, start) = two([1.0; 3], [[0.2, 0.3, 1.02], [0.7, 0.9, 1.6]], [[3, 4, 2], [2, 2, 3]], [false, true]);
+    // that is reported.
+    let (mut overlap_check, start) = two([1.0; 3], [[0.2, 0.3, 1.02], [0.7, 0.9, 1.6]], [[3, 4, 2], [2, 2, 3]], [false, true]);
     let first = 4 * 5 * 3;
     let mut state = 7_u64;
     let mut random = || {
@@ -299,20 +307,20 @@ fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
             (0..3).for_each(|d| x[d] += shift[d] + if number >= first && d == 2 { down } else { 0.0 });
         }
         travel += way;
-        judge.skin.place(&nodes);
+        overlap_check.skin.place(&nodes);
         let (mut kept, mut anew) = (Vec::new(), Vec::new());
-        piercing::find(&judge.skin, &mut judge.tree, &mut near, travel, &mut kept);
+        piercing::find(&overlap_check.skin, &mut overlap_check.tree, &mut near, travel, &mut kept);
         // Nearest triangles in boxes that have grown, and in new ones.
         let places: Vec<Vector> = (0..8).map(|_| [random() + 0.5, random() + 0.5, random() + 0.8]).collect();
         let nearest = |tree: &Tree, guess: u32| {
-            let of = |x: &Vector| tree.nearest(&judge.skin, 0, *x, (f64::INFINITY, guess), |_| true);
+            let of = |x: &Vector| tree.nearest(&overlap_check.skin, 0, *x, (f64::INFINITY, guess), |_| true);
             places.iter().map(of).collect::<Vec<_>>()
         };
-        let before = nearest(&judge.tree, NONE);
-        let guess = ((random() + 0.5) * judge.skin.triangles.len() as f64) as u32;
-        assert_eq!(before, nearest(&judge.tree, guess), "{step}: guessed {guess}");
-        let mut fresh = Tree::new(&judge.skin);
-        piercing::find(&judge.skin, &mut fresh, &mut Near::default(), f64::INFINITY, &mut anew);
+        let before = nearest(&overlap_check.tree, NONE);
+        let guess = ((random() + 0.5) * overlap_check.skin.triangles.len() as f64) as u32;
+        assert_eq!(before, nearest(&overlap_check.tree, guess), "{step}: guessed {guess}");
+        let mut fresh = Tree::new(&overlap_check.skin);
+        piercing::find(&overlap_check.skin, &mut fresh, &mut Near::default(), f64::INFINITY, &mut anew);
         for list in [&mut kept, &mut anew] {
             list.sort_by_key(|piercing| (piercing.edge, piercing.triangle));
         }
@@ -323,11 +331,11 @@ fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
     assert!(total > 1000, "{total}");
 }
 
-/// The surface of some elements that are one body, and its judge.
-fn one(nodes: &[Vector], cells: &[Vec<u32>]) -> Judge {
+/// The surface of some elements that are one body, and its overlap check.
+fn one(nodes: &[Vector], cells: &[Vec<u32>]) -> OverlapCheck {
     let surface = SpaceSurface::outside(cells.iter().filter_map(|nodes| Cell::of(3, nodes))).unwrap();
     let bodies = Bodies { outside: &surface, is_mirror: &|_| false, body_of: &|_| 0, side_of: None };
-    Judge::new(&bodies, nodes, false)
+    OverlapCheck::new(&bodies, nodes, false)
 }
 
 #[test]
@@ -356,23 +364,28 @@ fn a_region_that_slides_around_an_edge_keeps_its_depth_and_one_that_goes_through
     // its way.
     let at = |x: f64, z: f64| [[x - 0.4, 0.8, z - 0.4], [x + 0.4, 1.6, z + 0.9]];
     let begin = at(0.5, 1.24);
-    let (mut judge, nodes) = two([1.0, 3.0, 1.0], begin, [[2, 6, 2], [2, 2, 2]], [false; 2]);
+    let (mut overlap_check, nodes) = two([1.0, 3.0, 1.0], begin, [[2, 6, 2], [2, 2, 2]], [false; 2]);
     let first = nodes.len() - 27;
-    let move_to = |judge: &mut Judge, x: f64, z: f64| {
+    let move_to = |overlap_check: &mut OverlapCheck, x: f64, z: f64| {
         let mut moved = nodes.clone();
         moved[first..].iter_mut().for_each(|node| (node[0], node[2]) = (node[0] + x - 0.5, node[2] + z - 1.24));
-        look(judge, &moved);
-        judge.findings.now.ratio()
+        look(overlap_check, &moved);
+        overlap_check.findings.now.ratio()
     };
     let way: Vec<[f64; 2]> =
         (0..=20).map(|k| [0.5 + 0.037 * f64::from(k), 1.24]).chain((0..=40).map(|k| [1.24, 1.24 - 0.02 * f64::from(k)])).collect();
-    let deepest = way.iter().map(|&[x, z]| move_to(&mut judge, x, z)).fold(0.0, f64::max);
+    let deepest = way.iter().map(|&[x, z]| move_to(&mut overlap_check, x, z)).fold(0.0, f64::max);
     assert!((0.19..0.21).contains(&deepest), "{deepest}");
     // From the upper side down through the bar it is ever deeper from there, and beyond the thickness it is
-    // told.
-    let (mut judge, _) = two([1.0, 3.0, 1.0], begin, [[2, 6, 2], [2, 2, 2]], [false; 2]);
+    // reported.
+    let (mut overlap_check, _) = two([1.0, 3.0, 1.0], begin, [[2, 6, 2], [2, 2, 2]], [false; 2]);
     for k in 0..=66 {
-        move_to(&mut judge, 0.5, 1.24 - 0.02 * f64::from(k));
+        move_to(&mut overlap_check, 0.5, 1.24 - 0.02 * f64::from(k));
     }
-    assert!(judge.findings.through.is_some_and(|through| through.depth > 0.8), "{:?} {:?}", judge.findings.now, judge.known);
+    assert!(
+        overlap_check.findings.through.is_some_and(|through| through.depth > 0.8),
+        "{:?} {:?}",
+        overlap_check.findings.now,
+        overlap_check.known
+    );
 }

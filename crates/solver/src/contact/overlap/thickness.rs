@@ -20,7 +20,7 @@ const OPPOSITE: f64 = -0.5;
 const BESIDE: f64 = 1e-9;
 
 /// What is opposite of a facet: a triangle, or [`NONE`], and the shares of its corners; and how thick the
-/// body was, m. On a symmetry plane the body goes on as its image.
+/// body was, m. On a symmetry plane the body continues as its image.
 #[derive(Debug)]
 struct Opposite {
     triangle: u32,

@@ -1,6 +1,6 @@
 //! Boxes around facets in a binary tree: which facets may meet, and which triangle is nearest to a place.
 //!
-//! The tree is built once, by halves along the longest axis, a subtree for each body; boxes are taken anew
+//! The tree is built once, by halves along the longest axis, a subtree for each body; boxes are taken again
 //! for each look. It shares nothing with the searches of contact.
 
 use super::skin::Skin;
@@ -123,7 +123,7 @@ impl Tree {
         self.push(Node { around: nothing(), first, second, is_leaf: false, side })
     }
 
-    /// Takes the boxes anew. Children come before their parents.
+    /// Takes the boxes again. Children come before their parents.
     pub(super) fn refit(&mut self, skin: &Skin) {
         self.grown = 0.0;
         let Self { nodes, order, boxes, .. } = self;

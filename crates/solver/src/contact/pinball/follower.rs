@@ -1,4 +1,4 @@
-//! What pinballs of the plane and of space have in common: disks or balls in elements, where they go, and
+//! What pinballs in 2D and 3D have in common: disks or balls in elements, where they go, and
 //! which of them are near each other.
 //!
 //! The balls come from the elements under the surfaces ([`super`] and [`super::space`] say where they are and
@@ -11,7 +11,7 @@ use super::super::law::penalty;
 use super::super::search::{Pair, Query, Search};
 use super::super::springs::Spring;
 use super::super::tracker::{SKIN, SearchReport};
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::model;
 use crate::tensor::Dim;
@@ -25,11 +25,11 @@ const SAME: f64 = 0.500001;
 /// What differs between the dimensions.
 pub(super) trait Round<const D: usize>: TangentSpace<D> {
     /// What is kept of the elastic slip of two balls, m.
-    type Slip: Copy + Default + Keep;
+    type Slip: Copy + Default + Persist;
     /// So many times the last motion is searched ahead.
     const AHEAD: f64;
 
-    /// Length of a vector: in the plane as the platform's `hypot` rounds it, which its results hang on.
+    /// Length of a vector: in 2D as the platform's `hypot` rounds it, which its results hang on.
     fn length(vector: [f64; D]) -> f64;
     /// Length of surface that a disk stands for, or the side of the square of a ball's area, m.
     fn width(area: f64) -> f64;
@@ -139,10 +139,10 @@ pub(super) struct Near<S> {
     known: bool,
 }
 
-impl<S: Keep> Keep for Near<S> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<S: Persist> Persist for Near<S> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { pair, slip, offset, known } = self;
-        keep_each!(archive; pair, slip, offset, known);
+        persist_each!(archive; pair, slip, offset, known);
         Ok(())
     }
 }
@@ -330,7 +330,7 @@ where
     }
 
     /// Keeps what is known of the past.
-    pub(super) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept
+    pub(super) fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult
     where
         [f64; D]: Default,
     {
@@ -340,7 +340,7 @@ where
             bodies: _, pairs: _, before: _, report: _,
             balls, has_begun, searched, near,
         } = self;
-        keep_each!(archive; has_begun, searched, near);
+        persist_each!(archive; has_begun, searched, near);
         archive.check(searched.is_empty() || searched.len() == balls.len(), "pinballs were searched at other places")?;
         let is_there = |near: &Near<_>| near.pair.iter().all(|&ball| (ball as usize) < balls.len());
         archive.check(near.iter().all(is_there), "a pinball is not there")

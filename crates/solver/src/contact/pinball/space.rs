@@ -1,4 +1,4 @@
-//! Pinballs in space: balls in the elements under the surfaces, a spring between each two that come near.
+//! Pinballs in 3D: balls in the elements under the surfaces, a spring between each two that come near.
 //!
 //! Surfaces, the elements behind their facets and κ come from the builder; springs go to the solver. As the
 //! disks of the plane ([`super`]), after Belytschko and Neal (1991): but the ball touches the surface from
@@ -21,7 +21,7 @@ use super::super::springs::{Answers, End, Spring, Springs};
 use super::super::tracker::SearchReport;
 use super::super::{Formulation, Scene, Sweep};
 use super::follower::{self, Follower};
-use crate::archive::{Archive, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::mesh::cell::Cell;
 use crate::mesh::surface::{Corners, SpaceSurface};
@@ -111,10 +111,10 @@ impl Formulation<3> for Pinball {
         }
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { follower, used: _ } = self;
-        follower.keep(archive)?;
-        keep_each!(archive; &mut follower.report.steps, &mut follower.report.searches);
+        follower.persist(archive)?;
+        persist_each!(archive; &mut follower.report.steps, &mut follower.report.searches);
         Ok(())
     }
 

@@ -1,4 +1,4 @@
-//! Where two edges of surfaces in space cross, and from which side: closest points of both lines, and the gap
+//! Where two edges of surfaces in 3D cross, and from which side: closest points of both lines, and the gap
 //! between them.
 //!
 //! Surfaces come from the mesh, positions from the step; crossings go to the formulation. Only edges that

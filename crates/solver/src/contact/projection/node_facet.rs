@@ -1,4 +1,4 @@
-//! Nearest feature of a surface in space to a point: a facet, an edge or a node, which decides by its
+//! Nearest feature of a surface in 3D to a point: a facet, an edge or a node, which decides by its
 //! pseudo-normal whether the point is inside.
 //!
 //! A triangle is flat. A facet of four nodes is made of four triangles around its middle x_m = ¼ Σ x_a, so
@@ -13,20 +13,20 @@
 //! is the nearest point, so that its own motion along the surface changes nothing. Weights are a partition of
 //! unity and x − P is along n: forces along these rows keep both momenta.
 //!
-//! Beyond the rim of a face, where its surface is cut off or goes on around a sharp edge, the plane of the
-//! last triangle goes on (`Placed::seen_over`): P is then beyond the triangle, and some of its weights are
+//! Beyond the rim of a face, where its surface is cut off or continues around a sharp edge, the plane of the
+//! last triangle continues (`Placed::seen_over`): P is then beyond the triangle, and some of its weights are
 //! negative.
 //!
-//! Where a surface ends on a symmetry plane its image goes on: the pseudo-normals of such edges and nodes are
-//! those of the surface together with its image, and lie in the plane. The image needs no facets of its own,
-//! since a point on the model's side of the plane is never farther from the model's own side.
+//! Where a surface ends on a symmetry plane its image continues: the pseudo-normals of such edges and nodes
+//! are those of the surface together with its image, and lie in the plane. The image needs no facets of its
+//! own, since a point on the model's side of the plane is never farther from the model's own side.
 
 use super::node_segment::END_TOLERANCE;
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
 use crate::tensor::{cross, dot};
 use crate::vector::minus;
 
-/// A vector of space.
+/// A vector in 3D.
 pub type Vector = [f64; 3];
 
 /// What of a surface is nearest.
@@ -77,11 +77,11 @@ pub(in crate::contact) type Found = (Nearest, u32, usize);
 /// Whether a surface ends at an edge or a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Border {
-    /// It goes on all around.
+    /// It continues all around.
     None,
     /// It is cut off.
     Cut,
-    /// Its image in symmetry planes goes on: their unit normals, which point to the body; of an edge twice
+    /// Its image in symmetry planes continues: their unit normals, which point to the body; of an edge twice
     /// the same.
     Mirrors([Vector; 2]),
 }
@@ -185,7 +185,7 @@ fn middle([a, b, c, d]: &[Vector; 4]) -> Vector {
     [middle(0), middle(1), middle(2)]
 }
 
-/// A surface in space with positions.
+/// A surface in 3D with positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed<'a> {
     /// The surface.
@@ -345,7 +345,7 @@ impl Placed<'_> {
         }
     }
 
-    /// Direction by which a feature tells outside from inside, not of unit length, and whether the surface
+    /// Direction by which a feature reports outside from inside, not of unit length, and whether the surface
     /// ends there.
     fn pseudo_normal(&self, facet: u32, k: usize, feature: Feature, weights: [f64; 3]) -> (Vector, Border) {
         let plus = |a: Vector, b: Vector| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
@@ -471,17 +471,17 @@ impl Placed<'_> {
         self.seen(x, self.nearest_of(x, facets)?)
     }
 
-    /// As [`Placed::seen`], but the plane of the nearest triangle goes on beyond the rim of what `is_face`
+    /// As [`Placed::seen`], but the plane of the nearest triangle continues beyond the rim of what `is_face`
     /// says is the face; with it the way from the rim to P, m, zero over the face.
     pub(in crate::contact) fn seen_over(&self, x: Vector, found: Found, is_face: impl Fn(u32) -> bool) -> Option<(Projection, Vector)> {
         let (nearest, facet, k) = found;
-        let goes_on = |edge: usize| {
+        let continues = |edge: usize| {
             let other = self.surface.across(facet, edge);
             if other == NONE { self.border(facet, edge) != Border::Cut } else { is_face(other) }
         };
         let is_inside = match self.feature(facet, k, nearest.weights) {
             Feature::Face | Feature::Crease => true,
-            Feature::Edge(edge) => goes_on(edge),
+            Feature::Edge(edge) => continues(edge),
             Feature::Node(corner) => {
                 let node = self.surface.facets[facet as usize][corner];
                 let (_, border) = self.node_normal(facet, corner);
@@ -519,7 +519,7 @@ impl Placed<'_> {
     }
 
     /// Whether the foot on the plane of a triangle is on it as far as rounding lets one tell: by the same
-    /// fraction of a facet as in the plane.
+    /// fraction of a facet as in 2D.
     fn is_over(&self, over: &Projection) -> bool {
         let [a, b, c, d] = over.weights;
         let least = if self.triangles(over.facet) == 1 {
@@ -565,7 +565,7 @@ impl Placed<'_> {
             if !normals.into_iter().all(|normal| Self::is_before(x, foot, normal, size)) {
                 return None;
             }
-            // Who is over a facet as far as rounding lets one tell sees its normal, as in the plane.
+            // Who is over a facet as far as rounding lets one tell sees its normal, as in 2D.
             if let Some(over) = self.over(x, facet, triangle).filter(|over| self.is_over(over)) {
                 return Some(over);
             }

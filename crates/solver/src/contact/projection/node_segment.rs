@@ -1,4 +1,4 @@
-//! Node against segments of the plane: nearest feature, inside or outside, and the swept crossing of a
+//! Node against segments in 2D: nearest feature, inside or outside, and the swept crossing of a
 //! segment.
 //!
 //! Positions come from the step, candidates from the global search; projections go to the contact law. One
@@ -6,11 +6,11 @@
 //! the inside of a segment or a node; the pseudo-normal of a node is the sum of its two segment normals.
 //! Theory, sections 4.1 and 4.2.
 
-use crate::archive::keep_all;
+use crate::archive::persist_all;
 use crate::mesh::surface::{NONE, Surface};
 use crate::vector::{bound, cross, dot, minus, plus, times};
 
-/// A point or vector of the plane.
+/// A point or vector in 2D.
 pub type Vector = [f64; 2];
 
 /// A surface as a target: its segments, and what its ends know.
@@ -19,7 +19,7 @@ pub struct Target {
     /// The segments, body on the right.
     pub surface: Surface,
     /// Normal of the symmetry line that the node of an open end lies on: (node, normal), by node. The
-    /// mirrored half of the body goes on there.
+    /// mirrored half of the body continues there.
     pub mirrors: Vec<(u32, Vector)>,
 }
 
@@ -36,7 +36,7 @@ pub struct Projection {
     pub normal: Vector,
 }
 
-keep_all!(Projection { segment, weights, gap, normal });
+persist_all!(Projection { segment, weights, gap, normal });
 
 /// Nodes that project beyond a segment's end by this fraction of its length still project on it. Two bars of
 /// one height meet corner on corner: round-off must not decide whether they touch.
@@ -51,11 +51,11 @@ const TIE: f64 = 1e-9;
 /// Cosine of the angle between two segments from which on their common node is an edge, not a facet of
 /// something round.
 const EDGE: f64 = 0.5;
-/// How far a face goes on beyond a free end: this fraction of the length of its last segment, or of the
+/// How far a face continues beyond a free end: this fraction of the length of its last segment, or of the
 /// slave's segments where those are shorter.
 pub const BAND: f64 = 0.025;
 
-/// By how much a face that goes on over a band of this width (m) has fallen at a distance `beyond` its end
+/// By how much a face that continues over a band of this width (m) has fallen at a distance `beyond` its end
 /// (m): φ, m, and its slope.
 ///
 /// It goes straight on over half of the band, bends down over the other half, and falls at 45 degrees from
@@ -77,7 +77,7 @@ pub fn fall_off(beyond: f64, band: f64) -> [f64; 2] {
 /// How a slave is held beyond the ends of faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Held {
-    /// How far faces go on, m; 0: not at all.
+    /// How far faces continue, m; 0: not at all.
     pub band: f64,
     /// Gap up to which it is held, m.
     pub gap: f64,
@@ -150,7 +150,7 @@ impl Target {
     }
 
     /// Whether a face ends where segment `segment` begins (`end` 0) or ends (1): the surface is cut off
-    /// there, or goes on around a sharp edge, away from the outside.
+    /// there, or continues around a sharp edge, away from the outside.
     #[must_use]
     pub fn is_free(&self, segment: u32, end: usize, positions: &[Vector]) -> bool {
         let neighbour = self.neighbour(segment, PLACES[end]);
@@ -162,8 +162,8 @@ impl Target {
         self.is_edge(before, after, positions) && cross(self.along(before, positions), self.along(after, positions)) <= 0.0
     }
 
-    /// The projection on segment `segment` as it goes on beyond a free end over a band of this width (m), see
-    /// [`fall_off`]; `None` where `x` is not beyond such an end. Weights are those of the place on the
+    /// The projection on segment `segment` as it continues beyond a free end over a band of this width (m),
+    /// see [`fall_off`]; `None` where `x` is not beyond such an end. Weights are those of the place on the
     /// segment's line, one of them negative; the gap is that of the line and what the face has fallen off.
     #[must_use]
     pub fn beyond(&self, x: Vector, segment: u32, band: f64, positions: &[Vector]) -> Option<Projection> {
@@ -227,7 +227,7 @@ impl Target {
         Some(Feature { projection: Some(Projection { segment, weights, gap: sign * distance, normal }), ..cut_off })
     }
 
-    /// Normal of the segment that goes on at an end, zero if that one has no length; `None` at an open end.
+    /// Normal of the segment that continues at an end, zero if that one has no length; `None` at an open end.
     fn neighbour_normal(&self, segment: u32, end: Place, positions: &[Vector]) -> Option<Vector> {
         let neighbour = self.neighbour(segment, end);
         let [a, b] = *self.surface.segments.get(neighbour as usize)?;
@@ -248,7 +248,7 @@ impl Target {
         self.look_ahead(x, candidates, rounding, positions).first?.1
     }
 
-    /// As [`Target::ahead`], with what the way to the nearest feature tells besides.
+    /// As [`Target::ahead`], with what the way to the nearest feature reports besides.
     #[must_use]
     pub fn look_ahead(&self, x: Vector, candidates: &[u32], rounding: f64, positions: &[Vector]) -> Ahead {
         let (mut first, mut clear) = (None, f64::INFINITY);
@@ -303,7 +303,7 @@ impl Target {
             }
             for end in PLACES {
                 let neighbour = self.neighbour(here.segment, end);
-                if !self.goes_on(neighbour, own) || self.is_left_behind(x, &here, neighbour, end, positions) {
+                if !self.continues(neighbour, own) || self.is_left_behind(x, &here, neighbour, end, positions) {
                     continue;
                 }
                 if here.at == Place::Inside && self.is_edge(here.segment, neighbour, positions) {
@@ -337,7 +337,7 @@ impl Target {
     }
 
     /// Whether there is a segment, and not one of node `own`.
-    fn goes_on(&self, segment: u32, own: u32) -> bool {
+    fn continues(&self, segment: u32, own: u32) -> bool {
         segment != NONE && (own == NONE || !self.surface.segments[segment as usize].contains(&own))
     }
 
@@ -351,7 +351,7 @@ impl Target {
         }
         for (end, weights, corner) in [(Place::Begin, [1.0, 0.0], 0), (Place::End, [0.0, 1.0], 1)] {
             let neighbour = self.neighbour(feature.segment, end);
-            if !self.goes_on(neighbour, own) || self.is_left_behind(x, &feature, neighbour, end, positions) {
+            if !self.continues(neighbour, own) || self.is_left_behind(x, &feature, neighbour, end, positions) {
                 continue;
             }
             if !over_edges && self.is_edge(feature.segment, neighbour, positions) {

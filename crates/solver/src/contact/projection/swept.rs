@@ -157,7 +157,7 @@ fn keeps_sign(old: [Vector; 3], new: [Vector; 3], [begin, end]: [f64; 2]) -> boo
 
 /// Times at which a node goes through a triangle: from its front (from where it is counter-clockwise) to its
 /// back, and from its back to its front. One that begins on the triangle and goes behind it, or before it,
-/// does so. `is_over` tells whether a place in the triangle's plane is on it, or no farther beyond it than it
+/// does so. `is_over` says whether a place in the triangle's plane is on it, or no farther beyond it than it
 /// counts.
 pub fn passages([from, to]: [Vector; 2], old: [Vector; 3], new: [Vector; 3], is_over: impl Fn(Vector, [Vector; 3]) -> bool) -> [Times; 2] {
     let sides = |x: Vector, [a, b, c]: [Vector; 3]| [minus(x, a), minus(b, a), minus(c, a)];
@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_triangle_that_comes_turns_and_goes_on_is_gone_through() {
+    fn a_triangle_that_comes_turns_and_continues_is_gone_through() {
         // The node stays, the triangle flies over it in the step, and turns so that its volume falls, rises
         // and falls.
         let old = [[-1.0, -1.0, -3.0], [1.0, -1.0, -3.0], [0.0, 1.0, -3.0]];

@@ -8,7 +8,8 @@ use super::{Pair, Query, Search, SearchKind};
 pub(super) fn kind<const D: usize>() -> SearchKind<D> {
     SearchKind {
         name: "boxes",
-        doc: "per facet the box along it that holds its old and new nodes plus the reach, compared with every slave node's path; slaves x facets comparisons",
+        doc: "per facet the box along it that holds its old and new nodes plus the reach, compared with every slave \
+            node's path; slaves x facets comparisons",
         source: "Bittencourt and Creus 1995, global search (b)",
         make: || Box::new(Boxes { facets: Vec::new() }),
     }

@@ -1,10 +1,10 @@
 //! A uniform grid per size class, rolled up so that it takes memory for the facets, not for the space: the
 //! default search.
 //!
-//! Facets that follow each other in the list mostly follow each other in space. So they are taken together in
+//! Facets that follow each other in the list mostly follow each other in 3D. So they are taken together in
 //! small groups (a facet's box holds its old and new nodes plus the reach); a list in bad order just makes
 //! small groups. A group has two boxes: one along the axes, for the cells, and one along its facets, which
-//! tells layers apart. It lies in the one cell that holds its lower corner. Slave nodes go in groups too: a
+//! distinguishes layers. It lies in the one cell that holds its lower corner. Slave nodes go in groups too: a
 //! group looks at the cells from which a box can reach it, keeps the facet groups that meet its own box along
 //! the axes, and each of its nodes is compared with the other boxes of these and with the boxes of the facets
 //! in them. The result is that of `boxes`, at a cost that grows with the number of facets and slaves alone:
@@ -14,7 +14,7 @@
 //!   the whole grid has at most m cells, s is the length of a row and every cell has its own bucket; else
 //!   s ≈ 0.618 m spreads rows evenly, and cells that share a bucket only cost comparisons. Neighbours in x
 //!   stay neighbours in memory: a row of cells is one piece of the sorted list.
-//! - *Eight at a time.* Boxes lie in eights side by side, so that one comparison of vectors tells which of
+//! - *Eight at a time.* Boxes lie in eights side by side, so that one comparison of vectors says which of
 //!   them meet a box; a group of facets never lies in two of the eights. See `compare`.
 //! - *Counting sort* of groups into buckets. What is done per facet runs through memory in the order of the
 //!   list, and slave groups go through each stage in batches and without branches on what was just loaded, so
@@ -39,7 +39,8 @@ use worker::Worker;
 pub(super) fn kind<const D: usize>() -> SearchKind<D> {
     SearchKind {
         name: "grid",
-        doc: "boxes of small groups of facets in the cells of a grid, one cell size per size class; the cost per facet does not grow with their number",
+        doc: "boxes of small groups of facets in the cells of a grid, one cell size per size class; the cost per \
+            facet does not grow with their number",
         source: "boxes after Bittencourt and Creus 1995, (b); hierarchical grid after Mirtich 1997; counting sort",
         make: || Box::new(Grid::<D>::default()),
     }
@@ -144,7 +145,7 @@ impl<const D: usize> Level<D> {
             cells *= level.last[d] as f64 + 1.0;
         }
         if cells > mask as f64 + 1.0 {
-            // Powers of the inverse golden ratio and its like in space: multiples of these keep apart from
+            // Powers of the inverse golden ratio and its like in 3D: multiples of these keep apart from
             // each other modulo 1.
             let ratio = if D == 2 { 0.618_033_988_749_894_9_f64 } else { 0.819_172_513_396_164_4 };
             for d in 1..D {

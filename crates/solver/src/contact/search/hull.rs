@@ -1,7 +1,7 @@
 //! What a facet is held in while it moves, and what a node is held in: the filter that `boxes` and `grid`
 //! share.
 //!
-//! A facet is held in a box that lies along it (in space: along the axes), a node's path in a ball around its
+//! A facet is held in a box that lies along it (in 3D: along the axes), a node's path in a ball around its
 //! middle. Where surfaces lie layer on layer, a box along the axes around a slanted facet reaches through
 //! several of them; one along the facet doesn't. The expressions are written once, for one facet and one
 //! node, for eight facets and for eight nodes, so that all give the same pairs to the bit.
@@ -10,10 +10,10 @@ use super::Query;
 use super::extent::{Extent, Margin, larger, smaller};
 use embate_lanes::{BATCH, Batch, Lane};
 
-/// The box of a facet, in its own directions: in the plane along the facet and along its normal.
+/// The box of a facet, in its own directions: in 2D along the facet and along its normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hull<L, const D: usize> {
-    /// Of length 1, up to rounding. Without meaning in space.
+    /// Of length 1, up to rounding. Without meaning in 3D.
     normal: [L; D],
     /// Middle of the box in its own directions, m.
     middle: [L; D],

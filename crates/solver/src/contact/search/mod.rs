@@ -34,7 +34,7 @@ pub struct Query<'a, const D: usize> {
     pub positions_new: &'a [[f64; D]],
     /// Slave nodes: indices into the positions.
     pub slaves: &'a [u32],
-    /// Facets: `D` node indices each (a segment in the plane, a triangle in space).
+    /// Facets: `D` node indices each (a segment in 2D, a triangle in 3D).
     pub facets: &'a [[u32; D]],
     /// Pairs that come nearer than this at any time of the step must be found, m.
     pub reach: f64,
@@ -46,7 +46,7 @@ pub trait Search<const D: usize>: Send + Sync {
     /// nearer than `reach` during the step, and perhaps others. A node is never paired with a facet that it
     /// belongs to.
     fn pairs(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>);
-    /// The same by and by: `take` gets those of some slave nodes after the other, of each all at once;
+    /// The same gradually: `take` gets those of some slave nodes after the other, of each all at once;
     /// `pairs` is room. What a search keeps between calls is freed at the end: it is for those that are rare.
     fn by_and_by(&mut self, query: &Query<'_, D>, pairs: &mut Vec<Pair>, take: &mut dyn FnMut(&[Pair])) {
         self.pairs(query, pairs);

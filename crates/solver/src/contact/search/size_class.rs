@@ -71,7 +71,7 @@ impl Sizes {
         self.classes[number]
     }
 
-    /// Classes for all sizes counted, large ones first; in space of `dimension`, where a surface fills cells
+    /// Classes for all sizes counted, large ones first; in 3D of `dimension`, where a surface fills cells
     /// like a length to the power dimension − 1.
     pub(super) fn classes(&mut self, dimension: usize) -> &[Class] {
         self.classes.clear();

@@ -6,7 +6,8 @@ use super::{Pair, Query, Search, SearchKind};
 pub(super) fn kind<const D: usize>() -> SearchKind<D> {
     SearchKind {
         name: "spheres",
-        doc: "per facet the sphere around its old and new nodes, compared with the sphere of every slave node's path; slaves x facets comparisons",
+        doc: "per facet the sphere around its old and new nodes, compared with the sphere of every slave node's \
+            path; slaves x facets comparisons",
         source: "Belytschko and Neal 1991, pinball method; spheres around facets in place of elements",
         make: || Box::new(Spheres { facets: Vec::new() }),
     }

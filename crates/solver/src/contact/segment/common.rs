@@ -101,7 +101,7 @@ impl Common {
         [0, 1].map(|k| [0, 1].map(|d| weights[k][0] * self.positions[k][0][d] + weights[k][1] * self.positions[k][1][d]))
     }
 
-    /// How far the segment that does not end at the beginning and at the end of the common part goes on
+    /// How far the segment that does not end at the beginning and at the end of the common part continues
     /// there, m.
     pub(super) fn beyond(&self) -> [f64; 2] {
         let [[a0, a1], [b0, b1]] = self.along;

@@ -1,4 +1,4 @@
-//! What contacts are told of their springs once these are solved.
+//! What contacts learn of their springs once these are solved.
 //!
 //! Springs and what was found of them lie in [`Springs`]; energies and works are worked out where they are
 //! asked for (`book.rs`), so that nothing is stored that is only summed up.

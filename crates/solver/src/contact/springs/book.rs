@@ -1,6 +1,6 @@
 //! Energies and works of solved springs.
 //!
-//! Springs and what was found of them come from [`super::answers`], which sums up what is booked here.
+//! Springs and what was found of them come from [`super::answers`], which sums up what is entered here.
 
 use super::{Answer, TangentSpace, Tangential, sum_along};
 use crate::energy::Lost;

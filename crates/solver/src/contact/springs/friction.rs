@@ -52,7 +52,7 @@ impl Friction {
 
 /// What a tangential force can do.
 #[derive(Clone, Copy, Debug)]
-pub struct Stick<const D: usize = 2>
+pub struct FrictionInput<const D: usize = 2>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -68,7 +68,7 @@ where
     pub time_steps: [f64; 2],
 }
 
-impl<const D: usize> Stick<D>
+impl<const D: usize> FrictionInput<D>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -87,7 +87,7 @@ where
 
 /// Friction that was found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Slid<const D: usize = 2>
+pub struct FrictionResult<const D: usize = 2>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -101,15 +101,15 @@ where
 
 /// Friction with the elastic slip `slip` (m, at n − ½) and the limit T_max (N/m).
 #[must_use]
-pub fn slide(stick: &Stick<2>, [slip]: [f64; 1], limit: f64) -> Slid<2> {
-    let Stick { old: [old], free: [free], compliance: [[compliance]], stiffness, time_steps: [before, after] } = *stick;
+pub fn slide(stick: &FrictionInput<2>, [slip]: [f64; 1], limit: f64) -> FrictionResult<2> {
+    let FrictionInput { old: [old], free: [free], compliance: [[compliance]], stiffness, time_steps: [before, after] } = *stick;
     if !(limit > 0.0 && compliance > 0.0) {
-        return Slid { friction: [0.0], slip: [0.0], slides: limit <= 0.0 };
+        return FrictionResult { friction: [0.0], slip: [0.0], slides: limit <= 0.0 };
     }
     if stiffness.is_infinite() {
         let trial = -free / compliance;
         let friction = trial.clamp(-limit, limit);
-        return Slid { friction: [friction], slip: [0.0], slides: trial.abs() > limit };
+        return FrictionResult { friction: [friction], slip: [0.0], slides: trial.abs() > limit };
     }
     // ½ Δs = quarter (ṡ⁻ + ṡ_free + c T)
     let quarter = 0.25 * 0.5 * (before + after);
@@ -117,17 +117,17 @@ pub fn slide(stick: &Stick<2>, [slip]: [f64; 1], limit: f64) -> Slid<2> {
     let friction = trial.clamp(-limit, limit);
     let slip_new = slip + 2.0 * quarter * (old + free + compliance * friction);
     if trial.abs() <= limit {
-        return Slid { friction: [friction], slip: [slip_new], slides: false };
+        return FrictionResult { friction: [friction], slip: [slip_new], slides: false };
     }
     let elastic = limit / stiffness;
-    Slid { friction: [friction], slip: [slip_new.clamp(-elastic, elastic)], slides: true }
+    FrictionResult { friction: [friction], slip: [slip_new.clamp(-elastic, elastic)], slides: true }
 }
 
 /// Force of a tie on the slip `slip` (m, at n): a spring that pulls both ways, or with an infinite stiffness
 /// what ends the slip in one step.
 #[must_use]
-pub fn tie(stick: &Stick<2>, [slip]: [f64; 1]) -> [f64; 1] {
-    let Stick { old: [old], free: [free], compliance: [[compliance]], stiffness, time_steps: [before, after] } = *stick;
+pub fn tie(stick: &FrictionInput<2>, [slip]: [f64; 1]) -> [f64; 1] {
+    let FrictionInput { old: [old], free: [free], compliance: [[compliance]], stiffness, time_steps: [before, after] } = *stick;
     if compliance <= 0.0 {
         return [0.0];
     }
@@ -150,7 +150,8 @@ mod tests {
                 for old in [-3.0, -0.1, 0.0, 0.2, 2.0] {
                     for free in [-2.0, -0.2, 0.0, 0.1, 3.0] {
                         for limit in [0.05, 0.4, 3.0] {
-                            let stick = Stick { old: [old], free: [free], compliance: [[0.7]], stiffness: k, time_steps: [0.9, 1.1] };
+                            let stick =
+                                FrictionInput { old: [old], free: [free], compliance: [[0.7]], stiffness: k, time_steps: [0.9, 1.1] };
                             let slid = slide(&stick, [slip], limit);
                             let (friction, [slid_to]) = (slid.friction[0], slid.slip);
                             let moved = 0.5 * (old + free + 0.7 * friction);
@@ -173,9 +174,9 @@ mod tests {
 
     #[test]
     fn a_multiplier_stops_the_slip_within_its_limit() {
-        let stick = |free| Stick { old: [1.0], free: [free], compliance: [[0.5]], stiffness: f64::INFINITY, time_steps: [1.0; 2] };
-        assert_eq!(slide(&stick(0.3), [0.0], 1.0), Slid { friction: [-0.6], slip: [0.0], slides: false });
-        assert_eq!(slide(&stick(-2.0), [0.0], 1.0), Slid { friction: [1.0], slip: [0.0], slides: true });
+        let stick = |free| FrictionInput { old: [1.0], free: [free], compliance: [[0.5]], stiffness: f64::INFINITY, time_steps: [1.0; 2] };
+        assert_eq!(slide(&stick(0.3), [0.0], 1.0), FrictionResult { friction: [-0.6], slip: [0.0], slides: false });
+        assert_eq!(slide(&stick(-2.0), [0.0], 1.0), FrictionResult { friction: [1.0], slip: [0.0], slides: true });
     }
 
     #[test]

@@ -4,36 +4,36 @@
 //! its own affair.
 
 use super::{End, Solved, Spring, Springs, Totals};
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 
-impl<const D: usize> Keep for Totals<D> {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl<const D: usize> Persist for Totals<D> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { resultant, pressing, energy, slip_energy, work, lost } = self;
-        keep_each!(archive; resultant, pressing, energy, slip_energy, work, lost);
+        persist_each!(archive; resultant, pressing, energy, slip_energy, work, lost);
         Ok(())
     }
 }
 
-impl<const D: usize> Keep for Solved<D>
+impl<const D: usize> Persist for Solved<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { gap, force, friction, slip_new, slides, rates, slip_rates } = self;
-        keep_each!(archive; gap, force, friction, slip_new, slides, rates, slip_rates);
+        persist_each!(archive; gap, force, friction, slip_new, slides, rates, slip_rates);
         Ok(())
     }
 }
 
-impl<const D: usize> Keep for End<D>
+impl<const D: usize> Persist for End<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { at, share, lean, turn, point, image } = self;
-        keep_each!(archive; at, share, lean, turn, point, image);
+        persist_each!(archive; at, share, lean, turn, point, image);
         Ok(())
     }
 }
@@ -50,35 +50,35 @@ where
     solved: Solved<D>,
 }
 
-impl<const D: usize> Keep for Whole<D>
+impl<const D: usize> Persist for Whole<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self {
             spring: Spring { normal, gap, stiffness, area, stiffening, side, slip, tangent, first: _, count: _ },
             terms,
             ends,
             solved,
         } = self;
-        keep_each!(archive; normal, gap, stiffness, area, stiffening, side, slip, tangent, terms, ends, solved);
+        persist_each!(archive; normal, gap, stiffness, area, stiffening, side, slip, tangent, terms, ends, solved);
         Ok(())
     }
 }
 
-impl<const D: usize> Keep for Springs<D>
+impl<const D: usize> Persist for Springs<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        keep_each!(archive; &mut self.time_steps, &mut self.sweeps_max, &mut self.unsolved);
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        persist_each!(archive; &mut self.time_steps, &mut self.sweeps_max, &mut self.unsolved);
         let whole = |(answer, &terms): (super::Answer<'_, D>, &u32)| {
             let ends = self.ends(answer.spring).collect();
             Whole { spring: *answer.spring, terms, ends, solved: *answer.solved }
         };
         // What is read replaces those of the start.
         let mut all: Vec<Whole<D>> = self.answers(0..self.list.len()).zip(&self.terms_of).map(whole).collect();
-        all.keep(archive)?;
+        all.persist(archive)?;
         if !archive.reads() {
             return Ok(());
         }

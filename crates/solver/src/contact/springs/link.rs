@@ -8,7 +8,7 @@
 use super::couple::{Couplings, Forces};
 use super::ends::Ends;
 use super::islands::NONE;
-use super::{Along, End, Mover, Movers, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
+use super::{Along, End, NodeResponse, NodeResponses, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
 use crate::contact::law::Law;
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
@@ -48,7 +48,7 @@ where
     Dim<D>: TangentSpace<D>,
 {
     /// The node or (from `nodes` on) rigid body `at` at the beginning of the solution.
-    pub(super) fn new<M: Movers<D>>(at: u32, nodes: usize, update: &Update<'_, M, D>) -> Self {
+    pub(super) fn new<M: NodeResponses<D>>(at: u32, nodes: usize, update: &Update<'_, M, D>) -> Self {
         let node = at as usize;
         if node >= nodes {
             let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
@@ -56,13 +56,13 @@ where
             let (velocity_old, velocity_free) = (body.velocity_old, body.velocity_free);
             return Self { velocity_old, velocity_free, mobility: Dim::<D>::mobility_of_body(body, mean_step), centre: Some(body.centre) };
         }
-        let Mover { velocity_old, velocity, mobility } = update.nodes.mover(node);
+        let NodeResponse { velocity_old, velocity, mobility } = update.nodes.response(node);
         let [velocity_old, velocity_free] = [velocity_old, velocity].map(|velocity| Dim::<D>::generalized_of(velocity, None));
         Self { velocity_old, velocity_free, mobility: Dim::<D>::mobility_of_node(&mobility), centre: None }
     }
 
     /// Whether forces move the node or rigid body `at` at all.
-    pub(super) fn moves<M: Movers<D>>(at: u32, nodes: usize, update: &Update<'_, M, D>) -> bool {
+    pub(super) fn moves<M: NodeResponses<D>>(at: u32, nodes: usize, update: &Update<'_, M, D>) -> bool {
         if (at as usize) < nodes {
             return update.nodes.moves(at as usize);
         }
@@ -173,12 +173,12 @@ where
 }
 
 /// Ends of springs, and what is at them.
-pub(super) struct Joints<'a, M: Movers<D>, const D: usize>
+pub(super) struct Joints<'a, M: NodeResponses<D>, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
     pub(super) list: &'a [Spring<D>],
-    /// Where springs ended; see [`super::Springs::goes_on`].
+    /// Where springs ended; see [`super::Springs::continues`].
     pub(super) ended: &'a [[f64; 2]],
     pub(super) ends: &'a Ends<D>,
     /// Place of each end.
@@ -230,7 +230,7 @@ where
     }
 }
 
-impl<M: Movers<D>, const D: usize> Joints<'_, M, D>
+impl<M: NodeResponses<D>, const D: usize> Joints<'_, M, D>
 where
     Dim<D>: TangentSpace<D>,
 {

@@ -18,9 +18,9 @@
 //! step of the elements alone is the stable step with contact.
 //!
 //! The gap of a spring is that of the surfaces when it closes, and from then on the integral of its rate
-//! ([`Springs::goes_on`]): a step begins at n − ½ where the one before ended, with the energy that is stored
-//! there. On a plane both are the same number. On a curved surface the gap of the surfaces less ½ dt ġ is
-//! elsewhere by the error of the trapezoidal rule, some dt² times the curvature times the square of the
+//! ([`Springs::continues`]): a step begins at n − ½ where the one before ended, with the energy that is
+//! stored there. On a plane both are the same number. On a curved surface the gap of the surfaces less ½ dt ġ
+//! is elsewhere by the error of the trapezoidal rule, some dt² times the curvature times the square of the
 //! sliding velocity; at a corner of the angle θ by up to θ times what a node slides in half a step; in a fold
 //! by any depth. A spring that began there would gain or lose what it stores in between, at each corner, and
 //! one that is no deeper than that any multiple of what it has. What lies between both gaps has either sign,
@@ -31,7 +31,7 @@
 //! and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces
 //! (`newton`, `skyline`). Pair forces keep both momenta exactly at any time. `solve` leads through the step,
 //! `link` has what springs act on, `couple` what they do to each other, `book` the energies, `answers` what
-//! contacts are told. Laws of the normal force are in [`super::law`], friction is in [`friction`].
+//! contacts are reported. Laws of the normal force are in [`super::law`], friction is in [`friction`].
 
 pub mod friction;
 mod answers;
@@ -51,7 +51,7 @@ pub use answers::{Answer, Answers};
 pub use tangent_space::TangentSpace;
 
 use super::law::Law;
-use crate::archive::keep_all;
+use crate::archive::persist_all;
 use crate::energy::Lost;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
@@ -66,7 +66,7 @@ const BOTH: f64 = 2.2;
 pub type Along<const D: usize> = <Dim<D> as TangentSpace<D>>::TangentVector<f64>;
 
 /// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on
-/// the others. In the plane a cache line: there is one for every node that touches.
+/// the others. In 2D a cache line: there is one for every node that touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring<const D: usize = 2>
 where
@@ -87,7 +87,7 @@ where
     pub side: f32,
     /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
     pub slip: Along<D>,
-    /// In space the first of the tangents along which the slip is; zero: any.
+    /// In 3D the first of the tangents along which the slip is; zero: any.
     pub tangent: <Dim<D> as TangentSpace<D>>::FirstTangent,
     pub(super) first: u32,
     pub(super) count: u32,
@@ -120,7 +120,7 @@ impl Default for Stiffening {
     }
 }
 
-keep_all!(Stiffening { depth, factor });
+persist_all!(Stiffening { depth, factor });
 
 impl Stiffening {
     /// Beyond a depth, m, by a factor.
@@ -152,7 +152,7 @@ pub struct Patch {
     pub gap: f64,
     /// k, N/m per metre of depth, of laws that have one.
     pub stiffness: f64,
-    /// Area of surface, m (in space m²).
+    /// Area of surface, m (in 3D m²).
     pub area: f64,
     /// Depth beyond which it stiffens, m.
     pub limit: f64,
@@ -191,7 +191,7 @@ where
     }
 }
 
-/// What the solution found of a spring: what the books and the contacts need of it.
+/// What the solution found of a spring: what the ledger and the contacts need of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Solved<const D: usize = 2>
 where
@@ -233,7 +233,7 @@ where
     pub turn: <Dim<D> as TangentSpace<D>>::Tangents,
     /// Where the forces act on a rigid body without nodes, m.
     pub point: [f64; D],
-    /// Rotation from the motion of the node that moves in its stead; `None`: no rotation.
+    /// Rotation from the motion of the node that moves instead of it; `None`: no rotation.
     pub image: Option<<Dim<D> as TangentSpace<D>>::ImageRotation>,
 }
 
@@ -306,7 +306,7 @@ where
     }
 }
 
-/// Tangent of a spring of the plane: the normal turned clockwise, along the target segment.
+/// Tangent of a spring in 2D: the normal turned clockwise, along the target segment.
 #[must_use]
 pub fn tangent(normal: [f64; 2]) -> [f64; 2] {
     [normal[1], -normal[0]]
@@ -342,7 +342,7 @@ where
     /// In the order in which contacts and obstacles found them.
     pub list: Vec<Spring<D>>,
     ends: Ends<D>,
-    /// Gap (m) and energy (J/m) of each spring at the end of the step before, as far as any goes on; no
+    /// Gap (m) and energy (J/m) of each spring at the end of the step before, as far as any continues; no
     /// number: it does not.
     ended: Vec<[f64; 2]>,
     /// What acts in springs, by number.
@@ -359,7 +359,7 @@ where
 }
 
 /// What the solution needs of the model.
-pub struct Update<'a, M: Movers<D>, const D: usize = 2>
+pub struct Update<'a, M: NodeResponses<D>, const D: usize = 2>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -375,7 +375,7 @@ where
 }
 
 /// Nodes as springs see them.
-pub trait Movers<const D: usize = 2>
+pub trait NodeResponses<const D: usize = 2>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -385,16 +385,16 @@ where
     /// any.
     fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as TangentSpace<D>>::ImageRotation>);
     /// Motion of a node that leads itself.
-    fn mover(&self, leader: usize) -> Mover<D>;
+    fn response(&self, leader: usize) -> NodeResponse<D>;
     /// Whether forces move it at all.
     fn moves(&self, leader: usize) -> bool {
-        self.mover(leader).mobility != Default::default()
+        self.response(leader).mobility != Default::default()
     }
 }
 
 /// A node without springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mover<const D: usize = 2>
+pub struct NodeResponse<const D: usize = 2>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -402,7 +402,7 @@ where
     pub velocity_old: [f64; D],
     /// v^{n+½} without springs, prescribed motion included, m/s.
     pub velocity: [f64; D],
-    /// Change of v^{n+½} per force: xx, xy, yy; in space xx, xy, xz, yy, yz, zz.
+    /// Change of v^{n+½} per force: xx, xy, yy; in 3D xx, xy, xz, yy, yz, zz.
     pub mobility: <Dim<D> as TangentSpace<D>>::Symmetric,
 }
 
@@ -485,7 +485,7 @@ where
     /// Lets the spring that was pushed last begin where it ended in the step before, at the gap `half` (m)
     /// with the energy `stored` (J/m); if it was open there, without energy.
     #[inline]
-    pub fn goes_on(&mut self, half: f64, stored: f64) {
+    pub fn continues(&mut self, half: f64, stored: f64) {
         self.ended.resize(self.list.len() - 1, [f64::NAN; 2]);
         self.ended.push([half, stored]);
     }

@@ -10,14 +10,14 @@
 //! change,
 //!
 //! with friction that sticks as unknowns of the same kind and friction that slides as a multiple of its
-//! normal force; in space it has an unknown across itself. Springs in line along a surface only know their
+//! normal force; in 3D it has an unknown across itself. Springs in line along a surface only know their
 //! neighbours: they are ordered from one end to the other (Cuthill and McKee), rigid bodies come last as
 //! unknowns of their own, and the solution costs as much as a few sweeps. Where springs say the same twice
 //! the forces are not unique (the motion is); [`SOFTNESS`] keeps the factors then. Nothing is trusted: sweeps
-//! confirm or go on.
+//! confirm or continue.
 
-use super::couple::{Forces, Rates, Touch};
-use super::friction::Stick;
+use super::couple::{ContactPoint, Forces, Rates};
+use super::friction::FrictionInput;
 use super::link::Link;
 use super::relax::Island;
 use super::skyline::Skyline;
@@ -221,7 +221,7 @@ where
         &self,
         island: &Island<'_, D>,
         i: usize,
-        stick: &Stick<D>,
+        stick: &FrictionInput<D>,
         friction: &<Dim<D> as TangentSpace<D>>::TangentVector<f64>,
         state: &mut State<D>,
     ) {
@@ -384,9 +384,9 @@ where
                 continue;
             }
             let (mobility, touches) = (island.slots[slot].mobility, island.couplings.touches(slot));
-            for &Touch { link: j, arm: l, .. } in touches.iter().filter(|touch| self.state[touch.link as usize].is_unknown()) {
+            for &ContactPoint { link: j, arm: l, .. } in touches.iter().filter(|touch| self.state[touch.link as usize].is_unknown()) {
                 let responses = island.rows(l as usize).map(|row| Dim::<D>::response(&mobility, &row));
-                for &Touch { link: i, arm: k, .. } in touches {
+                for &ContactPoint { link: i, arm: k, .. } in touches {
                     let states = [i, j].map(|link| &self.state[link as usize]);
                     add(
                         &mut self.matrix,
@@ -403,7 +403,7 @@ where
     fn fill_body(&mut self, island: &Island<'_, D>, slot: usize) {
         let half = 0.5 * island.time_steps[1];
         let unknowns = self.bodies[slot];
-        for &Touch { link: i, arm: k, .. } in island.couplings.touches(slot) {
+        for &ContactPoint { link: i, arm: k, .. } in island.couplings.touches(slot) {
             let (state, rows) = (self.state[i as usize], island.rows(k as usize));
             let row = |own: usize, axis: usize| match own {
                 0 => rows[0][axis],

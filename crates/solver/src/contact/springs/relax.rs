@@ -7,7 +7,7 @@
 //! the springs are than the nodes between them.
 
 use super::couple::{Couplings, Forces, Rates};
-use super::friction::{Slid, Stick};
+use super::friction::{FrictionInput, FrictionResult};
 use super::link::{Arm, Link, Row, Slips, Slot};
 use super::newton::Newton;
 use super::{Along, Closing, Patch, Solved, Spring, TangentSpace, Tangential, Terms};
@@ -107,7 +107,7 @@ impl Default for Pace {
 impl Pace {
     /// After a sweep over all springs that changed so much: predictions that lead nowhere are followed by
     /// shorter steps, which ends running in circles.
-    fn judge(&mut self, change: f64) {
+    fn overlap_check(&mut self, change: f64) {
         self.fraction = if change < 0.7 * self.best { 1.0 } else { (0.6 * self.fraction).max(0.1) };
         self.best = self.best.min(change);
         if self.predictions >= EAGER {
@@ -168,7 +168,7 @@ where
     fn relax_live(&mut self, live: &mut Vec<u32>, before: f64, newton: &mut Newton<D>, pace: &mut Pace) {
         live.clear();
         live.extend((0..self.links.len() as u32).filter(|&i| self.forces[i as usize] != [0.0; D]));
-        pace.judge(before);
+        pace.overlap_check(before);
         let mut last = before;
         for sweep in 1.. {
             let now = self.sweep_live(live);
@@ -247,7 +247,7 @@ where
         }
         if self.links[i].is_at_hub {
             let forces = self.forces[i];
-            self.tell_hubs(i, std::array::from_fn(|k| forces[k] - old[k]));
+            self.report_hubs(i, std::array::from_fn(|k| forces[k] - old[k]));
         }
     }
 
@@ -259,7 +259,7 @@ where
             Tangential::Free => Along::<D>::default(),
             Tangential::Friction(_) => {
                 // What is open has slid nowhere, whatever an earlier sweep gave it.
-                let found = if self.forces[i] == [0.0; D] { Slid::default() } else { self.slide_from(i, rates) };
+                let found = if self.forces[i] == [0.0; D] { FrictionResult::default() } else { self.slide_from(i, rates) };
                 (self.links[i].slip_new, self.links[i].slides) = (found.slip, found.slides);
                 found.friction
             }
@@ -310,7 +310,7 @@ where
     }
 
     /// Velocities of hubs follow the changes of a spring's forces.
-    fn tell_hubs(&mut self, i: usize, step: Forces<D>) {
+    fn report_hubs(&mut self, i: usize, step: Forces<D>) {
         for k in self.links[i].arms() {
             let pull = self.pull(k, step);
             let slot = &mut self.slots[self.arms[k].slot as usize];
@@ -348,11 +348,11 @@ where
 
     /// What friction can do at a spring where the others add `rates` to its own.
     #[inline]
-    pub(super) fn stick_from(&self, i: usize, rates: Rates<D>) -> Stick<D> {
+    pub(super) fn stick_from(&self, i: usize, rates: Rates<D>) -> FrictionInput<D> {
         let link = &self.links[i];
         let free = |a| link.slip_rate_free[a] + rates[a + 1] + link.own(a + 1, 0) * self.forces[i][0] - link.lent[1] * link.centre[a + 1];
         let compliance = |a: usize, b: usize| if a == b { link.own(a + 1, a + 1) + link.lent[1] } else { link.own(a + 1, b + 1) };
-        Stick {
+        FrictionInput {
             old: link.slip_rate_old,
             free: Dim::<D>::tangent_vector(free),
             compliance: Dim::<D>::tangent_vector(|a| Dim::<D>::tangent_vector(|b| compliance(a, b))),
@@ -372,7 +372,7 @@ where
 
     /// Friction by its law where the others add `rates` to its own.
     #[inline]
-    pub(super) fn slide_from(&self, i: usize, rates: Rates<D>) -> Slid<D> {
+    pub(super) fn slide_from(&self, i: usize, rates: Rates<D>) -> FrictionResult<D> {
         Dim::<D>::slide(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip, self.limit(i, self.forces[i][0]))
     }
 
@@ -385,10 +385,10 @@ where
     /// Adds to the forces of a spring.
     pub(super) fn push(&mut self, i: usize, step: Forces<D>) {
         self.forces[i].iter_mut().zip(step).for_each(|(force, step)| *force += step);
-        self.tell_hubs(i, step);
+        self.report_hubs(i, step);
     }
 
-    /// Tells what was found, with the rates that the forces lead to.
+    /// Reports what was found, with the rates that the forces lead to.
     pub(super) fn settle(&self, solved: &mut [Solved<D>]) {
         for (i, (link, solved)) in self.links.iter().zip(solved).enumerate() {
             let is_free = matches!(self.terms_of(i).tangential, Tangential::Free);

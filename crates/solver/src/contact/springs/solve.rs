@@ -8,7 +8,7 @@ use super::islands::{Islands, NONE};
 use super::link::{Bench, Joints, Movable};
 use super::newton::Newton;
 use super::relax::{Effort, Island};
-use super::{Movers, Solved, Springs, Terms, Update};
+use super::{NodeResponses, Solved, Springs, Terms, Update};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 
@@ -41,7 +41,7 @@ where
     desks: Vec<Desk<D>>,
 }
 
-/// What a task works with, and what it tells.
+/// What a task works with, and what it reports.
 #[derive(Default)]
 struct Desk<const D: usize>
 where
@@ -70,7 +70,7 @@ where
     Dim<D>: TangentSpace<D>,
 {
     /// Finds the forces of every spring and the rates that they lead to.
-    pub fn solve<M: Movers<D> + Sync>(&mut self, update: &Update<'_, M, D>) {
+    pub fn solve<M: NodeResponses<D> + Sync>(&mut self, update: &Update<'_, M, D>) {
         self.time_steps = update.time_steps;
         if self.list.is_empty() {
             return;
@@ -87,7 +87,7 @@ where
     }
 
     /// The nodes and bodies at the springs.
-    fn gather<M: Movers<D>>(&mut self, update: &Update<'_, M, D>) {
+    fn gather<M: NodeResponses<D>>(&mut self, update: &Update<'_, M, D>) {
         let nodes = update.nodes.count();
         let Workspace { place, at: all, places, slots, .. } = &mut self.work;
         all.clear();
@@ -143,7 +143,7 @@ where
     }
 
     /// The forces of all islands.
-    fn solve_islands<M: Movers<D> + Sync>(&mut self, update: &Update<'_, M, D>) {
+    fn solve_islands<M: NodeResponses<D> + Sync>(&mut self, update: &Update<'_, M, D>) {
         let parallel = self.list.len() >= SERIAL && rayon::current_thread_index().is_some();
         let Workspace { at, places, slots, islands, chunks, solved, desks, .. } = &mut self.work;
         solved.resize(self.list.len(), Solved::default());
@@ -171,7 +171,7 @@ where
 }
 
 /// What all tasks see.
-struct Plan<'a, M: Movers<D>, const D: usize>
+struct Plan<'a, M: NodeResponses<D>, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -182,7 +182,7 @@ where
     terms_of: &'a [u32],
 }
 
-impl<M: Movers<D> + Sync, const D: usize> Plan<'_, M, D>
+impl<M: NodeResponses<D> + Sync, const D: usize> Plan<'_, M, D>
 where
     Dim<D>: TangentSpace<D>,
 {

@@ -20,16 +20,16 @@ struct Cloud {
     dt: f64,
 }
 
-impl Movers<3> for Cloud {
+impl NodeResponses<3> for Cloud {
     fn count(&self) -> usize {
         self.mass.len()
     }
     fn leader(&self, node: u32) -> (u32, Option<[[f64; 3]; 3]>) {
         (node, None)
     }
-    fn mover(&self, node: usize) -> Mover<3> {
+    fn response(&self, node: usize) -> NodeResponse<3> {
         let (velocity, give) = (self.velocities[node], self.dt / self.mass[node]);
-        Mover { velocity_old: velocity, velocity, mobility: [give, 0.0, 0.0, give, 0.0, give] }
+        NodeResponse { velocity_old: velocity, velocity, mobility: [give, 0.0, 0.0, give, 0.0, give] }
     }
 }
 
@@ -85,7 +85,7 @@ impl Cloud {
             let wrong = (terms.law.force(&Closing { spring: &spring.patch(), old, free, compliance }, [dt; 2]) - solved.force).abs();
             let Tangential::Friction(law) = terms.tangential else { return wrong / largest };
             let tangents = spring.tangents();
-            let stick = friction::Stick::<3> {
+            let stick = friction::FrictionInput::<3> {
                 old: tangents.map(|t| rate(t, &self.velocities)),
                 free: [0, 1].map(|a| rate(tangents[a], &velocities) - own * solved.friction[a]),
                 compliance: [[own, 0.0], [0.0, own]],
@@ -101,7 +101,7 @@ impl Cloud {
 }
 
 #[test]
-fn a_bouncing_mass_keeps_its_energy_for_every_stiffness_in_space() {
+fn a_bouncing_mass_keeps_its_energy_for_every_stiffness_in_3d() {
     let normal = [0.48, 0.6, 0.64];
     for k in [0.1, 1.0, 30.0, 100.0, 1e4] {
         let (mut x, mut v) = (10.3f64, normal.map(|n| -0.37 * n));
@@ -168,7 +168,7 @@ fn sheets(counts: [usize; 2], stiffness: f64) -> Cloud {
 }
 
 #[test]
-fn springs_far_stiffer_than_the_nodes_between_them_are_solved_in_space() {
+fn springs_far_stiffer_than_the_nodes_between_them_are_solved_in_3d() {
     for counts in [[2, 3], [5, 7], [12, 17], [2, 13]] {
         let unit = 1e4 / (counts[0] * counts[0]) as f64;
         for scale in [0.1, 1.0, 1e2, 1e4, 1e6] {
@@ -215,7 +215,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
     /// Ties are linear in all directions, so a full matrix gives their forces.
     #[test]
-    fn ties_in_space_have_the_forces_of_the_full_system(
+    fn ties_in_3d_have_the_forces_of_the_full_system(
         nodes in 2usize..8,
         seeds in prop::collection::vec((0u32..8, 0u32..8, 0u32..8, (0.0f64..6.3, -0.9f64..0.9), -1.0f64..1.0, 0.1f64..0.9), 1..9),
         exponent in -1i32..5,

@@ -3,7 +3,7 @@
 //! A surface has one tangent in 2D, and two in 3D, which a spring carries with it. Arrays of 2D keep the
 //! order in which their entries are added, so that results in 2D do not depend on there being 3D.
 
-use super::friction::{self, Slid, Stick, cone};
+use super::friction::{self, FrictionInput, FrictionResult, cone};
 use crate::archive::Plain;
 use crate::mesh::surface::tributary::Tributary;
 use crate::rigid::{self, Body, RigidMotion};
@@ -42,20 +42,20 @@ pub trait TangentSpace<const D: usize>: Tributary<D> + RigidMotion<D> {
     /// The direction of it: of no length any.
     fn direction(along: &Self::TangentVector<f64>) -> Self::TangentVector<f64>;
     /// Friction that a spring wants; see [`friction`].
-    fn slide(stick: &Stick<D>, slip: Self::TangentVector<f64>, limit: f64) -> Slid<D>
+    fn slide(stick: &FrictionInput<D>, slip: Self::TangentVector<f64>, limit: f64) -> FrictionResult<D>
     where
         Dim<D>: TangentSpace<D>;
     /// A direction along the surface in which friction that slides still follows the slip, and the change of
     /// its rate per force (beside the compliance); see [`cone`].
     fn lateral_compliance(
-        stick: &Stick<D>,
+        stick: &FrictionInput<D>,
         slip: Self::TangentVector<f64>,
         friction: &Self::TangentVector<f64>,
     ) -> Option<(Self::TangentVector<f64>, f64)>
     where
         Dim<D>: TangentSpace<D>;
     /// Force of a tie along the surface.
-    fn tie(stick: &Stick<D>, slip: Self::TangentVector<f64>) -> Self::TangentVector<f64>
+    fn tie(stick: &FrictionInput<D>, slip: Self::TangentVector<f64>) -> Self::TangentVector<f64>
     where
         Dim<D>: TangentSpace<D>;
     /// A force on an image as its leader feels it.
@@ -113,15 +113,15 @@ impl TangentSpace<2> for Dim<2> {
         [along.signum()]
     }
     #[inline(always)]
-    fn slide(stick: &Stick<2>, slip: [f64; 1], limit: f64) -> Slid<2> {
+    fn slide(stick: &FrictionInput<2>, slip: [f64; 1], limit: f64) -> FrictionResult<2> {
         friction::slide(stick, slip, limit)
     }
     #[inline(always)]
-    fn lateral_compliance(_: &Stick<2>, _: [f64; 1], _: &[f64; 1]) -> Option<([f64; 1], f64)> {
+    fn lateral_compliance(_: &FrictionInput<2>, _: [f64; 1], _: &[f64; 1]) -> Option<([f64; 1], f64)> {
         None
     }
     #[inline(always)]
-    fn tie(stick: &Stick<2>, slip: [f64; 1]) -> [f64; 1] {
+    fn tie(stick: &FrictionInput<2>, slip: [f64; 1]) -> [f64; 1] {
         friction::tie(stick, slip)
     }
     #[inline(always)]
@@ -196,14 +196,14 @@ impl TangentSpace<3> for Dim<3> {
         if size > 0.0 { along.map(|component| component / size) } else { [0.0; 2] }
     }
     #[inline]
-    fn slide(stick: &Stick<3>, slip: [f64; 2], limit: f64) -> Slid<3> {
+    fn slide(stick: &FrictionInput<3>, slip: [f64; 2], limit: f64) -> FrictionResult<3> {
         cone::slide(stick, slip, limit)
     }
-    fn lateral_compliance(stick: &Stick<3>, slip: [f64; 2], friction: &[f64; 2]) -> Option<([f64; 2], f64)> {
+    fn lateral_compliance(stick: &FrictionInput<3>, slip: [f64; 2], friction: &[f64; 2]) -> Option<([f64; 2], f64)> {
         cone::lateral_compliance(stick, slip, friction)
     }
     #[inline]
-    fn tie(stick: &Stick<3>, slip: [f64; 2]) -> [f64; 2] {
+    fn tie(stick: &FrictionInput<3>, slip: [f64; 2]) -> [f64; 2] {
         cone::tie(stick, slip)
     }
     #[inline(always)]

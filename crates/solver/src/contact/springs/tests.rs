@@ -4,18 +4,18 @@ use crate::contact::law::penalty::Penalty;
 use crate::contact::law::tie::Tie;
 use proptest::prelude::*;
 
-/// A vector of the plane.
+/// A vector in 2D.
 type Vector = [f64; 2];
 
 /// One node of mass one.
-impl Movers for Mover {
+impl NodeResponses for NodeResponse {
     fn count(&self) -> usize {
         1
     }
     fn leader(&self, node: u32) -> (u32, Option<Vector>) {
         (node, None)
     }
-    fn mover(&self, _: usize) -> Mover {
+    fn response(&self, _: usize) -> NodeResponse {
         *self
     }
 }
@@ -40,7 +40,7 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness() {
             let update = Update {
                 time_steps: [dt; 2],
                 positions: &positions,
-                nodes: &Mover { velocity_old: old[0], velocity: free, mobility: [dt, 0.0, dt] },
+                nodes: &NodeResponse { velocity_old: old[0], velocity: free, mobility: [dt, 0.0, dt] },
                 bodies: &bodies,
             };
             springs.solve(&update);
@@ -89,16 +89,16 @@ fn rows(counts: [usize; 2], stiffness: f64) -> Rows {
     rows
 }
 
-impl Movers for Rows {
+impl NodeResponses for Rows {
     fn count(&self) -> usize {
         self.mass.len()
     }
     fn leader(&self, node: u32) -> (u32, Option<Vector>) {
         (node, None)
     }
-    fn mover(&self, node: usize) -> Mover {
+    fn response(&self, node: usize) -> NodeResponse {
         let (velocity, give) = (self.velocities[node], 0.01 / self.mass[node]);
-        Mover { velocity_old: velocity, velocity, mobility: [give, 0.0, give] }
+        NodeResponse { velocity_old: velocity, velocity, mobility: [give, 0.0, give] }
     }
 }
 

@@ -1,14 +1,15 @@
 //! Ends of faces: who is held beyond them, and who is not let in there.
 //!
-//! A face ends where its surface is cut off or goes on around a sharp edge. Bodies that end flush are off by
-//! round-off or by what the one is wider, so a face holds nodes a little beyond its end ([`Target::beyond`]);
-//! a body that slides down beside another must not be caught there. What tells them apart is the slave's own
-//! surface: it has to go back over the face. The exact rules of crossing and level know nothing of this.
+//! A face ends where its surface is cut off or continues around a sharp edge. Bodies that end flush are off
+//! by round-off or by what the one is wider, so a face holds nodes a little beyond its end
+//! ([`Target::beyond`]); a body that slides down beside another must not be caught there. What distinguishes
+//! them is the slave's own surface: it has to go back over the face. The exact rules of crossing and level
+//! know nothing of this.
 
 use super::super::Sweep;
 use super::super::length;
 use super::super::projection::node_segment::{BAND, Projection, Seen, Target, Vector, fall_off};
-use crate::archive::{Archive, Keep, Kept};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::mesh::surface::{NONE, Surface};
 
 /// Two segments face each other if the cosine of the angle between the one and the turned other is at least
@@ -44,10 +45,10 @@ fn around(surface: &Surface) -> Vec<[u32; 2]> {
     around
 }
 
-impl Keep for Ends {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for Ends {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { around: _, sizes: _, lengths, near } = self;
-        near.keep(archive)?;
+        near.persist(archive)?;
         archive.check(near.is_empty() || near.len() == lengths.len(), "ends of faces are not those of the surface")
     }
 }
@@ -61,7 +62,7 @@ impl Ends {
         Self { around, sizes, lengths, near: Vec::new() }
     }
 
-    /// Finds the free ends anew.
+    /// Finds the free ends again.
     pub(super) fn find(&mut self, target: &Target, positions: &[Vector]) {
         if self.lengths.is_empty() {
             return;
@@ -83,7 +84,7 @@ impl Ends {
         }
     }
 
-    /// How far a face goes on for a slave beyond a free end of `segment`, m; 0: not at all.
+    /// How far a face continues for a slave beyond a free end of `segment`, m; 0: not at all.
     pub(super) fn band(&self, slave: u32, segment: u32) -> f64 {
         self.lengths.get(segment as usize).map_or(0.0, |&length| BAND * length.min(self.sizes[slave as usize]))
     }

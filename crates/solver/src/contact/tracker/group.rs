@@ -6,12 +6,12 @@
 use super::super::Sweep;
 use super::super::projection::node_segment::{Target, Vector};
 use super::super::search::Query;
-use super::Memory;
+use super::ContactHistory;
 use super::ends::Ends;
 use super::locate::{Located, View};
 use super::reach::{Reach, SLACK};
 use super::sleep::AWAKE;
-use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_all, persist_each};
 use crate::mesh::surface::NONE;
 
 /// A slave node and a body of the target surface. Half a cache line: whoever is awake is read in every step.
@@ -36,7 +36,7 @@ pub(super) struct Group {
     pub(super) touches: bool,
 }
 
-keep_all!(Group { slave, node, body, begin, end, memory, level, own, open, touches });
+persist_all!(Group { slave, node, body, begin, end, memory, level, own, open, touches });
 
 impl Default for Group {
     fn default() -> Self {
@@ -72,13 +72,13 @@ pub(super) struct Pass {
     /// Ascending by slave and body.
     pub(super) groups: Vec<Group>,
     /// What is kept of each group while it touches.
-    pub(super) kept: Vec<Memory>,
+    pub(super) kept: Vec<ContactHistory>,
     /// Until when each group sleeps: see [`super::sleep`].
     pub(super) wakes: Vec<f64>,
     pub(super) candidates: Vec<u32>,
     pub(super) ends: Ends,
     /// Groups of the last search and what is kept of them.
-    spare: (Vec<Group>, Vec<Memory>),
+    spare: (Vec<Group>, Vec<ContactHistory>),
     /// Candidates (body, segment) of one slave.
     found: Vec<(u32, u32)>,
 }
@@ -116,14 +116,14 @@ impl Pass {
     }
 
     /// Keeps groups, what they remember, and what the last search found.
-    pub(super) fn keep(&mut self, targets: &[Target], archive: &mut Archive<'_>) -> Kept {
+    pub(super) fn persist(&mut self, targets: &[Target], archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
             slave: _, target: _, slave_bodies: _, segment_bodies: _, open: _, lids: _, spare: _, found: _,
             groups, kept, wakes, candidates, ends,
         } = self;
-        keep_each!(archive; groups, kept, wakes, candidates);
-        ends.keep(archive)?;
+        persist_each!(archive; groups, kept, wakes, candidates);
+        ends.persist(archive)?;
         archive
             .check(kept.len() == groups.len() && wakes.len() == groups.len(), "a contact remembers more or fewer nodes than it follows")?;
         let is_known = self.groups.iter().all(|group| self.is_known(group, targets));
@@ -147,7 +147,7 @@ impl Pass {
         self.candidates.clear();
     }
 
-    /// Begins the groups anew; those that there are become the spare ones.
+    /// Begins the groups again; those that there are become the spare ones.
     fn begin_groups(&mut self) {
         std::mem::swap(&mut self.groups, &mut self.spare.0);
         std::mem::swap(&mut self.kept, &mut self.spare.1);
@@ -155,7 +155,7 @@ impl Pass {
         self.kept.clear();
     }
 
-    fn add(&mut self, group: Group, kept: Memory) {
+    fn add(&mut self, group: Group, kept: ContactHistory) {
         self.groups.push(group);
         self.kept.push(kept);
     }
@@ -238,7 +238,7 @@ impl Pass {
                     self.add(Group { begin, end, ..group }, self.spare.1[*old]);
                     *old += 1;
                 }
-                None => self.add(Group { begin, end, ..self.group(slave, node, body) }, Memory::default()),
+                None => self.add(Group { begin, end, ..self.group(slave, node, body) }, ContactHistory::default()),
             }
         }
         self.found = found;
@@ -269,13 +269,13 @@ impl Pass {
         for at in 0..self.spare.0.len() {
             let (group, kept) = (self.spare.0[at], self.spare.1[at]);
             while let Some(added) = inside.next_if(|added| added.key() < group.key()) {
-                self.add(Group { begin: group.begin, end: group.begin, ..added }, Memory::default());
+                self.add(Group { begin: group.begin, end: group.begin, ..added }, ContactHistory::default());
             }
             let changed = inside.next_if(|added| added.key() == group.key());
             self.add(changed.map_or(group, |Group { memory, level, .. }| Group { memory, level, ..group }), kept);
         }
         let here = self.candidates.len() as u32;
-        inside.for_each(|added| self.add(Group { begin: here, end: here, ..added }, Memory::default()));
+        inside.for_each(|added| self.add(Group { begin: here, end: here, ..added }, ContactHistory::default()));
     }
 
     /// Candidates of a slave and a body.

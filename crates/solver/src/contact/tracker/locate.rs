@@ -11,7 +11,7 @@ use super::ends::Ends;
 use super::group::Group;
 use super::sleep::{awake, wake_at};
 use super::steady::Stays;
-use super::{Certificate, Found, Memory, Touch};
+use super::{Certificate, ContactHistory, ContactPoint, Found};
 use crate::mesh::surface::NONE;
 use crate::vector::{bound_of, minus};
 use embate_lanes::{BATCH, Level};
@@ -32,7 +32,7 @@ const START: f64 = 0.02;
 pub(super) struct Located<'a> {
     pub(super) first: usize,
     pub(super) groups: &'a mut [Group],
-    pub(super) kept: &'a mut [Memory],
+    pub(super) kept: &'a mut [ContactHistory],
     pub(super) wakes: &'a mut [f64],
 }
 
@@ -110,11 +110,11 @@ impl<'a> View<'a> {
                     let Group { slave, node, own, .. } = *group;
                     let slope = self.ends.slope(slave, &projection, self.target, self.sweep.new);
                     let (pass, group) = (self.pass as u32, (first + number) as u32);
-                    found.touches.push(Touch { pass, slave, node, projection, slope, group, own });
+                    found.touches.push(ContactPoint { pass, slave, node, projection, slope, group, own });
                 }
                 None => {
                     if touched {
-                        kept[number] = Memory::default();
+                        kept[number] = ContactHistory::default();
                     }
                     if !group.matters() && !candidates.iter().any(|&segment| self.ends.is_near(segment)) {
                         *wake = wake_at(clear, self.sweep.travel);
@@ -124,7 +124,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The projection of a group that touches or may come to it. Of one that does not, `clear` tells how far
+    /// The projection of a group that touches or may come to it. Of one that does not, `clear` says how far
     /// its candidates are away, as far as that is known.
     fn locate(&self, group: &mut Group, candidates: &[u32], clear: &mut f64, certificate: &mut Certificate) -> Option<Projection> {
         let x = self.sweep.new[group.node as usize];

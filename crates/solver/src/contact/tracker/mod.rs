@@ -24,7 +24,7 @@ pub use reach::SKIN;
 use super::Sweep;
 use super::projection::node_segment::{Projection, Target, Vector};
 use super::search::Search;
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::NONE;
 use ends::Ends;
 use group::{Group, Pass};
@@ -34,7 +34,7 @@ use reach::Reach;
 
 /// A slave node that is inside a body, or within the skin of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Touch {
+pub struct ContactPoint {
     /// Pass that found it.
     pub pass: u32,
     /// Index of the node in its surface.
@@ -51,11 +51,11 @@ pub struct Touch {
     pub own: bool,
 }
 
-keep_all!(Touch { pass, slave, node, projection, slope, group, own });
+persist_all!(ContactPoint { pass, slave, node, projection, slope, group, own });
 
 /// What a formulation keeps of a slave and a body while they touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Memory {
+pub struct ContactHistory {
     /// Elastic slip, m.
     pub slip: f64,
     /// Gap that counts as zero, m.
@@ -71,7 +71,7 @@ pub struct Memory {
     pub faces: u8,
 }
 
-impl Memory {
+impl ContactHistory {
     /// Where its spring's gap was at n − ½, m; infinite: there was no spring.
     #[must_use]
     pub fn half(&self) -> f64 {
@@ -79,7 +79,7 @@ impl Memory {
     }
 }
 
-keep_all!(Memory { slip, offset, half, normal, stored, faces });
+persist_all!(ContactHistory { slip, offset, half, normal, stored, faces });
 
 /// Follows the nodes of surfaces along the bodies of other surfaces, or of their own.
 pub struct Tracker {
@@ -93,13 +93,13 @@ pub struct Tracker {
     /// Way that no node had exceeded in the last step, m.
     travel: f64,
     /// What each pass recalls from before the surfaces changed, until the first search.
-    past: Option<Vec<Vec<(Group, Memory)>>>,
+    past: Option<Vec<Vec<(Group, ContactHistory)>>>,
 }
 
 /// What groups were found to do.
 #[derive(Default)]
 struct Found {
-    touches: Vec<Touch>,
+    touches: Vec<ContactPoint>,
     certificate: Certificate,
 }
 
@@ -113,7 +113,7 @@ const SERIAL: usize = 4 * CHUNK;
 impl Tracker {
     /// For the nodes of `targets[slave]` against `targets[target]` in each pass (slave, target), which may be
     /// the same surface; `positions` are the initial ones. Every surface counts as one body:
-    /// [`Tracker::with_bodies`] tells more.
+    /// [`Tracker::with_bodies`] reports more.
     #[must_use]
     pub fn new(targets: Vec<Target>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, positions: &[Vector]) -> Self {
         let passes = passes.iter().map(|&(slave, target)| Pass::new(slave, target, &targets)).collect();
@@ -144,7 +144,7 @@ impl Tracker {
     /// Segments of its own surface that end and begin at the slave node of a touch, and the surface;
     /// [`crate::mesh::surface::NONE`] where there is none. Known only with [`Tracker::with_ends`].
     #[must_use]
-    pub fn segments_at(&self, touch: &Touch) -> ([u32; 2], &Target) {
+    pub fn segments_at(&self, touch: &ContactPoint) -> ([u32; 2], &Target) {
         let pass = &self.passes[touch.pass as usize];
         (pass.ends.around.get(touch.slave as usize).copied().unwrap_or([NONE; 2]), &self.targets[pass.slave])
     }
@@ -152,7 +152,7 @@ impl Tracker {
     /// The segments where a node touches, each with its surface: of the target, and those that end and begin
     /// at the node, [`crate::mesh::surface::NONE`] where there is none.
     #[must_use]
-    pub fn around(&self, touch: &Touch) -> [(usize, u32); 3] {
+    pub fn around(&self, touch: &ContactPoint) -> [(usize, u32); 3] {
         let pass = &self.passes[touch.pass as usize];
         let ([before, after], _) = self.segments_at(touch);
         [(pass.target, touch.projection.segment), (pass.slave, before), (pass.slave, after)]
@@ -191,19 +191,19 @@ impl Tracker {
     }
 
     /// Keeps what is known of the past, for [`crate::contact::Formulation::keep`].
-    pub(in crate::contact) fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    pub(in crate::contact) fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { targets, passes, reach, found: Found { touches, certificate }, chunks: _, travel, past } = self;
-        passes.iter_mut().try_for_each(|pass| pass.keep(targets, archive))?;
-        keep_each!(archive; reach, touches, certificate, travel, past);
-        let is_touch = |touch: &Touch| {
+        passes.iter_mut().try_for_each(|pass| pass.persist(targets, archive))?;
+        persist_each!(archive; reach, touches, certificate, travel, past);
+        let is_touch = |touch: &ContactPoint| {
             passes.get(touch.pass as usize).is_some_and(|pass| {
                 let group = pass.groups.get(touch.group as usize);
                 group.is_some_and(|group| (group.slave, group.node) == (touch.slave, touch.node))
                     && (touch.projection.segment as usize) < targets[pass.target].surface.segments.len()
             })
         };
-        archive.check(touches.iter().all(is_touch), "a touch is of nothing")?;
-        let recalls = |past: &Vec<Vec<(Group, Memory)>>| {
+        archive.check(touches.iter().all(is_touch), "a contact point refers to a missing pair")?;
+        let recalls = |past: &Vec<Vec<(Group, ContactHistory)>>| {
             past.len() == passes.len()
                 && passes
                     .iter()
@@ -222,7 +222,7 @@ impl Tracker {
     /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and
     /// body. Pairs farther than the skin and `extra` (m) are not looked at. In the first call nothing is
     /// known of the past: a node in another body is where the nearest feature of that body says.
-    pub fn track(&mut self, sweep: Sweep<'_>, extra: f64) -> &[Touch] {
+    pub fn track(&mut self, sweep: Sweep<'_>, extra: f64) -> &[ContactPoint] {
         self.reach.report.steps += 1;
         let mut sweep = sweep;
         let way = sweep.travel - std::mem::replace(&mut self.travel, sweep.travel);
@@ -275,18 +275,18 @@ impl Tracker {
 
     /// What [`Tracker::track`] found last.
     #[must_use]
-    pub fn touches(&self) -> &[Touch] {
+    pub fn touches(&self) -> &[ContactPoint] {
         &self.found.touches
     }
 
     /// What is kept of the slave and the body of a touch: zero where they did not touch in the last step.
     #[must_use]
-    pub fn kept(&self, touch: &Touch) -> &Memory {
+    pub fn kept(&self, touch: &ContactPoint) -> &ContactHistory {
         &self.passes[touch.pass as usize].kept[touch.group as usize]
     }
 
     /// The same to change it.
-    pub fn kept_mut(&mut self, touch: &Touch) -> &mut Memory {
+    pub fn kept_mut(&mut self, touch: &ContactPoint) -> &mut ContactHistory {
         &mut self.passes[touch.pass as usize].kept[touch.group as usize]
     }
 }

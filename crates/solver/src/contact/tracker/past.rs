@@ -1,14 +1,14 @@
 //! What a tracker takes over from the one before it when surfaces change: who was inside through which
 //! segment, slips, counts.
 //!
-//! Segments and bodies have new numbers then, so everything is found again by nodes. Levels are counted anew
+//! Segments and bodies have new numbers then, so everything is found again by nodes. Levels are counted again
 //! against the new surfaces, at the beginning of the step (`start.rs`), and the step itself is swept as any
 //! other: whatever came in or left is proven as before. Who was inside through a segment that is no more is
 //! outside, unless the new surfaces say otherwise.
 
 use super::certificate::SearchReport;
 use super::group::{Group, Pass};
-use super::{Memory, Tracker};
+use super::{ContactHistory, Tracker};
 use crate::contact::projection::node_segment::Target;
 use crate::mesh::surface::NONE;
 
@@ -54,13 +54,18 @@ impl Tracker {
 impl Pass {
     /// Groups of `before` that are still possible, ascending; `segments` are those that each group touches.
     /// Surfaces: slaves and target, old and new.
-    fn recalled(&self, before: &Self, segments: &[u32], [old_slaves, old_target, slaves, target]: [&Target; 4]) -> Vec<(Group, Memory)> {
+    fn recalled(
+        &self,
+        before: &Self,
+        segments: &[u32],
+        [old_slaves, old_target, slaves, target]: [&Target; 4],
+    ) -> Vec<(Group, ContactHistory)> {
         let by_nodes = ByNodes::new(target);
         let neighbours = |pass: &Self, surface: &Target, slave: u32| {
             let around = pass.ends.around.get(slave as usize).copied().unwrap_or([NONE; 2]);
             around.map(|segment| surface.surface.segments.get(segment as usize).copied())
         };
-        let of = |((group, &kept), &segment): ((&Group, &Memory), &u32)| {
+        let of = |((group, &kept), &segment): ((&Group, &ContactHistory), &u32)| {
             let nodes = *old_target.surface.segments.get(segment as usize)?;
             let (segment, slave) = (by_nodes.find(nodes)?, slaves.surface.nodes.binary_search(&group.node).ok()? as u32);
             let mut now = self.group(slave, group.node, self.segment_bodies[segment as usize]);
@@ -69,7 +74,7 @@ impl Pass {
             }
             now.touches = group.touches;
             let is_as_before = neighbours(before, old_slaves, group.slave) == neighbours(self, slaves, slave);
-            Some((now, if is_as_before { kept } else { Memory { faces: 0, ..kept } }))
+            Some((now, if is_as_before { kept } else { ContactHistory { faces: 0, ..kept } }))
         };
         let mut recalled: Vec<_> = before.groups.iter().zip(&before.kept).zip(segments).filter_map(of).collect();
         recalled.sort_by_key(|(group, _)| group.key());
@@ -78,7 +83,7 @@ impl Pass {
     }
 
     /// Adds what groups knew to those that the first search and `start` have found.
-    pub(super) fn recall(&mut self, recalled: &[(Group, Memory)]) {
+    pub(super) fn recall(&mut self, recalled: &[(Group, ContactHistory)]) {
         for &(past, kept) in recalled {
             match self.groups.binary_search_by_key(&past.key(), Group::key) {
                 Ok(at) => {
@@ -86,7 +91,7 @@ impl Pass {
                     (group.touches, self.kept[at]) = (past.touches, kept);
                     if past.memory != NONE {
                         group.memory = past.memory;
-                        // Nobody is inside its own body at a start.
+                        // No one is inside its own body at a start.
                         if past.own {
                             group.level = past.level;
                         }

@@ -4,7 +4,7 @@ use super::super::projection::node_segment::{Target, Vector};
 use super::super::search::{Pair, Search};
 use super::super::{Sweep, length};
 use super::certificate::SearchReport;
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::vector::{bound_of, minus};
 
 /// Skin as a fraction of the mean segment length: how far bodies may move before the next global search.
@@ -30,8 +30,8 @@ pub(super) struct Reach {
     pub(super) report: SearchReport,
 }
 
-impl Keep for Reach {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for Reach {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self {
             search: _,
             pairs: _,
@@ -41,7 +41,7 @@ impl Keep for Reach {
             skin: _,
             report: SearchReport { steps, searches, skin: _, candidates: _ },
         } = self;
-        keep_each!(archive; positions, travel, steps, searches);
+        persist_each!(archive; positions, travel, steps, searches);
         archive.check(positions.is_empty() || positions.len() == nodes.len(), "a contact was searched at other nodes")
     }
 }

@@ -1,7 +1,7 @@
 //! Nodes that stay on the segment where they were, eight at a time: nearly all that touch, in nearly every
 //! step.
 //!
-//! Groups come from [`super::locate`], which goes on with those that do not stay. A node stays if it passes
+//! Groups come from [`super::locate`], which continues with those that do not stay. A node stays if it passes
 //! through no candidate (it has one, that through which it came in), projects on the inside of it, can't be
 //! nearer to a neighbour, and is not farther than what holds it: the tests and the numbers of
 //! [`Target::passage`] and [`Target::follow_without`], to the last bit.
@@ -23,9 +23,9 @@ struct Places {
     node: [[Batch; 2]; 2],
     begin: [[Batch; 2]; 2],
     end: [[Batch; 2]; 2],
-    /// The far nodes of the segments before and after it; `goes_on`: 1 where there are such.
+    /// The far nodes of the segments before and after it; `continues`: 1 where there are such.
     far: [[Batch; 2]; 2],
-    goes_on: [Batch; 2],
+    continues: [Batch; 2],
     /// Gap up to which a node is held, m.
     hold: f64,
 }
@@ -65,7 +65,7 @@ impl Stays {
             return Self::NONE;
         }
         let zero = [[Batch::default(); 2]; 2];
-        let mut places = Places { node: zero, begin: zero, end: zero, far: zero, goes_on: [Batch::default(); 2], hold };
+        let mut places = Places { node: zero, begin: zero, end: zero, far: zero, continues: [Batch::default(); 2], hold };
         for (lane, group) in groups.iter().enumerate().filter(|(lane, _)| steady >> lane & 1 == 1) {
             places.set(lane, group, target, sweep);
         }
@@ -97,7 +97,7 @@ impl Places {
             if neighbour != NONE {
                 let far = surface.segments[neighbour as usize][side] as usize;
                 (0..2).for_each(|d| self.far[side][d].0[lane] = sweep.new[far][d]);
-                self.goes_on[side].0[lane] = 1.0;
+                self.continues[side].0[lane] = 1.0;
             }
         }
     }
@@ -145,7 +145,7 @@ impl Places {
             behind &= L::bits((L::splat(2.0 * END_TOLERANCE) * square).less(dot(minus(node[1], common), back)));
             behind &= L::bits(L::splat(END_TOLERANCE).less(weight));
             behind &= L::bits((L::splat(CLEAR) * gap * gap).less(off * off));
-            let ends = L::bits(L::load(&self.goes_on[side], at).less(L::splat(0.5)));
+            let ends = L::bits(L::load(&self.continues[side], at).less(L::splat(0.5)));
             bits &= behind | ends;
         }
         place.store(&mut stays.place, at);

@@ -75,7 +75,7 @@ impl Check<'_> {
         }
     }
 
-    /// Whether the parts of these names (none: all) are there and all move as they are told.
+    /// Whether the parts of these names (none: all) are there and all move as they are reported.
     pub(super) fn all_driven(&self, names: &[String]) -> bool {
         let parts = &self.model.parts;
         let driven = |name: &String| parts.iter().find(|part| part.name == *name).is_some_and(motion::is_driven);
@@ -86,7 +86,7 @@ impl Check<'_> {
         self.fault(
             &NOTHING_GIVES_WAY,
             path,
-            "nothing can give way: all bodies here are rigid and move as they are told",
+            "nothing can deform: all bodies here are rigid and their motion is prescribed",
             "let one of them deform, or be free in x, y or rotation",
         );
     }
@@ -99,7 +99,7 @@ impl Check<'_> {
             self.fault(&UNKNOWN_NAME, format!("{path}.slave"), format!("the slave is surface {slave}, but there are only 0 and 1"), "");
         }
         if contact.formulation == Formulation::Pinball && self.model.is_axisymmetric() {
-            let message = "pinballs are cylinders of the plane, which a body of revolution has none of";
+            let message = "pinballs are cylinders in 2D, which axisymmetric bodies do not have";
             self.fault(&OF_REVOLUTION, format!("{path}.formulation"), message, "take `double_pass`, `single_pass` or `segment`");
         }
         for (_, key, message, help) in contradictions(contact).into_iter().filter(|(holds, ..)| *holds) {

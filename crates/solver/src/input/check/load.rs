@@ -80,7 +80,8 @@ impl Check<'_> {
             let Some(material) = model.materials.get(&part.material) else { continue };
             if material::has_elastic_stiffness(&material.law) == Some(false) {
                 let message = format!("part `{}` is of law `{}`", excerpt(&part.name), material.law);
-                let help = "this damping takes isotropic solids in rate form such as `elastic` and `j2`: name those in `parts`; rubber is damped by `damping`, or as `viscoelastic`";
+                let help = "this damping takes isotropic solids in rate form such as `elastic` and `j2`: name those \
+                    in `parts`; rubber is damped by `damping`, or as `viscoelastic`";
                 self.fault(&NO_STIFFNESS, path, message, help);
             }
         }

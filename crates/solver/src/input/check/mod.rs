@@ -1,4 +1,5 @@
-//! Everything that can be told about a model before it is meshed: numbers, names, references, contradictions.
+//! Everything that can be reported about a model before it is meshed: numbers, names, references,
+//! contradictions.
 //!
 //! Data comes from [`Model`], whoever made it; ranges come from [`sections`] and the registries, so that they
 //! stand in one place. All faults are returned at once, each with the path of its key. Parts are in
@@ -40,7 +41,7 @@ const NO_SURFACE: &str =
     "contact, obstacles and pressure see elements with an area only: name another part, or a strip of thin elements beside the bars";
 
 impl Model {
-    /// All faults that can be told without meshing; empty for a sound model. Paths are those of the model
+    /// All faults that can be reported without meshing; empty for a sound model. Paths are those of the model
     /// file, such as `part[0].ring.inner`.
     #[must_use]
     pub fn check(&self) -> Vec<Fault> {
@@ -61,9 +62,9 @@ impl Model {
         check.probes();
         check.output();
         if self.dimension() == 2 {
-            check.nothing_out_of_the_plane();
+            check.nothing_out_of_2d();
         } else {
-            check.nothing_of_the_plane_alone();
+            check.nothing_of_2d_alone();
         }
         check.faults
     }
@@ -274,7 +275,7 @@ impl Check<'_> {
                     help,
                 );
             }
-            // Of what is missing it is told already that it is, and no more can be said.
+            // Of what is missing it is reported already that it is, and no more can be said.
             let is_given = |parameter: &&Parameter| {
                 parameter.default.is_some() || it.parameters.contains_key(parameter.name) || it.lists.contains_key(parameter.name)
             };
@@ -501,7 +502,7 @@ pub fn name_is_plain(name: &str) -> Result<(), (String, String)> {
     Ok(())
 }
 
-/// Number of nodes, where it can be told without meshing.
+/// Number of nodes, where it can be reported without meshing.
 fn node_count(model: &Model, part: &Part) -> Option<u128> {
     if let Shape::Group { mesh, group } = &part.shape {
         let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == model.cells_dimension(part))?;

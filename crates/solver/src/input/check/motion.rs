@@ -151,10 +151,10 @@ impl Check<'_> {
                 let (axis, (begin, value)) = (AXES[k], begins[k]);
                 let asked = drives[k].is_some_and(|drive| *drive != Drive::Constant(0.0));
                 if asked || (key == "motion" && drives[k].is_none()) {
-                    let message = format!("`{axis}` of a rigid body of revolution can't be prescribed or free");
+                    let message = format!("`{axis}` of a rigid axisymmetric body can't be prescribed or free");
                     self.fault(&OF_REVOLUTION, format!("{body}.{key}.{axis}"), message, help);
                 } else if drives[k].is_none() && value != 0.0 {
-                    let message = format!("a rigid body of revolution can't begin with a motion in `{axis}`");
+                    let message = format!("a rigid axisymmetric body can't begin with a motion in `{axis}`");
                     self.fault(&OF_REVOLUTION, format!("{body}.{begin}"), message, help);
                 }
             }
@@ -177,7 +177,7 @@ impl Check<'_> {
         self.vector(&format!("{path}.velocity"), part.velocity);
         self.number(&format!("{path}.spin"), part.spin);
         if part.is_axisymmetric() && part.spin != 0.0 && part.rigid.is_none() {
-            let message = "`spin` turns a part in its plane, which a body of revolution can't";
+            let message = "`spin` rotates a part in its plane, which an axisymmetric body can't";
             self.fault(
                 &OF_REVOLUTION,
                 format!("{path}.spin"),
@@ -341,7 +341,7 @@ impl Check<'_> {
             self.axis(&format!("{path}.rotation"), &rotation.about);
             self.drive(&format!("{path}.rotation.speed"), &rotation.speed, Dimension::RATE);
             if straight {
-                let message = "nodes that are led around a point can't be moved along x or y as well";
+                let message = "nodes with a prescribed rotation can't have a prescribed motion along x or y as well";
                 self.fault(&PRESCRIBED_TWICE, format!("{path}.rotation"), message, "leave one of the two out");
             }
         } else if !straight {
@@ -377,10 +377,10 @@ impl Check<'_> {
 
 /// Whether a part is rigid and free in nothing.
 pub(super) fn is_driven(part: &Part) -> bool {
-    // Of a body of revolution there is only y to ask for.
-    let told =
+    // Of an axisymmetric body there is only y to ask for.
+    let reported =
         |motion: &Motion| if part.is_axisymmetric() { drives(motion)[1].is_some() } else { drives(motion).iter().all(Option::is_some) };
-    part.rigid.as_ref().is_some_and(told)
+    part.rigid.as_ref().is_some_and(reported)
 }
 
 fn drives(motion: &Motion) -> [Option<&Drive>; 3] {

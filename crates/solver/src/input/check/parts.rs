@@ -127,8 +127,8 @@ impl Check<'_> {
         }
         if !part.is_of_bars() {
             if part.area.is_some() {
-                let of_space = self.model.dimension_of(part) == 3;
-                let help = if of_space {
+                let of_3d = self.model.dimension_of(part) == 3;
+                let help = if of_3d {
                     "leave it out, or take `space_truss` with `element = \"bar2\"`"
                 } else {
                     "leave it out, or take `element = \"bar2\"`"
@@ -147,12 +147,12 @@ impl Check<'_> {
             return;
         }
         if part.area.is_none() {
-            let of_space = self.model.dimension() == 3;
-            let help = if of_space { "add `area = \"1e-4 m^2\"`" } else { "add `area = \"1e-4 m\"`: cross-section per metre of depth" };
+            let of_3d = self.model.dimension() == 3;
+            let help = if of_3d { "add `area = \"1e-4 m^2\"`" } else { "add `area = \"1e-4 m\"`: cross-section per metre of depth" };
             self.fault(&BARS, area, "bars need their cross-section", help);
         }
         if !part.stress_state.is_empty() && part.stress_state != STRESS_STATES[0].name {
-            let help = "leave `stress_state` out; in a body of revolution a line is a shell, for which there is no element";
+            let help = "leave `stress_state` out; in an axisymmetric body a line is a shell, for which there is no element";
             self.fault(&BARS, format!("{path}.stress_state"), "bars have a stress along their line and no other", help);
         }
         if let Some(material) = self.model.materials.get(&part.material)
@@ -194,7 +194,7 @@ impl Check<'_> {
         self.placement(path, &part.placement);
     }
 
-    /// Parts of the plane and of space do not go together; nor does a sweep with what has no area, or is a
+    /// Parts in 2D and 3D do not go together; nor does a sweep with what has no area, or is a
     /// solid as it is.
     fn sweep(&mut self, path: &str, part: &Part) {
         let dimension = self.model.dimension();
@@ -203,15 +203,15 @@ impl Check<'_> {
             let first = excerpt(self.model.parts.iter().find(known).map_or("", |first| &first.name));
             let lines = |part: &Part| part.shape.cell_kind() == Some(CellKind::Line) || part.is_of_bars();
             let word = |dimension: usize, part: &Part| match (dimension, lines(part)) {
-                (2, _) => "in the plane",
-                (_, true) => "of bars in space",
+                (2, _) => "2D",
+                (_, true) => "of bars in 3D",
                 _ => "a solid",
             };
             let other = self.model.parts.iter().find(known).map_or("", |first| word(dimension, first));
             let own = word(self.model.dimension_of(part), part);
             let help = match (lines(part), dimension) {
-                (true, 2) => "take `truss`: bars in the plane; or make the other parts solids, such as by `extrude`",
-                (true, _) => "take `space_truss` with `element = \"bar2\"`: bars in space",
+                (true, 2) => "take `truss`: bars in 2D; or make the other parts solids, such as by `extrude`",
+                (true, _) => "take `space_truss` with `element = \"bar2\"`: bars in 3D",
                 _ => "make all parts solids, such as by `extrude`, or none",
             };
             let at = part.sweep.as_ref().map_or_else(|| size_key(&part.shape), |sweep| sweep.key().to_string());
@@ -221,7 +221,7 @@ impl Check<'_> {
         let Some(sweep) = &part.sweep else { return };
         let path = format!("{path}.{}", sweep.key());
         if part.shape.solid().is_some() {
-            self.fault(&CLASH, path.as_str(), "the shape is a solid as it is", "leave it out, or take a shape of the plane");
+            self.fault(&CLASH, path.as_str(), "the shape is a solid as it is", "leave it out, or take a 2D shape");
         } else if part.is_of_bars() || part.shape.cell_kind() == Some(CellKind::Line) {
             self.fault(&CLASH, path.as_str(), "bars have no area that could become a solid", "leave it out");
         }
@@ -275,7 +275,7 @@ impl Check<'_> {
         }
     }
 
-    /// In the plane nothing leads out of it.
+    /// In 2D nothing leads out of it.
     fn placement_in_plane(&mut self, path: &str, placement: &Placement) {
         let along_z = |[x, y, z]: [f64; 3]| x == 0.0 && y == 0.0 && z != 0.0;
         let Placement { mirror, rotation_point, rotation_axis, translation, copies, .. } = placement;
@@ -289,7 +289,7 @@ impl Check<'_> {
             flat.push(("copies.axis", along_z(copies.axis)));
         }
         for (key, _) in flat.into_iter().filter(|(_, is_flat)| !is_flat) {
-            let (message, help) = ("it leads out of the plane, but the model is one of the plane", "leave z out, or make the parts solids");
+            let (message, help) = ("it leads out of the plane, but the model is 2D", "leave z out, or make the parts solids");
             self.fault(&DIMENSION, format!("{path}.{key}"), message, help);
         }
     }
@@ -426,7 +426,8 @@ impl Model {
         }
         let (index, largest) = counts().enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b))?;
         let message = format!(
-            "the model needs about {needed:.3e} bytes, {BYTES_PER_ELEMENT} for each element, {:.1} % of them in this part; {whose} is {limit:.3e} bytes",
+            "the model needs about {needed:.3e} bytes, {BYTES_PER_ELEMENT} for each element, {:.1} % of them in this \
+                part; {whose} is {limit:.3e} bytes",
             100.0 * BYTES_PER_ELEMENT * largest / needed
         );
         let path = format!("part[{index}].{}", size_key(&self.parts[index].shape));

@@ -1,17 +1,17 @@
-//! A model of the plane has nothing out of it: third components are zero, and what turns turns about z.
+//! A model in 2D has nothing out of it: third components are zero, and what turns turns about z.
 
 use super::Check;
 use crate::model::messages::THIRD;
 use crate::model::{Axis, Drive, Image, Load, Motion, ObstacleShape, ProbeAt};
 
 /// What to do.
-const HELP: &str = "leave it out, or make the parts solid: `extrude` them, or give them a shape of space";
+const HELP: &str = "leave it out, or make the parts solid: `extrude` them, or give them a 3D shape";
 
-const NO_Z: &str = "there is no `z` in the plane";
+const NO_Z: &str = "there is no `z` in 2D";
 
 impl Check<'_> {
     /// Faults of what points out of the plane.
-    pub(super) fn nothing_out_of_the_plane(&mut self) {
+    pub(super) fn nothing_out_of_2d(&mut self) {
         let model = self.model;
         for (index, part) in model.parts.iter().enumerate() {
             self.flat(&format!("part[{index}].velocity"), part.velocity);
@@ -66,11 +66,9 @@ impl Check<'_> {
                 }
                 ObstacleShape::Circle { centre, .. } => self.flat(&format!("{path}.circle.centre"), *centre),
                 ObstacleShape::Polyline { .. } => {}
-                ObstacleShape::Sphere { .. } => self.third(format!("{path}.sphere"), "there are no spheres in the plane; take `circle`"),
-                ObstacleShape::Triangles(_) => self.third(format!("{path}.stl"), "a surface of triangles is one of space; take `polyline`"),
-                ObstacleShape::Cylinder { .. } => {
-                    self.third(format!("{path}.cylinder"), "there are no cylinders in the plane; take `circle`")
-                }
+                ObstacleShape::Sphere { .. } => self.third(format!("{path}.sphere"), "there are no spheres in 2D; take `circle`"),
+                ObstacleShape::Triangles(_) => self.third(format!("{path}.stl"), "a surface of triangles is a 3D one; take `polyline`"),
+                ObstacleShape::Cylinder { .. } => self.third(format!("{path}.cylinder"), "there are no cylinders in 2D; take `circle`"),
             }
             obstacle.reference.iter().for_each(|reference| self.flat(&format!("{path}.reference"), *reference));
             self.flat(&format!("{path}.velocity"), obstacle.velocity);
@@ -82,24 +80,24 @@ impl Check<'_> {
             }
         }
         if model.output.camera.is_some() {
-            self.third("output.camera".into(), "pictures of the plane are seen along z: they have no camera");
+            self.third("output.camera".into(), "pictures of 2D models are seen along z: they have no camera");
         }
         if model.output.mirror[2] {
-            self.third("output.mirror".into(), "a picture of the plane has no other half at z = 0");
+            self.third("output.mirror".into(), "a picture of a 2D model has no other half at z = 0");
         }
     }
 
     /// A vector without a third component; one that is no number has its fault already.
     fn flat(&mut self, path: &str, vector: [f64; 3]) {
         if vector[2] != 0.0 && vector[2].is_finite() {
-            self.third(format!("{path}[2]"), "a vector of the plane has no third component");
+            self.third(format!("{path}[2]"), "a 2D vector has no third component");
         }
     }
 
     fn flat_axis(&mut self, path: &str, axis: &Axis) {
         self.flat(&format!("{path}.centre"), axis.centre);
         if axis.direction[..2] != [0.0; 2] && axis.direction.iter().all(|component| component.is_finite()) {
-            self.third(format!("{path}.axis"), "what turns in the plane turns about z");
+            self.third(format!("{path}.axis"), "rotations in 2D are about z");
         }
     }
 

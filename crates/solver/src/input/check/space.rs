@@ -1,4 +1,4 @@
-//! A model of space has nothing that only the plane knows: segments, circles, polylines, ends of lines. Told
+//! A model in 3D has nothing that only the plane knows: segments, circles, polylines, ends of lines. Reported
 //! where they are written, before anything is meshed.
 
 use super::Check;
@@ -7,11 +7,11 @@ use crate::model::{Formulation, ObstacleShape};
 
 impl Check<'_> {
     /// Faults of what only the plane has.
-    pub(super) fn nothing_of_the_plane_alone(&mut self) {
+    pub(super) fn nothing_of_2d_alone(&mut self) {
         let model = self.model;
         for (index, contact) in model.contacts.iter().enumerate() {
             if contact.formulation == Formulation::Segment {
-                let message = "in space there are no segments: nodes meet facets, and edges meet edges";
+                let message = "in 3D there are no segments: nodes meet facets, and edges meet edges";
                 self.fault(
                     &NOT_IN_SPACE,
                     format!("contact[{index}].formulation"),
@@ -22,10 +22,10 @@ impl Check<'_> {
         }
         for (index, obstacle) in model.obstacles.iter().enumerate() {
             let (key, message, help) = match &obstacle.shape {
-                ObstacleShape::Plane { length: Some(_), .. } => ("plane.length", "a plane of space has no end", "leave `length` out"),
-                ObstacleShape::Circle { .. } => ("circle", "there are no circles in space", "take `sphere` or `cylinder`"),
+                ObstacleShape::Plane { length: Some(_), .. } => ("plane.length", "a plane in 3D has no end", "leave `length` out"),
+                ObstacleShape::Circle { .. } => ("circle", "there are no circles in 3D", "take `sphere` or `cylinder`"),
                 ObstacleShape::Polyline { .. } => {
-                    ("polyline", "there are no polylines in space", "take `plane`, `sphere`, `cylinder` or `stl`, or a rigid part")
+                    ("polyline", "there are no polylines in 3D", "take `plane`, `sphere`, `cylinder` or `stl`, or a rigid part")
                 }
                 _ => continue,
             };

@@ -2,7 +2,7 @@
 //! hold a fluid.
 //!
 //! Only what is certain before a run: a warning that is wrong once is read no more. What needs the mesh is
-//! told by `build/idle.rs`.
+//! reported by `build/idle.rs`.
 
 use crate::contact::messages::OPEN;
 use crate::element::{Element, Quad4, Quad4Full, Tri3};
@@ -18,7 +18,7 @@ use crate::vector::place;
 const LOCKS: f64 = 0.49;
 
 impl Model {
-    /// What the user should know of a model without faults ([`Model::check`]), as far as it can be told
+    /// What the user should know of a model without faults ([`Model::check`]), as far as it can be reported
     /// without meshing; each thing once.
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
@@ -58,7 +58,7 @@ impl Model {
 
     /// Nearly no change of volume in elements that need one in bending and shear.
     fn locking(&self, index: usize, part: &Part, it: &Material) -> Option<Warning> {
-        let (element, cure) = if self.has_elements(part, Tri3::KIND.name) {
+        let (element, remedy) = if self.has_elements(part, Tri3::KIND.name) {
             (Tri3::KIND.name, "take `element_triangles = \"tri3_anp\"`, or quadrilaterals")
         } else if self.has_elements(part, Quad4Full::KIND.name) {
             (Quad4Full::KIND.name, "take `element = \"quad4\"`")
@@ -76,7 +76,7 @@ impl Model {
             path: format!("part[{index}].material"),
             message: format!("Poisson's ratio of `{}` is {poisson:.4}, in elements `{element}`", part.material),
             consequence: "they lock: bending and shear of the part are several times too stiff, also with many elements".into(),
-            help: cure.into(),
+            help: remedy.into(),
         })
     }
 

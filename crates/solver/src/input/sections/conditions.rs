@@ -65,15 +65,16 @@ static TURN_OF_NODES: Section = Section {
     required: false,
     keys: &[
         key("speed", Kind::Drive(Dimension::RATE), Required, "Angular velocity, counter-clockwise: a number or a curve."),
-        key("centre", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point; in space one of the axis."),
-        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis, in space."),
+        key("centre", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point; in 3D one of the axis."),
+        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis, in 3D."),
     ],
     ..Section::EMPTY
 };
 
 pub(super) static LOAD: Section = Section {
     name: "load",
-    doc: "What acts on parts, sets of nodes or surfaces from outside. With `curve` a load is multiplied by the curve's values, which must be pure numbers.",
+    doc: "What acts on parts, sets of nodes or surfaces from outside. With `curve` a load is multiplied by the \
+        curve's values, which must be pure numbers.",
     form: Form::Repeated,
     required: false,
     keys: &[
@@ -87,20 +88,23 @@ pub(super) static LOAD: Section = Section {
             "centrifugal",
             Angle(Dimension::RATE, Finite),
             Optional("another load"),
-            "Angular velocity of a frame in which the model is seen: its parts feel the acceleration centrifugal^2 * (x - centre), and no Coriolis force, so they should move slowly in it.",
+            "Angular velocity of a frame in which the model is seen: its parts feel the acceleration centrifugal^2 * \
+                (x - centre), and no Coriolis force, so they should move slowly in it.",
         ),
         key(
             "centre",
             Spatial(Dimension::LENGTH, Finite),
             Optional("[0, 0]"),
-            "The point about which the frame turns, in space one of its axis; an axisymmetric model turns about its axis.",
+            "The point about which the frame turns, in 3D one of its axis; an axisymmetric model turns about its axis.",
         ),
-        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis of `centrifugal`, in space."),
+        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis of `centrifugal`, in 3D."),
         key(
             "force",
             Spatial(Dimension::FORCE_PER_LENGTH, Finite),
             Optional("another load"),
-            "Force on a set in all, per metre of depth (of an axisymmetric model in N over the whole circumference, of solids in N): shared by length, of solids by area, over a side or a group on the outside, equally over other groups.",
+            "Force on a set in all, per metre of depth (of an axisymmetric model in N over the whole circumference, \
+                of solids in N): shared by length, of solids by area, over a side or a group on the outside, equally \
+                over other groups.",
         ),
         key(
             "pressure",
@@ -118,7 +122,9 @@ pub(super) static LOAD: Section = Section {
             "damping_stiffness",
             Quantity(Dimension::TIME, Positive),
             Optional("another load"),
-            "Time beta of a stress beta * C * strain rate in the elements of parts, with their elastic stiffness C: a mode of angular frequency omega is damped by beta * omega / 2 of the critical. It shortens the step from dt to sqrt(beta^2 + dt^2) - beta, and acts during the whole run.",
+            "Time beta of a stress beta * C * strain rate in the elements of parts, with their elastic stiffness C: \
+                a mode of angular frequency omega is damped by beta * omega / 2 of the critical. It shortens the \
+                step from dt to sqrt(beta^2 + dt^2) - beta, and acts during the whole run.",
         ),
         key(
             "on",
@@ -158,7 +164,8 @@ pub(super) static LOAD: Section = Section {
 
 pub(super) static NON_REFLECTING: Section = Section {
     name: "non_reflecting",
-    doc: "A surface that takes waves up as if the body went on behind it, by dashpots for plane waves across it: what meets it at an angle is reflected in part. It doesn't hold the body in place.",
+    doc: "A surface that takes waves up as if the body continued behind it, by dashpots for plane waves across it: \
+        what meets it at an angle is reflected in part. It doesn't hold the body in place.",
     form: Form::Repeated,
     required: false,
     keys: &[key("on", Reference, Required, "A side such as `soil.bottom`, a line group of a mesh file, or a part, its whole outside.")],
@@ -167,7 +174,9 @@ pub(super) static NON_REFLECTING: Section = Section {
 
 pub(super) static JOIN: Section = Section {
     name: "join",
-    doc: "Nodes of two sets that move as one: tied where the sets coincide, periodic where the second set is the image of the first by `translation` or `rotation`. Each node of the first set has its partner in the second one, and of images also the other way round. A tied contact joins meshes that differ.",
+    doc: "Nodes of two sets that move as one: tied where the sets coincide, periodic where the second set is the \
+        image of the first by `translation` or `rotation`. Each node of the first set has its partner in the second \
+        one, and of images also the other way round. A tied contact joins meshes that differ.",
     form: Form::Repeated,
     required: false,
     keys: &[
@@ -184,8 +193,8 @@ pub(super) static JOIN: Section = Section {
             Optional("none"),
             "Leads from the first set to the second, counter-clockwise: the velocity of the second is that of the first, turned.",
         ),
-        key("centre", Spatial(Dimension::LENGTH, Finite), Optional("[0, 0]"), "Centre of the rotation; in space a point of its axis."),
-        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis, in space."),
+        key("centre", Spatial(Dimension::LENGTH, Finite), Optional("[0, 0]"), "Centre of the rotation; in 3D a point of its axis."),
+        key("axis", Spatial(Dimension::NONE, Finite), Optional("along z"), "Direction of the axis, in 3D."),
         key(
             "tolerance",
             Quantity(Dimension::LENGTH, Positive),

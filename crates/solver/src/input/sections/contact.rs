@@ -10,7 +10,9 @@ use crate::vocabulary::{Form, Group, Kind, Rule, Section, key};
 
 pub(super) static CONTACT: Section = Section {
     name: "contact",
-    doc: "Bodies that can't go through each other: two surfaces, or several bodies, each of which meets each other and itself. A surface is a part (its whole outside), a side such as `plate.top`, or a group of lines (in space of surfaces) of a mesh file.",
+    doc: "Bodies that can't go through each other: two surfaces, or several bodies, each of which meets each other \
+        and itself. A surface is a part (its whole outside), a side such as `plate.top`, or a group of lines (in 3D \
+        of surfaces) of a mesh file.",
     form: Form::Repeated,
     keys: &[
         key("name", Name, Optional("the names of the surfaces or parts joined by `-`, or `all`"), "Unique name."),
@@ -20,7 +22,9 @@ pub(super) static CONTACT: Section = Section {
             "formulation",
             Choice(formulations),
             Default("\"double_pass\""),
-            "What is checked: the nodes of each surface against the segments of the other, only the nodes of `slave`, segments against segments, or disks in the elements. In space nodes meet facets, in a double pass also edges edges, and the elements have balls; there are no segments.",
+            "What is checked: the nodes of each surface against the segments of the other, only the nodes of \
+                `slave`, segments against segments, or disks in the elements. In 3D nodes meet facets, in a double \
+                pass also edges edges, and the elements have balls; there are no segments.",
         ),
         key("slave", Reference, Optional("needed for, and only for, `single_pass`"), "The surface of `between` whose nodes are checked."),
         key("tied", Flag, Default("false"), "Whether what touches at the start stays together."),
@@ -34,7 +38,8 @@ pub(super) static CONTACT: Section = Section {
 
 pub(super) static OBSTACLE: Section = Section {
     name: "obstacle",
-    doc: "A rigid body without elements that parts can't go through: fixed, moved, or free with a mass. Exactly one of `plane`, `circle` and `polyline`, in space of `plane`, `sphere`, `cylinder` and `stl`, is its shape.",
+    doc: "A rigid body without elements that parts can't go through: fixed, moved, or free with a mass. Exactly one \
+        of `plane`, `circle` and `polyline`, in 3D of `plane`, `sphere`, `cylinder` and `stl`, is its shape.",
     form: Form::Repeated,
     keys: &[
         key("name", Name, Optional("`obstacle`, `obstacle2`, ..."), "Unique name."),
@@ -42,14 +47,15 @@ pub(super) static OBSTACLE: Section = Section {
         key("plane", Table(&PLANE), Optional("another shape"), "A straight line."),
         key("circle", Table(&CIRCLE), Optional("another shape"), "A circle."),
         key("polyline", Table(&POLYLINE), Optional("another shape"), "Straight lines from point to point."),
-        key("sphere", Table(&SPHERE), Optional("another shape"), "In space: a sphere."),
-        key("cylinder", Table(&CYLINDER), Optional("another shape"), "In space: a cylinder without ends."),
-        key("stl", Table(&STL), Optional("another shape"), "In space: the triangles of an STL file."),
+        key("sphere", Table(&SPHERE), Optional("another shape"), "In 3D: a sphere."),
+        key("cylinder", Table(&CYLINDER), Optional("another shape"), "In 3D: a cylinder without ends."),
+        key("stl", Table(&STL), Optional("another shape"), "In 3D: the triangles of an STL file."),
         key(
             "motion",
             Kind::Motion,
             Optional("fixed"),
-            "How it moves: velocities `x` and `y` of its reference point, and `rotation` about it. What is left out is fixed. In an axisymmetric model only `y` can move.",
+            "How it moves: velocities `x` and `y` of its reference point, and `rotation` about it. What is left out \
+                is fixed. In an axisymmetric model only `y` can move.",
         ),
         key(
             "reference",
@@ -81,7 +87,7 @@ pub(super) static OBSTACLE: Section = Section {
 
 static PLANE: Section = Section {
     name: "plane",
-    doc: "A straight line (in space a plane) that bodies meet from the side of its normal.",
+    doc: "A straight line (in 3D a plane) that bodies meet from the side of its normal.",
     keys: &[
         key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line; its middle where it has a length."),
         key("normal", Spatial(Dimension::NONE, Finite), Required, "Normal that points to the free side; any length but zero."),
@@ -103,7 +109,7 @@ static CIRCLE: Section = Section {
 
 static SPHERE: Section = Section {
     name: "sphere",
-    doc: "In space: a sphere.",
+    doc: "In 3D: a sphere.",
     keys: &[
         key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
@@ -114,7 +120,7 @@ static SPHERE: Section = Section {
 
 static CYLINDER: Section = Section {
     name: "cylinder",
-    doc: "In space: a cylinder without ends.",
+    doc: "In 3D: a cylinder without ends.",
     keys: &[
         key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0, 0]"), "A point of its axis."),
         key("axis", Spatial(Dimension::NONE, Finite), Required, "Direction of the axis; any length but zero."),
@@ -126,7 +132,9 @@ static CYLINDER: Section = Section {
 
 static STL: Section = Section {
     name: "stl",
-    doc: "In space: the triangles of an STL file, text or binary. Corners that are equal to the last bit are one point. Bodies are on the side from which triangles are counter-clockwise, which is outside of a closed surface; the normals that the file gives don't count.",
+    doc: "In 3D: the triangles of an STL file, text or binary. Corners that are equal to the last bit are one point. \
+        Bodies are on the side from which triangles are counter-clockwise, which is outside of a closed surface; the \
+        normals that the file gives don't count.",
     keys: &[
         key("file", Kind::Text, Required, "Path of the file, from the model file's folder."),
         key(
@@ -152,26 +160,30 @@ static POLYLINE: Section = Section {
 /// What happens between surfaces, whoever they belong to.
 static INTERFACE: Group = Group {
     title: "Where surfaces meet",
-    doc: "Keys of contacts and of obstacles alike. Friction is at most min(µ p + c v, τ) at pressure p and slip rate v, with µ = µ_d + (µ_s - µ_d) exp(-β v).",
+    doc: "Keys of contacts and of obstacles alike. Friction is at most min(µ p + c v, τ) at pressure p and slip rate \
+        v, with µ = µ_d + (µ_s - µ_d) exp(-β v).",
     keys: &[
         key(
             "law",
             Choice(contact_laws),
             Default("\"penalty\""),
-            "What keeps the surfaces apart: a force proportional to the penetration, a pressure that depends on the gap, or whatever force it takes.",
+            "What keeps the surfaces apart: a force proportional to the penetration, a pressure that depends on the \
+                gap, or whatever force it takes.",
         ),
         key(
             "penalty",
             Stiffness(Dimension::PRESSURE, Positive),
             Optional("automatic, from the elements under the surfaces"),
-            "Stiffness per node and depth, or circumference (N/m/m, of solids N/m; also meant by a bare number), or pressure per penetration (Pa/m).",
+            "Stiffness per node and depth, or circumference (N/m/m, of solids N/m; also meant by a bare number), or \
+                pressure per penetration (Pa/m).",
         ),
         key("penalty_scale", Quantity(Dimension::NONE, Positive), Optional("1"), "Factor on the automatic penalty."),
         key(
             "penalty_from",
             Choice(|| vec!["wave_modulus", "bulk_modulus", "time_step"]),
             Optional("`wave_modulus`"),
-            "What the automatic penalty is made from: K + 4µ/3 or K over the height of the elements, or the mass over the square of the first stable step.",
+            "What the automatic penalty is made from: K + 4µ/3 or K over the height of the elements, or the mass \
+                over the square of the first stable step.",
         ),
         key(
             "gaps",
@@ -189,7 +201,8 @@ static INTERFACE: Group = Group {
             "damping",
             Quantity(Dimension::NONE, NotNegative),
             Default("0"),
-            "Viscous damping of closed contacts, as a fraction of the critical one. It also resists rolling: what comes in is slowed down, and what goes out is not pushed back as much.",
+            "Viscous damping of closed contacts, as a fraction of the critical one. It also resists rolling: what \
+                comes in is slowed down, and what goes out is not pushed back as much.",
         ),
         key("friction", Quantity(Dimension::NONE, NotNegative), Optional("no friction"), "Coefficient µ_s of Coulomb friction, at rest."),
         key(

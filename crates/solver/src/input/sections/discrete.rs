@@ -8,7 +8,9 @@ use crate::vocabulary::{Form, Rule, Section, key};
 
 pub(super) static SPRING: Section = Section {
     name: "spring",
-    doc: "Springs and dampers between two sets of nodes: each node of the larger set with the nearest one of the other. Numbers are those of each, per metre of depth (of an axisymmetric model over the whole circumference; between solids whole ones, in N/m, N s/m and N). Their energy is counted with that of the elements.",
+    doc: "Springs and dampers between two sets of nodes: each node of the larger set with the nearest one of the \
+        other. Numbers are those of each, per metre of depth (of an axisymmetric model over the whole circumference; \
+        between solids whole ones, in N/m, N s/m and N). Their energy is counted with that of the elements.",
     form: Form::Repeated,
     required: false,
     keys: &[
@@ -55,7 +57,8 @@ pub(super) static POINT_MASS: Section = Section {
             "mass",
             Quantity(Dimension::MASS_PER_LENGTH, Positive),
             Required,
-            "Mass in all per metre of depth (of an axisymmetric model over the whole circumference; of solids the whole, kg), shared equally by the nodes.",
+            "Mass in all per metre of depth (of an axisymmetric model over the whole circumference; of solids the \
+                whole, kg), shared equally by the nodes.",
         ),
     ],
     ..Section::EMPTY

@@ -12,7 +12,9 @@ const fn component(name: &'static str, dimension: Dimension, doc: &'static str) 
 
 pub(super) static STRESS_INITIAL: Section = Section {
     name: "stress_initial",
-    doc: "Cauchy stress at the start, tension positive: uniform, or linear in x and y. Its elastic energy is in the books from the start. The law must be one in rate form that can hold it; nothing makes sure that it is in equilibrium. Of bars `xx` is the stress along the bar, and there is no other.",
+    doc: "Cauchy stress at the start, tension positive: uniform, or linear in x and y. Its elastic energy is in the \
+        energy balance from the start. The law must be one in rate form that can hold it; nothing makes sure that it \
+        is in equilibrium. Of bars `xx` is the stress along the bar, and there is no other.",
     keys: &[
         component("xx", Dimension::PRESSURE, "Normal stress along x (radial in an axisymmetric part)."),
         component("yy", Dimension::PRESSURE, "Normal stress along y (axial)."),

@@ -94,28 +94,31 @@ static RUN: Section = Section {
         key(
             "memory_limit",
             Quantity(Dimension::INFORMATION, Positive),
-            Optional("what the machine has to spare, where it tells"),
+            Optional("what the machine has to spare, if the system reports it"),
             "Memory that the model may need, such as `8 GB`: one that needs more is refused before it is meshed.",
         ),
         key(
             "time_step",
             Quantity(Dimension::TIME, Positive),
             Optional("what the elements need"),
-            "Largest time step. A model of rigid parts alone takes just this one, and without it the step that their elements would need if they were not rigid.",
+            "Largest time step. A model of rigid parts alone takes just this one, and without it the step that their \
+                elements would need if they were not rigid.",
         ),
         key("max_steps", Integer(1), Optional("no limit"), "Largest number of steps."),
         key(
             "checkpoint",
             Quantity(Dimension::TIME, Positive),
             Optional("none by the clock"),
-            "Wall time between two checkpoints, from which `embate resume` goes on with a run that was stopped; with it the last good state of a run that fails is kept as well.",
+            "Wall time between two checkpoints, from which `embate resume` continues a run that was stopped; with it \
+                the last good state of a run that fails is kept as well.",
         ),
         key("checkpoint_steps", Integer(1), Optional("none by number"), "Steps between two checkpoints, besides those by the clock."),
         key(
             "bulk_viscosity",
             Vector(Dimension::NONE, NotNegative),
             Default("[0, 0]"),
-            "Linear and quadratic coefficient of the pressure that resists compression: `[0.06, 1.2]` spreads shocks over a few elements and keeps them from ringing.",
+            "Linear and quadratic coefficient of the pressure that resists compression: `[0.06, 1.2]` spreads shocks \
+                over a few elements and keeps them from ringing.",
         ),
         key(
             "relaxation",
@@ -130,13 +133,15 @@ static RUN: Section = Section {
 
 static RELAXATION: Section = Section {
     name: "relaxation",
-    doc: "Dynamic relaxation: a damping of mass that adapts itself to the slowest motion brings everything to rest, and the run ends when it is. For quasi-static states; what happens on the way means nothing.",
+    doc: "Dynamic relaxation: a damping of mass that adapts itself to the slowest motion brings everything to rest, \
+        and the run ends when it is. For quasi-static states; what happens on the way means nothing.",
     keys: &[
         key(
             "tolerance",
             Quantity(Dimension::NONE, Positive),
             Default("1e-6"),
-            "Kinetic energy over internal energy at which the state counts as at rest; it must stay below for half a period of the slowest motion.",
+            "Kinetic energy over internal energy at which the state counts as at rest; it must stay below for half a \
+                period of the slowest motion.",
         ),
         key(
             "from",
@@ -150,7 +155,9 @@ static RELAXATION: Section = Section {
 
 static MASS_SCALING: Section = Section {
     name: "mass_scaling",
-    doc: "Raises the density of elements whose stable step is too small, so that all allow one step at the start. The added mass resists motion; what gravity pulls at stays the true mass. Later steps may be smaller, as elements change their shape.",
+    doc: "Raises the density of elements whose stable step is too small, so that all allow one step at the start. \
+        The added mass resists motion; what gravity pulls at stays the true mass. Later steps may be smaller, as \
+        elements change their shape.",
     keys: &[
         key("time_step", Quantity(Dimension::TIME, Positive), Required, "Step that every element shall allow, `safety` included."),
         key(
@@ -175,7 +182,9 @@ static MATERIAL: Section = Section {
             "eos",
             Choice(equations_of_state),
             Optional("the law's own pressure"),
-            "Equation of state: gives the pressure in place of the law, which keeps what is without volume. Not with hyperelastic laws, nor where flow changes the volume (`drucker_prager`, `crushable_foam`); `null` needs it.",
+            "Equation of state: gives the pressure in place of the law, which keeps what is without volume. Not with \
+                hyperelastic laws, nor where flow changes the volume (`drucker_prager`, `crushable_foam`); `null` \
+                needs it.",
         ),
     ],
     more: &[More { by: "law", keys: law_keys }, More { by: "eos", keys: equation_keys }],
@@ -184,7 +193,9 @@ static MATERIAL: Section = Section {
 
 static FAILURE: Section = Section {
     name: "failure",
-    doc: "Limits at which an element fails. What counts is the mean over its points, as in the result files, after every step; any one limit is enough. A failed element pulls no more, contact sees the surfaces behind it at once, and its mass stays on its nodes.",
+    doc: "Limits at which an element fails. What counts is the mean over its points, as in the result files, after \
+        every step; any one limit is enough. A failed element pulls no more, contact sees the surfaces behind it at \
+        once, and its mass stays on its nodes.",
     keys: &FAILURE_KEYS,
     ..Section::EMPTY
 };
@@ -215,7 +226,8 @@ static PART: Section = Section {
             "area",
             Quantity(Dimension::LENGTH, Positive),
             Optional("only with bars"),
-            "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre; between solids whole, `\"1e-4 m^2\"`.",
+            "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre; \
+                between solids whole, `\"1e-4 m^2\"`.",
         ),
         key(
             "hourglass",
@@ -227,7 +239,8 @@ static PART: Section = Section {
             "stress_state",
             Choice(stress_states),
             Default("\"plane_strain\""),
-            "What the plane stands for. In an axisymmetric part x is the radius and y the axis; forces, masses and energies are those of the whole circumference.",
+            "What the plane stands for. In an axisymmetric part x is the radius and y the axis; forces, masses and \
+                energies are those of the whole circumference.",
         ),
         key("velocity", Spatial(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity."),
         key(
@@ -247,33 +260,25 @@ static PART: Section = Section {
             "rigid",
             Kind::Rigid,
             Default("false"),
-            "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` about it. What is left out is free. An axisymmetric part moves along `y` only.",
+            "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` \
+                about it. What is left out is free. An axisymmetric part moves along `y` only.",
         ),
         key(
             "mass_scale",
             Quantity(Dimension::NONE, Positive),
             Default("1"),
-            "Factor on the mass of the part where mass resists motion: 100 makes steps ten times as long. What gravity pulls at stays the true mass.",
+            "Factor on the mass of the part where mass resists motion: 100 makes steps ten times as long. What \
+                gravity pulls at stays the true mass.",
         ),
         key(
             "mirror",
             Table(&MIRROR),
             Optional("not mirrored"),
-            "A line, in space a plane, that the shape is mirrored on, before it is turned.",
+            "A line, in 3D a plane, that the shape is mirrored on, before it is turned.",
         ),
         key("rotation", Table(&ROTATION), Optional("not turned"), "An angle by which the shape is turned, before it is moved."),
-        key(
-            "extrude",
-            Table(&EXTRUDE),
-            Optional("the part stays in the plane"),
-            "Pulls a shape of the plane along z: the part becomes a solid.",
-        ),
-        key(
-            "revolve",
-            Table(&REVOLVE),
-            Optional("the part stays in the plane"),
-            "Turns a shape of the plane about a line: the part becomes a solid.",
-        ),
+        key("extrude", Table(&EXTRUDE), Optional("the part stays 2D"), "Extrudes a 2D shape along z: the part becomes a solid."),
+        key("revolve", Table(&REVOLVE), Optional("the part stays 2D"), "Revolves a 2D shape about a line: the part becomes a solid."),
         key("translation", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape is moved."),
         key("copies", Table(&COPIES), Optional("one body"), "More bodies of the same shape, in a row or around a point."),
     ],
@@ -290,7 +295,7 @@ static PART: Section = Section {
 
 static MIRROR: Section = Section {
     name: "mirror",
-    doc: "The shape is mirrored on a line, in space on a plane.",
+    doc: "The shape is mirrored on a line, in 3D on a plane.",
     keys: &[
         key("normal", Spatial(Dimension::NONE, Finite), Required, "Normal of the line or plane; any length but zero."),
         key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line or plane."),
@@ -300,10 +305,10 @@ static MIRROR: Section = Section {
 
 pub(super) static ROTATION: Section = Section {
     name: "rotation",
-    doc: "The shape is turned about a point, in space about an axis.",
+    doc: "The shape is turned about a point, in 3D about an axis.",
     keys: &[
         key("angle", Angle(Dimension::NONE, Finite), Required, "Angle, counter-clockwise; about an axis by the right-hand rule."),
-        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point; in space one of the axis."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point; in 3D one of the axis."),
         key("axis", Spatial(Dimension::NONE, Finite), Default("[0, 0, 1]"), "Direction of the axis, of a solid; any length but zero."),
     ],
     ..Section::EMPTY
@@ -316,7 +321,7 @@ static COPIES: Section = Section {
         key("count", Integer(1), Required, "Number of bodies in all."),
         key("translation", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far each is moved."),
         key("angle", Angle(Dimension::NONE, Finite), Default("0"), "Angle by which each is turned, counter-clockwise."),
-        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "Point about which they are turned; in space one of the axis."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "Point about which they are turned; in 3D one of the axis."),
         key(
             "axis",
             Spatial(Dimension::NONE, Finite),
@@ -330,7 +335,8 @@ static COPIES: Section = Section {
 
 static CURVE: Section = Section {
     name: "curve",
-    doc: "A function of time, named where something follows it: by points (`time` and `value`; constant before the first and after the last), a `sine`, or a formula (`expression`). The name begins with a letter.",
+    doc: "A function of time, named where something follows it: by points (`time` and `value`; constant before the \
+        first and after the last), a `sine`, or a formula (`expression`). The name begins with a letter.",
     form: Form::Named,
     required: false,
     keys: &[
@@ -352,7 +358,9 @@ static CURVE: Section = Section {
             "expression",
             Text,
             Optional("points or `sine`"),
-            "A formula of the time `t` in s, such as `\"2*sin(3*t) + exp(-t)\"`, in the SI unit of what uses the curve: numbers, `+ - * / ^`, parentheses, `pi`, `sin`, `cos`, `exp`, `ln`, `sqrt`, `abs`, `min`, `max`, and `step(x)`, which is 0 for x < 0, else 1.",
+            "A formula of the time `t` in s, such as `\"2*sin(3*t) + exp(-t)\"`, in the SI unit of what uses the \
+                curve: numbers, `+ - * / ^`, parentheses, `pi`, `sin`, `cos`, `exp`, `ln`, `sqrt`, `abs`, `min`, \
+                `max`, and `step(x)`, which is 0 for x < 0, else 1.",
         ),
     ],
     rules: &[
@@ -382,7 +390,8 @@ static SINE: Section = Section {
 
 static PROBE: Section = Section {
     name: "probe",
-    doc: "A place whose position and velocity are written to the history as `NAME.x`, `NAME.y`, `NAME.vx`, `NAME.vy`: the node of `part` nearest to `point`, node number `node` of `part`, or the mean over `set`.",
+    doc: "A place whose position and velocity are written to the history as `NAME.x`, `NAME.y`, `NAME.vx`, \
+        `NAME.vy`: the node of `part` nearest to `point`, node number `node` of `part`, or the mean over `set`.",
     form: Form::Repeated,
     required: false,
     keys: &[
@@ -413,14 +422,15 @@ static OUTPUT: Section = Section {
             "hash_steps",
             Integer(0),
             Default("100"),
-            "Steps between two lines of `hashes.csv`, by which `embate diff` tells where two runs part; 0: none are written.",
+            "Steps between two lines of `hashes.csv`, by which `embate diff` finds where two runs diverge; 0: none are written.",
         ),
         key("include", Kind::Choices(fields), Optional("all"), "Fields to write."),
         key(
             "mirror",
             Kind::Choices(|| vec!["x", "y", "z"]),
             Optional("none"),
-            "Pictures also show the model mirrored at the line (in space the plane) x = 0 (`\"x\"`), y = 0 (`\"y\"`), in space z = 0 (`\"z\"`), or several of them.",
+            "Pictures also show the model mirrored at the line (in 3D the plane) x = 0 (`\"x\"`), y = 0 (`\"y\"`), \
+                in 3D z = 0 (`\"z\"`), or several of them.",
         ),
         key("pictures", Flag, Default("true"), "Whether pictures and the animation are made."),
         key("picture_field", Choice(fields), Optional("what suits the model"), "Field that colours the pictures."),
@@ -430,14 +440,14 @@ static OUTPUT: Section = Section {
             Optional("all bodies, and obstacles near them"),
             "What pictures and animation show; `embate check` draws the whole mesh all the same.",
         ),
-        key("camera", Table(&CAMERA), Optional("three sides are seen"), "From where pictures of a model of space look at it."),
+        key("camera", Table(&CAMERA), Optional("three sides are seen"), "From where pictures of a 3D model look at it."),
     ],
     ..Section::EMPTY
 };
 
 static CAMERA: Section = Section {
     name: "camera",
-    doc: "How pictures look at a model of space: from afar, so that parallel lines stay parallel, and with everything in sight.",
+    doc: "How pictures look at a 3D model: from afar, so that parallel lines stay parallel, and with everything in sight.",
     keys: &[
         key(
             "from",
@@ -454,7 +464,7 @@ static CAMERA: Section = Section {
 
 static PICTURE_VIEW: Section = Section {
     name: "picture_view",
-    doc: "The rectangle that pictures show, mirror images included; in space in the plane of the picture, from the image of the origin.",
+    doc: "The rectangle that pictures show, mirror images included; in 3D in the plane of the picture, from the image of the origin.",
     keys: &[
         key("corner", Vector(Dimension::LENGTH, Finite), Required, "Lower left corner."),
         key("size", Vector(Dimension::LENGTH, Positive), Required, "Width and height."),

@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_place() {
+    fn what_is_wrong_is_reported_with_its_place() {
         for (text, place, says) in [
             ("", 1, "ends where"),
             ("1 +", 4, "ends where"),

@@ -12,7 +12,7 @@
 //! the matter takes up at the limit it gives back on the same way.
 //!
 //! Elastic energy of the deviator is no heat. The block books the work of the whole stress as stored, less
-//! what was dissipated, and begins with E of the start, so the books close by construction; E itself is
+//! what was dissipated, and begins with E of the start, so the ledger close by construction; E itself is
 //! stored plus dissipated plus viscous energy, less the deviator's elastic part.
 
 use super::{Equation, Terms};
@@ -94,20 +94,20 @@ where
     }
 
     fn respond(&self, level: Level, points: Points<'_>) {
-        let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, room } = points;
+        let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, scratch } = points;
         let (inner, count) = (self.law.state_width(), strain.len() / <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS);
         let width = inner + OWN;
         // The law's history lies between that of the equation: it gets a copy in one piece.
-        let (room, nested) = room.split(count * inner);
+        let (scratch, nested) = scratch.split(count * inner);
         for p in 0..count {
-            room[p * inner..(p + 1) * inner].copy_from_slice(&state[p * width..p * width + inner]);
+            scratch[p * inner..(p + 1) * inner].copy_from_slice(&state[p * width..p * width + inner]);
         }
         self.law.respond(
             level,
-            Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state: room, response, room: nested },
+            Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state: scratch, response, scratch: nested },
         );
         for p in 0..count {
-            state[p * width..p * width + inner].copy_from_slice(&room[p * inner..(p + 1) * inner]);
+            state[p * width..p * width + inner].copy_from_slice(&scratch[p * inner..(p + 1) * inner]);
         }
         level.run(Replace { owner: self, strain, volume_ratio, viscous_heat, stress, state, response });
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::material::points::{self, Points, RESPONSE, Room};
+use crate::material::points::{self, Points, RESPONSE, Scratch};
 use crate::material::registry;
 use crate::material::variable::DENSITY;
 use embate_lanes::{Batch, Level};
@@ -81,7 +81,7 @@ impl Point {
             stress: &mut self.stress,
             state: &mut self.state,
             response: &mut self.response,
-            room: &mut Room::default(),
+            scratch: &mut Scratch::default(),
         };
         self.law.respond(Level::SCALAR, points);
         let middle = 0.5 * (self.ratio + ratio);
@@ -277,7 +277,7 @@ fn every_instruction_set_gives_the_same_bits() {
                     stress: &mut point.stress,
                     state: &mut point.state,
                     response: &mut point.response,
-                    room: &mut Room::default(),
+                    scratch: &mut Scratch::default(),
                 };
                 point.law.respond(level, points);
             }

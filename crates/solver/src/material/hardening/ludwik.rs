@@ -30,7 +30,7 @@ impl Power {
         Self { strength, exponent, chord, free: 2.0 * end }
     }
 
-    /// The term; where the chord is or is near, nobody knows how far it goes on.
+    /// The term; where the chord is or is near, no one knows how far it continues.
     #[inline(always)]
     pub(crate) fn flow<L: Lane>(&self, plastic: L) -> Flow<L> {
         let power = L::splat(self.strength) * math::pow(plastic, L::splat(self.exponent));
@@ -75,7 +75,7 @@ impl Hardening for Ludwik {
         ],
     };
 
-    type Kept<L: Lane> = [L; 2];
+    type ArchiveResult<L: Lane> = [L; 2];
 
     fn new(parameters: &Parameters<'_>, shear: f64) -> Self {
         let power = Power::new(parameters.value("strength"), parameters.value("hardening_exponent"), shear);

@@ -34,7 +34,7 @@ pub trait Hardening: Copy + Send + Sync + 'static {
     const KIND: LawKind;
     /// What a point keeps of [`Hardening::flow`] where it is: all of it, `[L; 2]`, or, where it costs next to
     /// nothing, nothing, `[L; 0]`.
-    type Kept<L: Lane>: Kept<L>;
+    type ArchiveResult<L: Lane>: ArchiveResult<L>;
     /// Whether [`Flow::reach`] is ever more than 0: the return then takes the curvature with it.
     const CURVED: bool = true;
 
@@ -67,7 +67,7 @@ pub trait Hardening: Copy + Send + Sync + 'static {
     }
 }
 
-/// A flow stress and how it goes on.
+/// A flow stress and how it continues.
 #[derive(Clone, Copy, Debug)]
 pub struct Flow<L> {
     /// σ_y, Pa.
@@ -77,7 +77,7 @@ pub struct Flow<L> {
     /// d²σ_y/dε_p², Pa.
     pub curvature: L,
     /// Plastic strain within half of which there is no kink and the curvature changes by no more than its
-    /// part of this; 0: nobody knows.
+    /// part of this; 0: no one knows.
     pub reach: L,
 }
 
@@ -90,7 +90,7 @@ impl<L: Lane> Flow<L> {
         [L::select(live, stress, before[0]), L::select(live, slope, before[1])]
     }
 
-    /// Of a stress that falls: stress and slope zero where it would be negative, a kink that is not told.
+    /// Of a stress that falls: stress and slope zero where it would be negative, a kink that is not reported.
     #[inline(always)]
     fn not_negative(self) -> Self {
         let zero = L::splat(0.0);
@@ -100,14 +100,14 @@ impl<L: Lane> Flow<L> {
 
 /// The flow stress and its slope at the plastic strain that a point has, kept from the step that led there: a
 /// power or an exponential less in every step.
-pub trait Kept<L: Lane>: State<L> {
+pub trait ArchiveResult<L: Lane>: State<L> {
     /// Keeps them.
     fn new(flow: [L; 2]) -> Self;
     /// Gives them back.
     fn flow<H: Hardening>(&self, hardening: &H, plastic: L) -> [L; 2];
 }
 
-impl<L: Lane> Kept<L> for [L; 0] {
+impl<L: Lane> ArchiveResult<L> for [L; 0] {
     #[inline(always)]
     fn new(_flow: [L; 2]) -> Self {
         []
@@ -119,7 +119,7 @@ impl<L: Lane> Kept<L> for [L; 0] {
     }
 }
 
-impl<L: Lane> Kept<L> for [L; 2] {
+impl<L: Lane> ArchiveResult<L> for [L; 2] {
     #[inline(always)]
     fn new(flow: [L; 2]) -> Self {
         flow

@@ -39,7 +39,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn axes_are_right_handed_and_those_of_space_are_exact() {
+    fn axes_are_right_handed_and_those_of_3d_are_exact() {
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         for (direction, expected) in [(z, [x, y, z]), (x, [y, z, x]), (y, [z, x, y])] {
             assert_eq!(Axes::along(direction.map(|d| 3.0 * d)).0, expected);

@@ -32,7 +32,8 @@ pub(super) const KEY: Key = shape_key("box", &SECTION, "An axis-parallel box: a 
 
 static SECTION: Section = Section {
     name: "box",
-    doc: "An axis-parallel box of hexahedra; its sides are `left` and `right` (along x), `bottom` and `top` (along y), `back` and `front` (along z).",
+    doc: "An axis-parallel box of hexahedra; its sides are `left` and `right` (along x), `bottom` and `top` (along \
+        y), `back` and `front` (along z).",
     keys: &[
         key("corner", Spatial(Dimension::LENGTH, Finite), Required, "Corner with the lowest coordinates."),
         key("size", Spatial(Dimension::LENGTH, Positive), Required, "Lengths along x, y and z."),

@@ -40,7 +40,8 @@ pub(super) const KEY: Key = shape_key("cylinder", &SECTION, "A full cylinder, or
 
 static SECTION: Section = Section {
     name: "cylinder",
-    doc: "A full cylinder of hexahedra, or one, two or three quarters of one; its sides are `outer`, of a part of one also `start` and `end`, and `bottom` and `top` where its axis begins and ends.",
+    doc: "A full cylinder of hexahedra, or one, two or three quarters of one; its sides are `outer`, of a part of \
+        one also `start` and `end`, and `bottom` and `top` where its axis begins and ends.",
     keys: &[
         key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre of the bottom."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
@@ -56,7 +57,8 @@ static SECTION: Section = Section {
             "angle",
             Angle(Dimension::NONE, Positive),
             Written("\"360 deg\""),
-            "90, 180, 270 or 360 degrees around the axis by the right-hand rule: from x where the axis is z, from y where it is x, from z where it is y.",
+            "90, 180, 270 or 360 degrees around the axis by the right-hand rule: from x where the axis is z, from y \
+                where it is x, from z where it is y.",
         ),
         key(
             "grading",

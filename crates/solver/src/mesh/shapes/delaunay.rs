@@ -327,7 +327,7 @@ impl<'a> Mesher<'a> {
         }
     }
 
-    /// How much too large or too thin a triangle is; `None`: it is good, or can't be mended.
+    /// How much too large or too thin a triangle is; `None`: it is good, or can't be fixed.
     fn badness(&self, nodes: [u32; 3]) -> Option<f64> {
         let edges = self.edge_of[nodes[0] as usize];
         if edges.is_some() && nodes.iter().all(|&node| self.edge_of[node as usize] == edges) {

@@ -122,7 +122,7 @@ impl Wrong {
 }
 
 /// The values of a table of the model file. What is not sound has become NaN or the largest count, or is
-/// empty: its fault is told already.
+/// empty: its fault is reported already.
 pub trait Values {
     /// Whether the table has the key.
     fn has(&self, key: &str) -> bool;
@@ -130,7 +130,7 @@ pub trait Values {
     fn number(&self, key: &str) -> f64;
     /// Two numbers, SI.
     fn vector(&self, key: &str) -> [f64; 2];
-    /// A vector of the plane or of space, SI.
+    /// A vector in 2D or 3D, SI.
     fn spatial(&self, key: &str) -> [f64; 3];
     /// Numbers, SI.
     fn numbers(&self, key: &str) -> Vec<f64>;
@@ -138,7 +138,7 @@ pub trait Values {
     fn points(&self, key: &str) -> Vec<[f64; 2]>;
     /// Lists of points, m.
     fn outlines(&self, key: &str) -> Vec<Vec<[f64; 2]>>;
-    /// Lists of points of space, m.
+    /// Lists of points in 3D, m.
     fn spatial_outlines(&self, key: &str) -> Vec<Vec<[f64; 3]>>;
     /// A whole number.
     fn count(&self, key: &str) -> usize;
@@ -189,7 +189,7 @@ impl dyn ShapeCheck + '_ {
     }
 }
 
-/// A shape that makes its own mesh, in the plane or in space.
+/// A shape that makes its own mesh, in 2D or 3D.
 pub(crate) trait BuiltIn<const D: usize = 2>
 where
     Dim<D>: Meshed<D>,
@@ -198,7 +198,7 @@ where
     fn read(values: &dyn Values) -> Self
     where
         Self: Sized;
-    /// Tells all faults that need no mesh; ranges of numbers are those of the keys.
+    /// Reports all faults that need no mesh; ranges of numbers are those of the keys.
     fn check(&self, check: &mut dyn ShapeCheck);
     /// Names of the sides that [`BuiltIn::body`] makes.
     fn sides(&self) -> Vec<String>;
@@ -258,7 +258,7 @@ macro_rules! shapes {
         })*
 
         impl Shape {
-            /// The built-in shape of the plane, and the key of a part that has its table; `None` for all
+            /// The built-in shape in 2D, and the key of a part that has its table; `None` for all
             /// others.
             pub(crate) fn built_in(&self) -> Option<(&dyn BuiltIn, &'static str)> {
                 match self {
@@ -268,7 +268,7 @@ macro_rules! shapes {
                 }
             }
 
-            /// The built-in shape of space, and the key of a part that has its table; `None` for all others.
+            /// The built-in shape in 3D, and the key of a part that has its table; `None` for all others.
             pub(crate) fn solid(&self) -> Option<(&dyn BuiltIn<3>, &'static str)> {
                 match self {
                     $(Self::$solid(shape) => Some((shape, $solid_module::KEY.name)),)*
@@ -277,7 +277,7 @@ macro_rules! shapes {
             }
 
             /// Whether a key of a part says that it is a solid: a solid shape, or what makes one of a shape
-            /// of the plane.
+            /// in 2D.
             #[must_use]
             pub fn is_solid_key(name: &str) -> bool {
                 ["extrude", "revolve", $($solid_module::KEY.name),*].contains(&name)
@@ -384,13 +384,13 @@ impl Part {
         Some(one.times(self.placement.copies.map_or(1, |copies| copies.count)))
     }
 
-    /// Its body in the plane, placed; `None` for a group of a mesh file.
+    /// Its body in 2D, placed; `None` for a group of a mesh file.
     pub(super) fn plane_body(&self) -> Option<Result<Body, Fault>> {
         let (shape, key) = self.shape.built_in()?;
         Some(shape.body().map(|body| self.placement.applied(body)).map_err(|wrong| wrong.at(key)))
     }
 
-    /// Its body in space, placed; `None` for a group of a mesh file.
+    /// Its body in 3D, placed; `None` for a group of a mesh file.
     pub(super) fn solid_body(&self) -> Option<Result<Body<3>, Fault>> {
         let body = if let Some((shape, key)) = self.shape.solid() {
             shape.body().map_err(|wrong| wrong.at(key))
@@ -436,7 +436,9 @@ const MESH: Key = shape_key("mesh", &MESH_SECTION, "A group of a mesh file.");
 
 static MESH_SECTION: Section = Section {
     name: "mesh",
-    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1, of space if it has a group of volumes; Abaqus or CalculiX `.inp`), triangles, wedges and tetrahedra too. Its other groups can be named in contacts, constraints and probes.",
+    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1, 3D if it has a group of volumes; Abaqus or CalculiX \
+        `.inp`), triangles, wedges and tetrahedra too. Its other groups can be named in contacts, constraints and \
+        probes.",
     form: Form::Inline,
     required: false,
     keys: &[

@@ -48,8 +48,8 @@ static SECTION: Section = Section {
 
 /// A piece of the path.
 enum Piece {
-    /// A straight line, and at either end where the strip goes on the right by unit of width (the normal, or
-    /// the mitre).
+    /// A straight line, and at either end where the strip continues the right by unit of width (the normal,
+    /// or the mitre).
     Straight { ends: [[f64; 2]; 2], right: [[f64; 2]; 2] },
     /// A bend: its centre, where it begins, and the angle, quarter turns counter-clockwise.
     Bend { centre: [f64; 2], from: [f64; 2], turn: f64 },
@@ -132,7 +132,8 @@ impl Path {
             if rest < 1e-9 * length {
                 let [a, b] = [self.points[k], self.points[next]];
                 let message = format!(
-                    "the bends at both ends of the part from ({:.6e}, {:.6e}) to ({:.6e}, {:.6e}) m take {:.6e} m, more than its length of {length:.6e} m",
+                    "the bends at both ends of the part from ({:.6e}, {:.6e}) to ({:.6e}, {:.6e}) m take {:.6e} m, \
+                        more than its length of {length:.6e} m",
                     a[0],
                     a[1],
                     b[0],

@@ -46,7 +46,8 @@ pub(super) const KEY: Key = shape_key("ring", &SECTION, "A ring or a sector of o
 
 static SECTION: Section = Section {
     name: "ring",
-    doc: "A ring, or a sector of one, counter-clockwise from `from` to `to`; its sides are `inner` and `outer` and, for a sector, `start` and `end`.",
+    doc: "A ring, or a sector of one, counter-clockwise from `from` to `to`; its sides are `inner` and `outer` and, \
+        for a sector, `start` and `end`.",
     keys: &[
         key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
         key("inner", Quantity(Dimension::LENGTH, Positive), Required, "Inner radius."),
@@ -65,7 +66,7 @@ static SECTION: Section = Section {
 };
 
 impl Ring {
-    /// Tells faults of radii and angles.
+    /// Reports faults of radii and angles.
     pub(super) fn check_radii(&self, check: &mut dyn ShapeCheck) {
         let Self { inner, outer, from, to, .. } = *self;
         for (key, value) in [("inner", inner), ("outer", outer), ("from", from), ("to", to)] {

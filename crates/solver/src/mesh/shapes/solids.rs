@@ -1,4 +1,4 @@
-//! Contract tests of solids: every shape of space, and every shape of the plane that is pulled or turned.
+//! Contract tests of solids: every shape in 3D, and every shape in 2D that is pulled or turned.
 
 use super::*;
 use crate::mesh::Mesh;
@@ -110,7 +110,7 @@ fn section(body: &Body) -> [f64; 2] {
 }
 
 #[test]
-fn every_shape_of_the_plane_becomes_a_solid() {
+fn every_shape_of_2d_becomes_a_solid() {
     for (shape, _) in [3, 7].iter().flat_map(|&n| Shape::examples(n)) {
         let plane = shape.built_in().unwrap().0.body().unwrap();
         let extrude = Sweep::Extrude(Extrude { from: -0.5, length: 2.0, elements: 3, grading: 2.0 });
@@ -166,7 +166,7 @@ fn elements_with_a_side_on_the_axis_become_wedges_and_tetrahedra() {
 }
 
 #[test]
-fn what_can_not_be_turned_is_told_with_the_place() {
+fn what_can_not_be_turned_is_reported_with_the_place() {
     let wrong = |section: &Body, revolve: Revolve| Sweep::Revolve(revolve).swept(section).unwrap_err().message;
     let square = rectangle([0.0, 0.0], [1.0, 1.0], [1, 1]);
     assert!(wrong(&square, Revolve { axis: [1.0, 1.0], ..Revolve::default() }).contains("both sides of the axis"));
@@ -272,7 +272,7 @@ fn erosion_uncovers_what_was_behind() {
 }
 
 #[test]
-fn an_element_that_is_inside_out_is_told_with_its_number_and_place() {
+fn an_element_that_is_inside_out_is_reported_with_its_number_and_place() {
     let cells: BTreeMap<&str, Vec<u32>> = [("good", vec![0, 1, 2, 3]), ("bad", vec![0, 2, 1, 3])].into();
     for (name, cell) in cells {
         let group = |name: &str, dimension, cells| MeshGroup { name: name.into(), dimension, cells };
@@ -287,11 +287,11 @@ fn an_element_that_is_inside_out_is_told_with_its_number_and_place() {
         match Mesh::<3>::new(&model) {
             Ok(mesh) => assert!(name == "good" && mesh.groups[0].kind == CellKind::Tetrahedron),
             Err(faults) => {
-                let told = &faults[0].message;
+                let reported = &faults[0].message;
                 assert!(
                     name == "bad"
-                        && told.contains("element 0")
-                        && told.contains("(0.000000e0, 0.000000e0, 0.000000e0) has negative volume")
+                        && reported.contains("element 0")
+                        && reported.contains("(0.000000e0, 0.000000e0, 0.000000e0) has negative volume")
                 );
             }
         }

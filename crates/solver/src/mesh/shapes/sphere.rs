@@ -43,7 +43,8 @@ pub(super) const KEY: Key = shape_key("sphere", &SECTION, "A full sphere, or a h
 
 static SECTION: Section = Section {
     name: "sphere",
-    doc: "A full sphere of hexahedra, or a part of one; its side is `outer`, where it is cut also `left` (across x), `bottom` (across y) and `back` (across z).",
+    doc: "A full sphere of hexahedra, or a part of one; its side is `outer`, where it is cut also `left` (across x), \
+        `bottom` (across y) and `back` (across z).",
     keys: &[
         key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),

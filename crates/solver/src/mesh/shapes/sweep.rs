@@ -1,4 +1,4 @@
-//! What makes a body of space from a shape of the plane: it is pulled along z, or turned about a line of the
+//! What makes a body in 3D from a shape in 2D: it is pulled along z, or turned about a line of the
 //! plane.
 //!
 //! Sections come from the shapes and mesh files; bodies of hexahedra, wedges and tetrahedra go back to where
@@ -68,7 +68,8 @@ impl Default for Revolve {
 
 pub(crate) static EXTRUDE: Section = Section {
     name: "extrude",
-    doc: "The shape of the plane becomes a solid: it is pulled along z. Quadrilaterals become hexahedra, triangles become wedges. Its sides keep their names; the section at `from` is the side `back`, the other end `front`.",
+    doc: "The 2D shape becomes a solid: it is extruded along z. Quadrilaterals become hexahedra, triangles become \
+        wedges. Its sides keep their names; the section at `from` is the side `back`, the other end `front`.",
     keys: &[
         key("length", Quantity(Dimension::LENGTH, Positive), Required, "Length along z."),
         key(ELEMENTS, Integer(1), Required, "Elements along z."),
@@ -80,7 +81,9 @@ pub(crate) static EXTRUDE: Section = Section {
 
 pub(crate) static REVOLVE: Section = Section {
     name: "revolve",
-    doc: "The shape of the plane becomes a solid: it is turned about a line of the plane, towards z first. Where it has an edge on the line, quadrilaterals become wedges and triangles tetrahedra. Its sides keep their names; unless it is turned all around, the section as it is drawn is the side `back`, the other end `front`.",
+    doc: "The 2D shape becomes a solid: it is revolved about a line of the x-y plane, towards z first. Where it has \
+        an edge on the line, quadrilaterals become wedges and triangles tetrahedra. Its sides keep their names; \
+        unless it is turned all around, the section as it is drawn is the side `back`, the other end `front`.",
     keys: &[
         key("angle", Angle(Dimension::NONE, UpTo(0.0, TAU + 1e-9)), Written("\"360 deg\""), "Angle by which it is turned."),
         key(ELEMENTS, Integer(1), Required, "Elements around; at least 3 all around."),
@@ -316,7 +319,7 @@ impl Sweep {
         Ok(body)
     }
 
-    /// The mesh that a mesh of the plane becomes: groups of surfaces become volumes, of lines surfaces, of
+    /// The mesh that a mesh in 2D becomes: groups of surfaces become volumes, of lines surfaces, of
     /// points sets of nodes. Nodes that groups share, they still share. With it the two ends of each group of
     /// surfaces, by its place among the groups.
     pub(in crate::mesh) fn swept_mesh(&self, section: &ImportedMesh, wanted: &[&str]) -> Result<SweptMesh, Wrong> {
@@ -351,7 +354,7 @@ impl Sweep {
     }
 }
 
-/// A mesh of space that came from one of the plane.
+/// A mesh in 3D that came from one of the plane.
 #[derive(Default)]
 pub(in crate::mesh) struct SweptMesh {
     pub(in crate::mesh) mesh: ImportedMesh,

@@ -41,7 +41,7 @@ static SECTION: Section = Section {
     ..Section::EMPTY
 };
 
-/// Lines between points, of the plane or of space.
+/// Lines between points, in 2D or 3D.
 pub(super) struct Net<const D: usize> {
     /// Each once.
     points: Vec<[f64; D]>,

@@ -42,7 +42,8 @@ pub(super) const KEY: Key = shape_key("tube", &SECTION, "A tube, or a sector of 
 
 static SECTION: Section = Section {
     name: "tube",
-    doc: "A tube of hexahedra, or a sector of one; its sides are `inner` and `outer`, of a sector also `start` and `end`, and `bottom` and `top` where its axis begins and ends.",
+    doc: "A tube of hexahedra, or a sector of one; its sides are `inner` and `outer`, of a sector also `start` and \
+        `end`, and `bottom` and `top` where its axis begins and ends.",
     keys: &[
         key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre of the bottom."),
         key("inner", Quantity(Dimension::LENGTH, Positive), Required, "Inner radius."),
@@ -54,7 +55,8 @@ static SECTION: Section = Section {
             "from",
             Angle(Dimension::NONE, Finite),
             Written("0"),
-            "Angle at which it begins, around the axis by the right-hand rule: from x where the axis is z, from y where it is x, from z where it is y.",
+            "Angle at which it begins, around the axis by the right-hand rule: from x where the axis is z, from y \
+                where it is x, from z where it is y.",
         ),
         key(
             "to",

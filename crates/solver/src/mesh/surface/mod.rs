@@ -1,9 +1,9 @@
-//! The outside of bodies, and what a piece of it is: a segment of two nodes in the plane, a facet of three or
-//! four in space.
+//! The outside of bodies, and what a piece of it is: a segment of two nodes in 2D, a facet of three or
+//! four in 3D.
 //!
 //! Cells come from the shapes and mesh files; surfaces go to contact, loads and boundaries. What is written
-//! once for both dimensions sees [`Corners`] and [`Sided`]; what differs in kind (chains in the plane, edges
-//! and fans in space) is in `plane.rs` and `space.rs`.
+//! once for both dimensions sees [`Corners`] and [`Sided`]; what differs in kind (chains in 2D, edges
+//! and fans in 3D) is in `plane.rs` and `space.rs`.
 
 mod plane;
 mod space;
@@ -153,15 +153,15 @@ impl Sided for SpaceSurface {
     }
 }
 
-/// Outside pieces of `cells` (in the plane 3 or 4 nodes each, counter-clockwise; in space tetrahedra, wedges
+/// Outside pieces of `cells` (in 2D 3 or 4 nodes each, counter-clockwise; in 3D tetrahedra, wedges
 /// and hexahedra): those that occur once, with the body on the right of a segment and behind a facet.
 ///
-/// Order in the plane: closed chains one after another, each following its own element fans, beginning with
-/// its lowest node; chains by that node. In space: by the nodes of the facets, of which the lowest is the
+/// Order in 2D: closed chains one after another, each following its own element fans, beginning with
+/// its lowest node; chains by that node. In 3D: by the nodes of the facets, of which the lowest is the
 /// first.
 ///
 /// # Errors
-/// A fault that names nodes when a cell is not one of these or has a node twice, when an edge (in space a
+/// A fault that names nodes when a cell is not one of these or has a node twice, when an edge (in 3D a
 /// facet) belongs to more than two cells, or to two cells that have it in the same direction (one of them is
 /// inside out, or they overlap).
 pub fn exterior<'a, const D: usize>(cells: impl IntoIterator<Item = Cell<'a>, IntoIter: Clone>) -> Result<Vec<Facet<D>>, Fault>

@@ -1,4 +1,4 @@
-//! The outside of bodies in the plane: element edges that occur once, oriented with the body on their right
+//! The outside of bodies in 2D: element edges that occur once, oriented with the body on their right
 //! and linked to chains.
 //!
 //! Cells come from the shapes and mesh files; surfaces go to contact. Where corners of bodies, or two corners
@@ -11,7 +11,7 @@ use crate::mesh::cell::Cell;
 use crate::mesh::messages::{BAD_ELEMENT, NOT_A_SURFACE, OVERLAP};
 use crate::rows::Rows;
 
-/// An oriented surface in the plane. Segment `[a, b]` runs a → b with the body on its right.
+/// An oriented surface in 2D. Segment `[a, b]` runs a → b with the body on its right.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlaneSurface {
     /// Node pairs.
@@ -146,7 +146,7 @@ impl Edges {
                     &OVERLAP,
                     "",
                     format!("the edge between nodes {a} and {b} belongs to {count} elements"),
-                    "in the plane an edge has at most two; remove elements that overlap or occur twice",
+                    "in 2D an edge has at most two; remove elements that overlap or occur twice",
                 )
             } else {
                 Fault::new(

@@ -1,8 +1,8 @@
-//! The outside of bodies in space: facets of elements that occur once, counter-clockwise seen from outside,
+//! The outside of bodies in 3D: facets of elements that occur once, counter-clockwise seen from outside,
 //! and linked across their edges.
 //!
 //! Cells come from the shapes and mesh files; surfaces go to contact and loads. Where two parts of an outside
-//! touch in an edge, each stays with its own fan of elements, as chains in the plane do at a node: the
+//! touch in an edge, each stays with its own fan of elements, as chains in 2D do at a node: the
 //! neighbour across an edge is the facet at the other end of the fan.
 
 use super::{Corners, NONE, named};
@@ -14,7 +14,7 @@ use crate::rows::Rows;
 use crate::tensor::{cross, dot};
 use crate::vector::minus;
 
-/// An edge of a surface in space.
+/// An edge of a surface in 3D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SurfaceEdge {
     /// Its nodes, in the direction in which its first facet has it.
@@ -24,7 +24,7 @@ pub struct SurfaceEdge {
     pub facets: [u32; 2],
 }
 
-/// An oriented surface in space. Facets are counter-clockwise seen from outside.
+/// An oriented surface in 3D. Facets are counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SpaceSurface {
     /// Nodes of each facet, the lowest first; a triangle repeats its last node.
@@ -36,7 +36,7 @@ pub struct SpaceSurface {
     /// Edge from each corner of each facet to the next one; the fourth of a triangle is [`NONE`].
     pub edges_of: Vec<[u32; 4]>,
     /// Edges at which the surface ends on a symmetry plane, and the unit normal of that, which points to the
-    /// body: its image goes on there. Ascending.
+    /// body: its image continues there. Ascending.
     pub mirrors: Vec<(u32, [f64; 3])>,
     /// Facets at each of `nodes`, ascending.
     around: Rows<u32>,

@@ -56,12 +56,12 @@ pub trait Tributary<const D: usize>: Meshed<D> {
     /// A direction and an area for each corner.
     type Presses: AsRef<[([f64; D], f64)]> + Copy;
 
-    /// Area that each node of a piece stands for: ∫ N_a dA, m² (in the plane m²/m, see [`Depth::shares`]).
+    /// Area that each node of a piece stands for: ∫ N_a dA, m² (in 2D m²/m, see [`Depth::shares`]).
     fn shares(depth: Depth, facet: Self::Facet, positions: &[[f64; D]]) -> Self::Shares;
 
     /// What a pressure of one does at each node: −∫ N_a n dA as a vector that points inwards, and a factor on
     /// it; the product of the two is meant. A closed surface under a constant pressure feels no resultant,
-    /// and in space no moment, but round-off. Zero where a piece has no size.
+    /// and in 3D no moment, but round-off. Zero where a piece has no size.
     fn presses(depth: Depth, facet: Self::Facet, positions: &[[f64; D]]) -> Self::Presses;
 
     /// `across` n nᵀ + `along` (I − n nᵀ) with the normal n of a piece: a resistance to motion across it, and
@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn in_the_plane_a_pressure_acts_along_the_normal_on_each_nodes_share() {
+    fn in_2d_a_pressure_acts_along_the_normal_on_each_nodes_share() {
         let positions = [[1.0, 0.0], [4.0, 4.0]];
         for depth in [Depth::Plane, Depth::Revolution] {
             let presses = Dim::<2>::presses(depth, [0, 1], &positions);

@@ -2,7 +2,7 @@
 //! with rotations must do, whatever the elements are that use it.
 
 use super::*;
-use crate::archive::{Archive, Kept};
+use crate::archive::{Archive, ArchiveResult};
 use crate::block::{ElementState, Initial, Motion, NodalForces, Report, Wrong};
 use crate::build;
 use crate::failure::Criterion;
@@ -38,8 +38,8 @@ impl<const D: usize> Frame<D> {
 /// Energy of a beam, the force on its second node, and the moments on both.
 type Answer<const D: usize> = (f64, [f64; D], [[f64; 3]; 2]);
 
-/// A stretch l of the mean direction, a slide s across it, and a bend δ: W = ½ (a (l − L)² + c s² + b δ²) with
-/// l = t·Δx, s = n·Δx, t and n those of the mean angle from the start.
+/// A stretch l of the mean direction, a slide s across it, and a bend δ: W = ½ (a (l − L)² + c s² + b δ²)
+/// with l = t·Δx, s = n·Δx, t and n those of the mean angle from the start.
 fn beam_of_2d(start: [f64; 2], vector: [f64; 2], [one, two]: [f64; 2]) -> Answer<2> {
     let (a, b, c) = (40.0, 3.0, 15.0);
     let length = dot(start, start).sqrt();
@@ -157,7 +157,7 @@ where
     fn report(&self, _: &[[f64; D]]) -> Report {
         self.report
     }
-    fn keep(&mut self, _: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, _: &mut Archive<'_>) -> ArchiveResult {
         Ok(())
     }
 }
@@ -226,7 +226,7 @@ where
 }
 
 #[test]
-fn a_frame_that_flies_and_spins_keeps_both_momenta_and_its_energy_in_the_plane() {
+fn a_frame_that_flies_and_spins_keeps_both_momenta_and_its_energy_in_2d() {
     let truss = Truss { lines: vec![BENT.to_vec()], elements: 1 };
     let mut part = bars("frame", truss);
     (part.velocity, part.spin) = ([0.4, -0.2, 0.0], 1.5);
@@ -243,7 +243,7 @@ fn a_frame_that_flies_and_spins_keeps_both_momenta_and_its_energy_in_the_plane()
 }
 
 #[test]
-fn a_frame_that_flies_and_spins_keeps_both_momenta_and_its_energy_in_space() {
+fn a_frame_that_flies_and_spins_keeps_both_momenta_and_its_energy_in_3d() {
     let truss = SpaceTruss { lines: vec![BENT_3D.to_vec()], elements: 1 };
     let mut part = bars("frame", truss);
     (part.velocity, part.spin) = ([0.4, -0.2, 0.1], 1.5);
@@ -381,7 +381,7 @@ fn half_a_frame_with_a_symmetry_does_what_the_whole_does() {
 }
 
 #[test]
-fn in_space_a_symmetry_leaves_the_spin_about_its_normal_alone() {
+fn in_3d_a_symmetry_leaves_the_spin_about_its_normal_alone() {
     let held = held_by::<3>(&[[0.0, 0.6, 0.8]]);
     let spin = held.apply([1.0, 2.0, 3.0]);
     let along = 0.6 * 2.0 + 0.8 * 3.0;
@@ -427,7 +427,7 @@ fn two_frames_that_are_joined_move_as_one() {
 }
 
 #[test]
-fn a_state_that_is_kept_and_filled_in_goes_on_with_the_same_bits() {
+fn a_state_that_is_kept_and_filled_in_continues_with_the_same_bits() {
     let made = || {
         let mut part = bars("frame", SpaceTruss { lines: vec![BENT_3D.to_vec()], elements: 1 });
         part.spin = 1.5;
@@ -439,11 +439,11 @@ fn a_state_that_is_kept_and_filled_in_goes_on_with_the_same_bits() {
     let (mut first, mut second) = (made(), made());
     (0..300).for_each(|_| first.step().unwrap());
     let mut archive = Archive::new();
-    first.keep(&mut archive).unwrap();
+    first.persist(&mut archive).unwrap();
     let sections = archive.finish().unwrap();
     assert!(sections.iter().any(|section| section.name == "rotations"));
     let mut archive = Archive::of(&sections);
-    second.keep(&mut archive).unwrap();
+    second.persist(&mut archive).unwrap();
     archive.finish().unwrap();
     assert_eq!(first.rotations.now, second.rotations.now);
     (0..300).for_each(|_| [&mut first, &mut second].into_iter().for_each(|system| system.step().unwrap()));

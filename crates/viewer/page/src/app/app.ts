@@ -28,27 +28,27 @@ export class App {
   private pollTimer = 0;
   private polling = false;
 
-  constructor(readonly told: Runs, readonly requests: Requests) {
-    const good = told.runs.map((run, index) => ({ run, index })).filter((one): one is { run: Run; index: number } => !("fault" in one.run));
+  constructor(readonly served: Runs, readonly requests: Requests) {
+    const good = served.runs.map((run, index) => ({ run, index })).filter((one): one is { run: Run; index: number } => !("fault" in one.run));
     this.sessions = good.map(({ run, index }) => new Session(index, run, requests, this.store, this.events));
     const runs = this.sessions.map((session) => session.run);
     this.first = firstView(runs);
-    const text = location.hash.length > 1 ? location.hash : told.view;
+    const text = location.hash.length > 1 ? location.hash : served.view;
     this.view = viewOf(text, this.first, runs[0]!);
-    this.live = told.live && this.sessions[0] ? new Live(this.sessions[0], requests, this.events) : null;
+    this.live = served.live && this.sessions[0] ? new Live(this.sessions[0], requests, this.events) : null;
     this.player = new Player(this);
   }
 
   start(): void {
     this.requests.onConnection = (connection) => {
       if (connection === "open") void this.poll(true);
-      this.events.tell("connection");
+      this.events.emit("connection");
     };
     window.addEventListener("hashchange", () => {
       if (location.hash.slice(1) === viewText(this.view, this.first)) return;
       this.view = { ...viewOf(location.hash, this.first, this.sessions[0]!.run), playing: false };
-      this.events.tell("view");
-      this.events.tell("theme");
+      this.events.emit("view");
+      this.events.emit("theme");
       this.player.update();
     });
     if (this.live) {
@@ -78,8 +78,8 @@ export class App {
   change(part: Partial<View>): void {
     const theme = part.theme !== undefined && part.theme !== this.view.theme;
     this.view = { ...this.view, ...part };
-    this.events.tell("view");
-    if (theme) this.events.tell("theme");
+    this.events.emit("view");
+    if (theme) this.events.emit("theme");
     this.player.update();
     this.address();
   }
@@ -93,7 +93,7 @@ export class App {
 
   say(text: string, alert = false): void {
     this.note = { text, alert };
-    this.events.tell("message");
+    this.events.emit("message");
   }
 
   /** The view's text goes into the address, not more often than browsers like. */
@@ -132,7 +132,7 @@ export class App {
         session.run = run;
         void session.loadHistory();
       }
-      this.events.tell("run");
+      this.events.emit("run");
       this.player.update();
     } catch (fault) {
       if (!(fault instanceof Gone)) this.say((fault as Error).message, true);

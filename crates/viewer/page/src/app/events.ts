@@ -2,12 +2,12 @@
 
 /** view: something of the view changed; shown: other frames are on the screen; run: runs' data are newer; history: histories are newer;
  * range: the colours' range is known; live: progress of a live run; message: a text for the user; connection; probe: values of probes arrived. */
-export type Happening = "view" | "shown" | "run" | "history" | "range" | "live" | "message" | "connection" | "probe" | "theme";
+export type Topic = "view" | "shown" | "run" | "history" | "range" | "live" | "message" | "connection" | "probe" | "theme";
 
 export class Events {
-  private listeners = new Map<Happening, (() => void)[]>();
+  private listeners = new Map<Topic, (() => void)[]>();
 
-  on(names: Happening | Happening[], listener: () => void): void {
+  on(names: Topic | Topic[], listener: () => void): void {
     for (const name of Array.isArray(names) ? names : [names]) {
       const list = this.listeners.get(name) ?? [];
       list.push(listener);
@@ -15,7 +15,7 @@ export class Events {
     }
   }
 
-  tell(name: Happening): void {
+  emit(name: Topic): void {
     for (const listener of this.listeners.get(name) ?? []) listener();
   }
 }

@@ -58,7 +58,7 @@ function legendInto(app: App, pane: Pane, context: CanvasRenderingContext2D, x: 
   drawLegend(context, data, x + Math.max(0, place.left - box.left + 8) * unit, y + Math.max(0, place.top - box.top + 6) * unit, height, unit, ink);
 }
 
-/** Canvases of the pictures with `factor` times their pixels while `action` goes on. */
+/** Canvases of the pictures with `factor` times their pixels while `action` continues. */
 async function enlarged<T>(stage: Stage, factor: number, action: () => Promise<T>): Promise<T> {
   const viewports = stage.panes.map((pane) => pane.viewport as (Pane["viewport"] & { setPixels?: (factor: number) => void }) | null);
   for (const viewport of viewports) viewport?.setPixels?.(factor);
@@ -85,8 +85,8 @@ export async function savePicture(app: App, stage: Stage): Promise<void> {
   }
 }
 
-/** Records the whole run, in so many seconds; `told` hears how far it is; ends early when `left` says so. */
-export async function film(app: App, stage: Stage, seconds: number, told: (part: number) => void, left: () => boolean): Promise<Blob> {
+/** Records the whole run, in so many seconds; `reported` hears how far it is; ends early when `left` says so. */
+export async function film(app: App, stage: Stage, seconds: number, progress: (part: number) => void, left: () => boolean): Promise<Blob> {
   const type = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((t) => typeof MediaRecorder !== "undefined" && MediaRecorder.isTypeSupported(t));
   if (!type) throw new Error("this browser cannot record WebM");
   const before = app.view;
@@ -114,7 +114,7 @@ export async function film(app: App, stage: Stage, seconds: number, told: (part:
       const length = i === times.length - 1 ? 0.5 : Math.max(1 / 60, share * seconds);
       await new Promise((done) => setTimeout(done, 1000 * length));
       compose(app, stage, canvas, 1);
-      told((i + 1) / times.length);
+      progress((i + 1) / times.length);
     }
   } finally {
     recorder.stop();

@@ -13,7 +13,7 @@ export class Live {
   ended: Extract<LiveMessage, { kind: "ended" }> | null = null;
   notices: Warning[] = [];
   /** What the last command led to. */
-  told: { text: string; refused: boolean } | null = null;
+  notice: { text: string; refused: boolean } | null = null;
   connected = false;
   private socket: WebSocket | null = null;
   private wanted = "";
@@ -33,39 +33,39 @@ export class Live {
       this.connected = true;
       this.tries = 0;
       if (this.wanted !== "") socket.send(this.wanted);
-      this.events.tell("live");
+      this.events.emit("live");
     };
     socket.onmessage = (message: MessageEvent<ArrayBuffer | string>) => {
-      if (typeof message.data === "string") this.hear(JSON.parse(message.data) as LiveMessage);
+      if (typeof message.data === "string") this.onMessage(JSON.parse(message.data) as LiveMessage);
       else void this.take(message.data);
     };
     socket.onclose = () => {
       if (this.socket !== socket) return;
       this.connected = false;
       this.socket = null;
-      this.events.tell("live");
+      this.events.emit("live");
       if (this.ended) return;
       void this.requests.ask();
       window.setTimeout(() => this.open(), Math.min(5000, 500 * 1.6 ** this.tries++));
     };
   }
 
-  private hear(message: LiveMessage): void {
+  private onMessage(message: LiveMessage): void {
     if (message.kind === "progress") this.progress = message;
     else if (message.kind === "notices") {
       for (const notice of message.notices) {
         if (!this.notices.some((known) => known.code === notice.code && known.text === notice.text)) this.notices.push(notice);
       }
-      this.events.tell("message");
+      this.events.emit("message");
     } else if (message.kind === "kept" || message.kind === "refused") {
-      this.told = { text: message.text, refused: message.kind === "refused" };
-      this.events.tell("message");
+      this.notice = { text: message.text, refused: message.kind === "refused" };
+      this.events.emit("message");
     } else if (message.kind === "ended") {
       this.ended = message;
       if (!message.stays) this.requests.over();
-      this.events.tell("message");
+      this.events.emit("message");
     }
-    this.events.tell("live");
+    this.events.emit("live");
   }
 
   private async take(bytes: ArrayBuffer): Promise<void> {
@@ -75,8 +75,8 @@ export class Live {
       this.session.live = frame;
       await this.onFrame();
     } catch (fault) {
-      this.told = { text: `A live frame could not be shown: ${(fault as Error).message}`, refused: true };
-      this.events.tell("message");
+      this.notice = { text: `A live frame could not be shown: ${(fault as Error).message}`, refused: true };
+      this.events.emit("message");
     }
     this.send({ seen: true });
   }
@@ -90,9 +90,9 @@ export class Live {
   }
 
   command(command: "pause" | "resume" | "stop" | "checkpoint"): void {
-    this.told = null;
+    this.notice = null;
     this.send({ command });
-    this.events.tell("message");
+    this.events.emit("message");
   }
 
   private send(message: object): void {

@@ -17,7 +17,7 @@ export function liveBar(app: App): HTMLElement | null {
   const end = h("p", { class: "live-end", role: "status" });
   const said = h("p", { class: "live-said", role: "status" });
   const pause = h("button", { type: "button", class: "labelled", onclick: () => live.command(live.progress?.state === "paused" ? "resume" : "pause") });
-  const keep = h("button", { type: "button", class: "labelled", title: "Writes a checkpoint from which embate resume goes on", onclick: () => live.command("checkpoint") });
+  const keep = h("button", { type: "button", class: "labelled", title: "Writes a checkpoint from which embate resume continues", onclick: () => live.command("checkpoint") });
   keep.innerHTML = `${icons.keep}<span>Keep state</span>`;
   const stop = h("button", { type: "button", class: "labelled danger", onclick: () => void confirmStop().then((yes) => yes && live.command("stop")) });
   stop.innerHTML = `${icons.stop}<span>Stop</span>`;
@@ -66,12 +66,12 @@ export function liveBar(app: App): HTMLElement | null {
       const after = ended.stays ? "" : " The server has ended with it; what was loaded stays here.";
       setText(end, `${words}${ended.error ? ` ${ended.error.split("\n")[0]}` : ""}${after}`);
     }
-    said.hidden = live.told === null;
-    if (said.dataset["text"] !== (live.told?.text ?? "")) {
-      said.dataset["text"] = live.told?.text ?? "";
-      fill(said, ...prose(live.told?.text ?? ""));
+    said.hidden = live.notice === null;
+    if (said.dataset["text"] !== (live.notice?.text ?? "")) {
+      said.dataset["text"] = live.notice?.text ?? "";
+      fill(said, ...prose(live.notice?.text ?? ""));
     }
-    said.classList.toggle("refused", live.told?.refused ?? false);
+    said.classList.toggle("refused", live.notice?.refused ?? false);
   };
   app.events.on(["live", "message", "run"], update);
   update();
@@ -82,7 +82,7 @@ export function liveBar(app: App): HTMLElement | null {
 export function banners(app: App): HTMLElement {
   const connection = h("div", { class: "banner", role: "alert", hidden: true });
   const note = h("div", { class: "banner quiet-banner", role: "status", hidden: true });
-  const faults = app.told.runs.filter((run) => "fault" in run).map((run) => h("div", { class: "banner", role: "alert" }, h("strong", {}, `${run.path} can't be shown. `), "fault" in run ? `${run.code}: ${run.fault}` : ""));
+  const faults = app.served.runs.filter((run) => "fault" in run).map((run) => h("div", { class: "banner", role: "alert" }, h("strong", {}, `${run.path} can't be shown. `), "fault" in run ? `${run.code}: ${run.fault}` : ""));
   let timer = 0;
   app.events.on("connection", () => {
     const { connection: now } = app.requests;

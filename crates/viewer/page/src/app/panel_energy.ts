@@ -66,7 +66,7 @@ export function energyPanel(app: App): { element: HTMLElement; update: () => voi
   return { element: h("div", {}, plot.element, words, none), update, plots: [plot] };
 }
 
-/** How well the ledger closes: the change of the total, and what the run itself tells. */
+/** How well the ledger closes: the change of the total, and what the run itself reports. */
 function closure(session: Session, unit: string): string {
   const total = (session.column("energy.total") ?? []).filter((v): v is number => v !== null);
   if (total.length === 0) return "";

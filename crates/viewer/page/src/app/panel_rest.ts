@@ -59,7 +59,7 @@ export function messagesPanel(app: App): Panel {
   let shown = "";
   const update = () => {
     const all = messagesOf(app);
-    const key = JSON.stringify([all, app.live?.told]);
+    const key = JSON.stringify([all, app.live?.notice]);
     if (key === shown) return;
     shown = key;
     fill(element, ...all.flatMap(({ error, list }, i) => [
@@ -67,7 +67,7 @@ export function messagesPanel(app: App): Panel {
       error !== null && h("div", { class: "message error" }, h("strong", {}, "The run failed"), h("pre", {}, ...prose(error))),
       ...list.map((warning) => h("div", { class: "message" }, h("strong", {}, warning.code || "Warning"), h("p", {}, ...prose(warning.text)))),
       error === null && list.length === 0 && h("p", { class: "quiet" }, app.sessions[i]!.run.is_over ? "No warnings." : "No warnings so far."),
-    ]), app.live?.told && h("div", { class: "message note" }, h("strong", {}, app.live.told.refused ? "Not done" : "Done"), h("p", {}, ...prose(app.live.told.text))));
+    ]), app.live?.notice && h("div", { class: "message note" }, h("strong", {}, app.live.notice.refused ? "Not done" : "Done"), h("p", {}, ...prose(app.live.notice.text))));
   };
   return { element, update };
 }
@@ -103,7 +103,7 @@ export function aboutPanel(app: App): Panel {
         ["Deepest penetration", number("penetration_max") === null ? null : quantity(number("penetration_max"), "m")],
         ["State hash", text("state_hash")],
         ["Version", text("version") === null ? null : `embate ${text("version")}`],
-        ["Viewer", `embate ${app.told.version}`],
+        ["Viewer", `embate ${app.served.version}`],
         ["Folder", run.path],
       ];
       const copy = h("button", { type: "button", class: "small", onclick: () => void copyText(app, run.command ?? "", "Command copied.") }, "Copy");

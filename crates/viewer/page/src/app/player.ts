@@ -52,7 +52,7 @@ export class Player {
       const shown = live && !live.ended ? null : newest;
       if (shown !== undefined && shown !== null && shown !== view.time) {
         this.app.view = { ...view, time: shown };
-        this.app.events.tell("shown");
+        this.app.events.emit("shown");
       }
     }
     const wanted: [Session, number, number][] = [];
@@ -91,7 +91,7 @@ export class Player {
     session.shown = frame;
     if (frame.range && frame.scalar !== null) session.widen(frame.scalar, frame.range);
     this.onShow(session, frame);
-    this.app.events.tell("shown");
+    this.app.events.emit("shown");
   }
 
   private ask(session: Session, at: number, urgency: number): void {
@@ -176,7 +176,7 @@ export class Player {
         if (app.view.loop) {
           this.clock = times[0] ?? 0;
           app.view = { ...app.view, time: this.clock };
-          app.events.tell("shown");
+          app.events.emit("shown");
           this.update();
         } else app.change({ playing: false });
       } else if (over) this.clock = times[here] ?? 0;
@@ -194,7 +194,7 @@ export class Player {
     }
     this.clock = Math.min(to, times[there + 1] ?? to);
     app.view = { ...app.view, time: times[there]! };
-    app.events.tell("shown");
+    app.events.emit("shown");
     this.update();
   }
 

@@ -78,7 +78,7 @@ export class Probes {
         },
       ).finally(() => {
         this.asked.delete(path);
-        this.app.events.tell("probe");
+        this.app.events.emit("probe");
       });
     }
     return known?.probe ?? null;

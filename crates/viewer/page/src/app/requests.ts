@@ -133,10 +133,10 @@ export class Requests {
 async function refusal(answer: Response): Promise<Refusal> {
   const text = await answer.text().catch(() => "");
   try {
-    const told = JSON.parse(text) as ServerError;
-    if (typeof told.error === "string") return new Refusal(told.code ?? "", told.error, answer.status);
+    const refusal = JSON.parse(text) as ServerError;
+    if (typeof refusal.error === "string") return new Refusal(refusal.code ?? "", refusal.error, answer.status);
   } catch {
-    // not JSON: told as it is
+    // not JSON: reported as it is
   }
   return new Refusal("", text.slice(0, 500) || `the server answered ${answer.status}`, answer.status);
 }

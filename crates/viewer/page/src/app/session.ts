@@ -1,4 +1,4 @@
-// One run in the page: what the server told of it, its topologies, the frame on the screen, its history and
+// One run in the page: what the server reported of it, its topologies, the frame on the screen, its history and
 // ranges. Frames of all runs share one bounded store.
 
 import { decodeFrame, decodeTopology } from "../wire";
@@ -152,7 +152,7 @@ export class Session {
       const history = await this.requests.json<History>(`api/runs/${this.index}/history?rows=2000`);
       this.history = history;
       this.columns = new Map(history.columns.map((column, i) => [column.name, i]));
-      this.events.tell("history");
+      this.events.emit("history");
     } catch {
       // a run that has no history yet, or a server that is gone: asked again with the next round
     } finally {
@@ -189,9 +189,9 @@ export class Session {
       this.rangeAsked.set(scalar, count);
       this.requests
         .json<Range>(`api/runs/${this.index}/range?scalar=${encodeURIComponent(scalar)}`)
-        .then((told) => {
-          if (told.range) this.widen(scalar, told.range);
-          this.events.tell("range");
+        .then((answer) => {
+          if (answer.range) this.widen(scalar, answer.range);
+          this.events.emit("range");
         })
         .catch((fault) => {
           if (fault instanceof Gone) this.rangeAsked.delete(scalar);

@@ -78,7 +78,7 @@ export class Rig {
     return basisOf(this.camera);
   }
 
-  /** Takes over a camera; nonsense in it (of a link by hand) is mended. */
+  /** Takes over a camera; nonsense in it (of a link by hand) is fixed. */
   set(camera: Camera): void {
     const finite = (v: Vector, otherwise: Vector): Vector => (Array.isArray(v) && v.length === 3 && v.every(Number.isFinite) ? [...v] : otherwise);
     const target = finite(camera.target, [0, 0, 0]);

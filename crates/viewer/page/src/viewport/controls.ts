@@ -1,4 +1,4 @@
-// Mouse, pen and fingers on the canvas: left drag turns (in the plane it moves), right, middle or shift drag
+// Mouse, pen and fingers on the canvas: left drag turns (in 2D it moves), right, middle or shift drag
 // moves, the wheel brings closer at the pointer, two fingers move and bring closer. A drag is no click:
 // clicks after one are swallowed, so that who listens to clicks on the canvas gets real ones only.
 

@@ -1,4 +1,4 @@
-// Rigid obstacles: in the plane a line with a hatched band on its solid side, in space translucent facets
+// Rigid obstacles: in 2D a line with a hatched band on its solid side, in 3D translucent facets
 // with their borders and creases. They may move, so their points come with every frame; their connectivity is
 // looked at only when it is another.
 

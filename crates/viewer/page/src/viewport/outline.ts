@@ -1,4 +1,4 @@
-// Which sides of facets are outlines: sides of one facet only, sides between two parts, and in space creases.
+// Which sides of facets are outlines: sides of one facet only, sides between two parts, and in 3D creases.
 // The answer stands in the highest bit of each corner: that of corner k for the side from it to the next.
 // Read by `shaders`.
 

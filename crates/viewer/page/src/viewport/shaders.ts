@@ -312,7 +312,7 @@ out vec4 colour;
 void main() { colour = paint; }
 `;
 
-/** A line of an obstacle in the plane: a band of hatching on the right of its direction, where it is solid. */
+/** A line of an obstacle in 2D: a band of hatching on the right of its direction, where it is solid. */
 export const EDGE_VERTEX = /* glsl */ `${COMMON}
 uniform usampler2D edges;
 uniform vec2 canvas;
@@ -356,7 +356,7 @@ void main() {
 }
 `;
 
-/** Facets of an obstacle in space: translucent, their edges drawn. */
+/** Facets of an obstacle in 3D: translucent, their edges drawn. */
 export const WALL_FRAGMENT = /* glsl */ `
 precision highp float;
 precision highp int;

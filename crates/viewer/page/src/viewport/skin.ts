@@ -1,4 +1,4 @@
-// The skin of the bodies (in the plane: all cells) in its levels of detail, coloured by values or parts. Each
+// The skin of the bodies (in 2D: all cells) in its levels of detail, coloured by values or parts. Each
 // level has a table of its facets' corners and a list of vertex numbers without hidden parts. Also gives the
 // program of the id pass.
 

@@ -227,7 +227,7 @@ export class Viewport {
     this.moved();
   }
 
-  /** Turns by radians about the vertical and the horizontal of the picture; in the plane nothing. */
+  /** Turns by radians about the vertical and the horizontal of the picture; in 2D nothing. */
   orbit(dx: number, dy: number): void {
     this.rig.orbit(dx, dy);
     this.moved();
@@ -362,7 +362,7 @@ export class Viewport {
     if (this.rig.isFree) this.fitNow();
   }
 
-  /** Around the bodies at the run's first frame, as the server tells. */
+  /** Around the bodies at the run's first frame, as the server reports. */
   private first(): Box | null {
     const [low, high] = this.run.size;
     const origin = this.topology!.origin;

@@ -48,9 +48,9 @@ fn bars_that_cross_on_edge_come_back_and_go_through_each_other_with_nodes_alone(
             let (begin, mut energies, mut deepest) = (world.momenta(), Vec::new(), 0.0f64);
             let above = height(&world, first);
             for _ in 0..300 {
-                let told = world.step();
-                energies.push(told.energy);
-                deepest = deepest.max(told.penetration);
+                let reported = world.step();
+                energies.push(reported.energy);
+                deepest = deepest.max(reported.penetration);
                 for (a, b) in world.momenta().iter().flatten().zip(begin.iter().flatten()) {
                     assert!((a - b).abs() < 1e-13 * scale, "{friction} {stiffness}: {:?} {begin:?}", world.momenta());
                 }
@@ -84,9 +84,9 @@ fn a_bar_on_edge_is_held_by_a_flat_one_that_is_narrower_than_its_elements() {
             let (begin, mut energies, mut deepest) = (world.momenta(), Vec::new(), 0.0f64);
             let scale = world.mass.iter().sum::<f64>();
             for _ in 0..300 {
-                let told = world.step();
-                energies.push(told.energy);
-                deepest = deepest.max(told.penetration);
+                let reported = world.step();
+                energies.push(reported.energy);
+                deepest = deepest.max(reported.penetration);
             }
             for (a, b) in world.momenta().iter().flatten().zip(begin.iter().flatten()) {
                 assert!((a - b).abs() < 1e-13 * scale, "{turned} {friction}: {:?} {begin:?}", world.momenta());
@@ -134,10 +134,10 @@ fn what_slides_along_edges_goes_from_edge_to_edge_with_its_energy() {
     world.pull = (0.01, [0.0, 0.0, -30.0]);
     let (mut begin, mut worst, mut springs) = (None, 0.0f64, 0);
     for _ in 0..800 {
-        let told = world.step();
-        let energy = told.energy - *begin.get_or_insert(told.energy);
+        let reported = world.step();
+        let energy = reported.energy - *begin.get_or_insert(reported.energy);
         worst = worst.max(energy.abs());
-        springs += usize::from(told.penetration > 0.0);
+        springs += usize::from(reported.penetration > 0.0);
     }
     let kinetic = 0.5 * world.mass[..first].iter().sum::<f64>() * (0.9f64.powi(2) + 0.8f64.powi(2));
     println!("{} of {kinetic}: in contact in {springs} steps, height {}", worst, height(&world, first));

@@ -1,4 +1,4 @@
-//! Where the balls under a surface in space are, and how large.
+//! Where the balls under a surface in 3D are, and how large.
 //!
 //! A facet over an element of the height h gets one ball at the mean of its nodes where the element is a
 //! cube. Of a facet with four nodes and the edges L₁, L₂, s = min(h, L₁, L₂), there are n₁ × n₂ with

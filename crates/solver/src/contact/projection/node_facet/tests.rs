@@ -110,7 +110,7 @@ fn a_node_against_a_ball_is_as_far_as_from_its_centre_less_the_radius() {
 }
 
 #[test]
-fn along_a_way_over_convex_and_concave_edges_and_corners_the_gap_goes_on() {
+fn along_a_way_over_convex_and_concave_edges_and_corners_the_gap_continues() {
     // A staircase with a corner in it.
     let (surface, positions) = blocks(
         [3, 3, 3],
@@ -193,7 +193,7 @@ fn an_open_surface_meets_what_is_over_it_and_nothing_beside_it() {
 }
 
 /// A block of 4 × 2 × 4 hexahedra, symmetric in x = 0 and z = 0: the surface of all of it, that of the
-/// quarter x ≥ 0, z ≥ 0 with its symmetry planes, and positions. `there` tells which hexahedra of the quarter
+/// quarter x ≥ 0, z ≥ 0 with its symmetry planes, and positions. `there` says which hexahedra of the quarter
 /// are there, `shift` how its nodes are moved.
 fn whole_and_quarter(
     there: impl Fn([usize; 3]) -> bool,
@@ -322,7 +322,7 @@ proptest! {
             // Many of them on a plane, or on both.
             let x = [a.max(0.0), b, c.max(0.0)];
             let [one, two] = [whole, quarter].map(|placed| placed.project(x, all(placed.surface)).unwrap());
-            // A facet goes on by a millionth beyond a rim, which the plane makes of a ridge.
+            // A facet continues by a millionth beyond a rim, which the plane makes of a ridge.
             if two.weights.iter().any(|&weight| weight < 0.0) {
                 prop_assert!((one.gap - two.gap).abs() < 1e-6, "{:?} {:?} {:?}", x, one, two);
                 continue;

@@ -1,6 +1,6 @@
-//! Friction in space: Coulomb's cone by return mapping in the tangent plane, and ties along both tangents.
+//! Friction in 3D: Coulomb's cone by return mapping in the tangent plane, and ties along both tangents.
 //!
-//! As in the plane ([`super`]) the slip s is elastic up to T = −k m with the mean slip of the update
+//! As in 2D ([`super`]) the slip s is elastic up to T = −k m with the mean slip of the update
 //! m = s^{n−½} + ½ Δs, ½ Δs = q (ṡ^{n−½} + ṡ_free + C T), where the compliance C is a symmetric 2 × 2 matrix.
 //! Where |T| would exceed T_max it is T = −T_max d, in the direction d of the mean slip itself: with m₀ = s +
 //! q (ṡ^{n−½} + ṡ_free) and λ = |m|
@@ -14,7 +14,7 @@
 //! λ), ½ (σ² − e²) or (e − σ)(3e − σ)/2 for σ beyond λ, between, below e where it is not.) What sticks gives
 //! back exactly what it took.
 
-use super::{Slid, Stick};
+use super::{FrictionInput, FrictionResult};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::{Dim, dot};
 
@@ -71,10 +71,10 @@ fn direction(along: [f64; 2], give: [f64; 2], limit: f64, mut least: f64) -> [f6
 
 /// Friction with the elastic slip `slip` (m, at n − ½) and the limit T_max (N).
 #[must_use]
-pub fn slide(stick: &Stick<3>, slip: [f64; 2], limit: f64) -> Slid<3> {
-    let Stick { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
+pub fn slide(stick: &FrictionInput<3>, slip: [f64; 2], limit: f64) -> FrictionResult<3> {
+    let FrictionInput { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
     if !(limit > 0.0 && compliance[0][0] + compliance[1][1] > 0.0) {
-        return Slid { friction: [0.0; 2], slip: [0.0; 2], slides: limit <= 0.0 };
+        return FrictionResult { friction: [0.0; 2], slip: [0.0; 2], slides: limit <= 0.0 };
     }
     let (give, axis) = axes(compliance);
     if stiffness.is_infinite() {
@@ -83,7 +83,7 @@ pub fn slide(stick: &Stick<3>, slip: [f64; 2], limit: f64) -> Slid<3> {
         let trial = [0, 1].map(|k| if give[k] > 1e-14 * give[1] { -rate[k] / give[k] } else { 0.0 });
         let slides = Dim::<3>::size(&trial) > limit;
         let friction = if slides { direction(rate, give, limit, 0.0).map(|d| -limit * d) } else { trial };
-        return Slid { friction: back(axis, friction), slip: [0.0; 2], slides };
+        return FrictionResult { friction: back(axis, friction), slip: [0.0; 2], slides };
     }
     let quarter = 0.25 * 0.5 * (before + after);
     let mean = onto(axis, [0, 1].map(|a| slip[a] + quarter * (old[a] + free[a])));
@@ -94,15 +94,15 @@ pub fn slide(stick: &Stick<3>, slip: [f64; 2], limit: f64) -> Slid<3> {
     let friction = back(axis, friction);
     let pulled = [0, 1].map(|a| compliance[a][0] * friction[0] + compliance[a][1] * friction[1]);
     let slip_new = [0, 1].map(|a| slip[a] + 2.0 * quarter * (old[a] + free[a] + pulled[a]));
-    Slid { friction, slip: if slides { Dim::<3>::within(slip_new, elastic) } else { slip_new }, slides }
+    FrictionResult { friction, slip: if slides { Dim::<3>::within(slip_new, elastic) } else { slip_new }, slides }
 }
 
 /// The direction p across a friction that slides, and the change of the slip rate along p per friction along
 /// p: d and with it T turn with the mean slip, as a spring of the stiffness T_max / λ would have them do.
 /// `None` where nothing slides.
 #[must_use]
-pub fn lateral_compliance(stick: &Stick<3>, slip: [f64; 2], friction: &[f64; 2]) -> Option<([f64; 2], f64)> {
-    let Stick { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
+pub fn lateral_compliance(stick: &FrictionInput<3>, slip: [f64; 2], friction: &[f64; 2]) -> Option<([f64; 2], f64)> {
+    let FrictionInput { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
     let size = Dim::<3>::size(friction);
     if !(size > 0.0) {
         return None;
@@ -120,8 +120,8 @@ pub fn lateral_compliance(stick: &Stick<3>, slip: [f64; 2], friction: &[f64; 2])
 /// Force of a tie on the slip `slip` (m, at n): springs that pull both ways, or with an infinite stiffness
 /// what ends the slip in one step.
 #[must_use]
-pub fn tie(stick: &Stick<3>, slip: [f64; 2]) -> [f64; 2] {
-    let Stick { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
+pub fn tie(stick: &FrictionInput<3>, slip: [f64; 2]) -> [f64; 2] {
+    let FrictionInput { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
     if compliance[0][0] + compliance[1][1] <= 0.0 {
         return [0.0; 2];
     }
@@ -147,8 +147,8 @@ pub fn carried(slip: [f64; 3], to: [[f64; 3]; 2]) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    fn some(k: f64, [old, free]: [[f64; 2]; 2], [a, b, c]: [f64; 3]) -> Stick<3> {
-        Stick { old, free, compliance: [[a, b], [b, c]], stiffness: k, time_steps: [0.9, 1.1] }
+    fn some(k: f64, [old, free]: [[f64; 2]; 2], [a, b, c]: [f64; 3]) -> FrictionInput<3> {
+        FrictionInput { old, free, compliance: [[a, b], [b, c]], stiffness: k, time_steps: [0.9, 1.1] }
     }
 
     /// Compliances from round to one that does not give way along an axis.
@@ -198,10 +198,10 @@ mod tests {
     }
 
     #[test]
-    fn along_one_line_friction_is_that_of_the_plane() {
+    fn along_one_line_friction_is_that_of_2d() {
         for (slip, old, free, limit) in [(0.1, 0.3, -0.2, 0.4), (0.5, 2.0, 1.0, 0.05), (-0.2, 0.0, 1e-3, 9.0), (0.0, 1.0, 2.0, 0.3)] {
             for stiffness in [0.3, 40.0, f64::INFINITY] {
-                let line = Stick { old: [old], free: [free], compliance: [[0.6]], stiffness, time_steps: [0.9, 1.1] };
+                let line = FrictionInput { old: [old], free: [free], compliance: [[0.6]], stiffness, time_steps: [0.9, 1.1] };
                 let (plane, angle) = (super::super::slide(&line, [slip], limit), [0.6, 0.8]);
                 let along = |value: f64| angle.map(|c| value * c);
                 let stick = some(stiffness, [along(old), along(free)], [0.6, 0.0, 0.6]);
@@ -221,7 +221,7 @@ mod tests {
     fn a_multiplier_stops_the_slip_or_brakes_it_where_it_goes() {
         for compliance in [[0.7, 0.0, 0.7], [0.7, 0.2, 0.5], [2.0, 0.99, 0.5]] {
             let stick = some(f64::INFINITY, [[0.0; 2], [0.4, -0.3]], compliance);
-            let after = |slid: &Slid<3>| {
+            let after = |slid: &FrictionResult<3>| {
                 [0, 1].map(|a| stick.free[a] + stick.compliance[a][0] * slid.friction[0] + stick.compliance[a][1] * slid.friction[1])
             };
             let stopped = slide(&stick, [0.0; 2], 100.0);

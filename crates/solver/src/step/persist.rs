@@ -2,55 +2,55 @@
 //! zero; then the state is filled in.
 
 use super::{Governor, Limits, System};
-use crate::archive::{Archive, Keep, Kept, Misfit, keep_each};
+use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, persist_each};
 use crate::dimension::Dimension;
 use crate::tensor::Dim;
 use crate::vector::{plus, times};
 
-impl Keep for Governor {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for Governor {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let (mut number, mut square) = match *self {
             Self::Element(square) => (0_u8, square),
             Self::Given => (1, 0.0),
             Self::Schedule => (2, 0.0),
             Self::Contact => (3, 0.0),
         };
-        keep_each!(archive; &mut number, &mut square);
+        persist_each!(archive; &mut number, &mut square);
         *self = match number {
             0 => Self::Element(square),
             1 => Self::Given,
             2 => Self::Schedule,
             3 => Self::Contact,
-            _ => return Err(Misfit::new("nobody set the time step")),
+            _ => return Err(ArchiveError::new("unknown governor of the time step")),
         };
         Ok(())
     }
 }
 
-impl<const D: usize> Keep for System<D>
+impl<const D: usize> Persist for System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         (archive.nodes, archive.places) = (self.positions.len(), self.positions.len() + self.bodies.len());
         archive.section("system")?;
-        self.keep_system(archive)?;
+        self.persist_system(archive)?;
         archive.section("nodes")?;
-        self.keep_nodes(archive)?;
+        self.persist_nodes(archive)?;
         if !self.rotations.now.is_empty() {
             archive.section("rotations")?;
-            self.rotations.keep(archive)?;
+            self.rotations.persist(archive)?;
         }
         for (number, block) in self.blocks.iter_mut().enumerate() {
             archive.section(&format!("elements {number}"))?;
-            block.keep(archive)?;
+            block.persist(archive)?;
         }
         if archive.reads() {
-            // Contacts are made anew of the surfaces that are left, before what they know is filled in.
-            self.take_out_again();
+            // Contacts are made again of the surfaces that are left, before what they know is filled in.
+            self.remove_eroded_elements();
         }
         archive.section("contact")?;
-        self.keep_contact(archive)
+        self.persist_contact(archive)
     }
 }
 
@@ -58,7 +58,7 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    fn keep_system(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist_system(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         // Nothing of these is state, or it is kept elsewhere below; loads of the model, dampings and
         // constraints are worked out from the time.
         #[rustfmt::skip]
@@ -70,23 +70,23 @@ where
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
             bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation,
         } = self;
-        keep_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
-        keep_each!(archive; ledger, bodies, curves, &mut reports[..]);
-        forces.keep_pushes(archive)?;
+        persist_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
+        persist_each!(archive; ledger, bodies, curves, &mut reports[..]);
+        forces.persist_pushes(archive)?;
         let mut has_relaxation = relaxation.is_some();
-        has_relaxation.keep(archive)?;
+        has_relaxation.persist(archive)?;
         archive.check(has_relaxation == relaxation.is_some(), "there is no relaxation")?;
         if let Some(relaxation) = relaxation {
-            relaxation.keep(archive)?;
+            relaxation.persist(archive)?;
             *end = relaxation.rest.unwrap_or(*end);
         }
         Ok(())
     }
 
-    fn keep_nodes(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist_nodes(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { positions, velocities, velocities_old, positions_old, time_step, .. } = self;
         for list in [&mut *positions, velocities, velocities_old] {
-            list[..].keep(archive)?;
+            list[..].persist(archive)?;
         }
         if archive.reads() {
             // As the velocity update leaves it where nothing holds a node; elsewhere it is written before it
@@ -98,24 +98,24 @@ where
         Ok(())
     }
 
-    fn keep_contact(&mut self, archive: &mut Archive<'_>) -> Kept {
+    fn persist_contact(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut has_erosion = self.erosion.is_some();
-        has_erosion.keep(archive)?;
+        has_erosion.persist(archive)?;
         archive.check(has_erosion == self.erosion.is_some(), "nothing can fail")?;
         if let Some(erosion) = &mut self.erosion {
-            erosion.keep(archive)?;
+            erosion.persist(archive)?;
         }
-        keep_each!(archive; &mut self.springs, &mut self.contact_forces, &mut self.traces);
+        persist_each!(archive; &mut self.springs, &mut self.contact_forces, &mut self.traces);
         let springs = self.springs.list.len();
-        self.contacts.iter_mut().try_for_each(|contact| contact.keep(archive, springs))?;
+        self.contacts.iter_mut().try_for_each(|contact| contact.persist(archive, springs))?;
         if archive.reads() {
-            self.still_what_is_gone();
+            self.clear_eroded_slots();
         }
         Ok(())
     }
 
     /// Blocks without elements are not strained: they leave their slots as they are.
-    fn still_what_is_gone(&mut self) {
+    fn clear_eroded_slots(&mut self) {
         let (mut first, mut first_moment) = (0, 0);
         for (index, block) in self.blocks.iter().enumerate() {
             let (count, moments) = (block.slots().len(), block.moment_slots().len());

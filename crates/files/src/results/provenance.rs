@@ -1,7 +1,7 @@
 //! `run.json`: what ran, so that it can be known, and run again, when the model has changed since: the
 //! version of the program, where the model came from, and what it was, key by key.
 //!
-//! Written when a run begins, and again when it goes on. Read by `embate diff`.
+//! Written when a run begins, and again when it continues. Read by `embate diff`.
 
 use super::{ResultsError, write_whole};
 use crate::checkpoint::{Identity, Origin};
@@ -17,7 +17,7 @@ pub(super) const RAN: &str = "run.json";
 
 /// What ran.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Ran {
+pub struct Provenance {
     /// Version of the program.
     pub version: String,
     /// Commit that the program was built from, if that was known.
@@ -39,9 +39,9 @@ pub struct Ran {
 pub struct Appearance {
     /// In words; may be empty.
     pub title: String,
-    /// Components of a position: 2 in the plane, 3 in space.
+    /// Components of a position: 2 in 2D, 3 in 3D.
     pub dimension: usize,
-    /// Whether it is a body of revolution.
+    /// Whether it is an axisymmetric body.
     pub axisymmetric: bool,
     /// End time, s.
     pub end: Option<f64>,
@@ -55,11 +55,11 @@ pub struct Appearance {
     pub mirror: [bool; 3],
     /// Field of the pictures; empty: none was chosen.
     pub field: String,
-    /// Where a model of space is seen from.
+    /// Where a model in 3D is seen from.
     pub camera: Option<Seen>,
 }
 
-/// Where a model of space is seen from.
+/// Where a model in 3D is seen from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Seen {
     /// Direction from the model to the camera.
@@ -92,7 +92,7 @@ impl Appearance {
     }
 }
 
-impl Ran {
+impl Provenance {
     /// What a model is and where it came from.
     pub(super) fn of(keys: Identity, origin: &Origin, model: &Model) -> Self {
         let path = origin.path.to_string_lossy().into_owned();

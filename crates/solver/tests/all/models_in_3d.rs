@@ -1,7 +1,7 @@
-//! Whole models in space without contact: conservation, the plane as the limit of a slice, waves, loads
+//! Whole models in 3D without contact: conservation, the plane as the limit of a slice, waves, loads
 //! against closed forms, rigid bodies, erosion, equal bits, states.
 
-use crate::bodies::{every_step, goes_on_to, hash_of_equal_bits, simulation, to_end, value};
+use crate::bodies::{continues_to, every_step, hash_of_equal_bits, simulation, to_end, value};
 use crate::patches::material;
 use embate_solver::element::ELEMENTS_OF_SPACE;
 use embate_solver::model::{
@@ -68,7 +68,7 @@ fn cut(model: &mut Model, nodes: usize) {
     model.meshes.push(Arc::new(mesh));
 }
 
-/// A box of every element of space.
+/// A box of every element in 3D.
 fn every_element(law: &str, end: f64, mut check: impl FnMut(&str, Model)) {
     for kind in ELEMENTS_OF_SPACE {
         let mut model = model(kind.name, law, cuboid([1.0, 0.7, 0.5], [4, 3, 2]), end);
@@ -278,14 +278,14 @@ fn elements_that_fail_are_taken_out_and_the_books_stay_closed() {
 }
 
 #[test]
-fn a_kept_state_goes_on_to_the_same_bits() {
+fn a_kept_state_continues_to_the_same_bits() {
     every_element("j2", 0.6, |element, mut model| {
         (model.parts[0].velocity, model.parts[0].spin) = ([0.5, 0.2, -1.0], 4.0);
         model.symmetries.push(Symmetry { normal: [0.0, 0.0, 1.0], ..Symmetry::default() });
         let whole = to_end(&model).summary().state_hash;
         let mut first = simulation(&model);
         first.advance(0.25, u64::MAX).unwrap();
-        goes_on_to(&whole, &model, &mut first, element);
+        continues_to(&whole, &model, &mut first, element);
     });
 }
 
@@ -308,7 +308,7 @@ fn spheres_and_cylinders_swing_with_the_mass_of_their_volume() {
 }
 
 #[test]
-fn what_points_out_of_the_plane_is_refused_in_the_plane() {
+fn what_points_out_of_2d_is_refused_in_2d() {
     let rectangle = Shape::Rectangle(Rectangle { corner: [0.0; 2], size: [1.0, 0.4], elements: [6, 3], ..Rectangle::default() });
     let paths = |change: &dyn Fn(&mut Model)| {
         let mut model = model("quad4", "elastic", rectangle.clone(), 1.0);
@@ -326,7 +326,7 @@ fn what_points_out_of_the_plane_is_refused_in_the_plane() {
 }
 
 #[test]
-fn stress_at_the_start_is_there_in_space() {
+fn stress_at_the_start_is_there_in_3d() {
     let mut model = model("hex8", "elastic", cuboid([1.0; 3], [2; 3]), 1e-3);
     model.parts[0].stress_initial = Some(InitialStress::uniform([1.0, -2.0, 0.5, 0.25]));
     let simulation = simulation(&model);

@@ -31,7 +31,7 @@ struct Pair {
 
 /// Where two states are not the same.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parting {
+pub struct Divergence {
     /// Steps done.
     pub step: u64,
     /// Times, s.
@@ -41,14 +41,14 @@ pub struct Parting {
     /// Who governs them.
     pub governors: [String; 2],
     /// Parts of which something differs, in model order.
-    pub parts: Vec<PartParting>,
+    pub parts: Vec<PartDivergence>,
     /// What differs of contacts and rigid bodies.
     pub others: Vec<(String, Value)>,
 }
 
 /// What differs of a part.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PartParting {
+pub struct PartDivergence {
     /// Its name.
     pub name: String,
     /// Nodes that it has.
@@ -56,16 +56,16 @@ pub struct PartParting {
     /// Nodes that differ.
     pub differing: usize,
     /// The first of them by its number in the part.
-    pub first: Option<NodeParting>,
+    pub first: Option<NodeDivergence>,
     /// That whose velocities are farthest apart, if there are several.
-    pub farthest: Option<NodeParting>,
+    pub farthest: Option<NodeDivergence>,
     /// Stored and dissipated energy where they differ, J/m.
     pub energies: Vec<(&'static str, Value)>,
 }
 
 /// A node that differs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NodeParting {
+pub struct NodeDivergence {
     /// Its number in the part, and among all nodes of the first model.
     pub number: usize,
     /// The number that field files and messages have.
@@ -119,7 +119,7 @@ const NODE: [(&[&str], &str); 6] = [
     (&[""], "mass"),
 ];
 const AXES: [&str; 3] = [" x", " y", " z"];
-/// So many of the vectors are told in any case.
+/// So many of the vectors are reported in any case.
 const ALWAYS: usize = 2;
 
 impl Pairing {
@@ -129,7 +129,7 @@ impl Pairing {
         match (&a.0, &b.0) {
             (Either::Plane(a), Either::Plane(b)) => Self::of([&a.system, &b.system]),
             (Either::Space(a), Either::Space(b)) => Self::of([&a.system, &b.system]),
-            _ => Self { parts: Vec::new(), left_out: vec!["one run lies in the plane, the other one in space".into()] },
+            _ => Self { parts: Vec::new(), left_out: vec!["one run is 2D, the other one 3D".into()] },
         }
     }
 
@@ -169,7 +169,7 @@ impl Pairing {
 
     /// What is not the same in two states; `None`: all is.
     #[must_use]
-    pub fn parting(&self, a: &Simulation, b: &Simulation) -> Option<Parting> {
+    pub fn divergence(&self, a: &Simulation, b: &Simulation) -> Option<Divergence> {
         match (&a.0, &b.0) {
             (Either::Plane(a), Either::Plane(b)) => self.between([&a.system, &b.system]),
             (Either::Space(a), Either::Space(b)) => self.between([&a.system, &b.system]),
@@ -177,22 +177,22 @@ impl Pairing {
         }
     }
 
-    fn between<const D: usize>(&self, systems: [&System<D>; 2]) -> Option<Parting>
+    fn between<const D: usize>(&self, systems: [&System<D>; 2]) -> Option<Divergence>
     where
         Dim<D>: Runs<D>,
     {
         let [a, b] = systems;
-        let parts: Vec<PartParting> = self.parts.iter().filter_map(|pair| pair.parting(systems)).collect();
+        let parts: Vec<PartDivergence> = self.parts.iter().filter_map(|pair| pair.divergence(systems)).collect();
         let others = others(systems);
         let (time, time_step) = (Value(a.time, b.time), Value(a.time_step, b.time_step));
         let differs = time.differs() || time_step.differs() || !parts.is_empty() || !others.is_empty();
         let governors = || systems.map(|system| system.governor_name(system.governor));
-        differs.then(|| Parting { step: a.step, time, time_step, governors: governors(), parts, others })
+        differs.then(|| Divergence { step: a.step, time, time_step, governors: governors(), parts, others })
     }
 }
 
 impl Pair {
-    fn parting<const D: usize>(&self, systems: [&System<D>; 2]) -> Option<PartParting>
+    fn divergence<const D: usize>(&self, systems: [&System<D>; 2]) -> Option<PartDivergence>
     where
         Dim<D>: Runs<D>,
     {
@@ -215,7 +215,7 @@ impl Pair {
             dot(minus(a, b), minus(a, b))
         };
         let farthest = differing.iter().copied().reduce(|far, number| if apart(number) > apart(far) { number } else { far });
-        Some(PartParting {
+        Some(PartDivergence {
             name: systems[0].mesh.parts[self.parts[0]].name.clone(),
             nodes: self.nodes.len(),
             differing: differing.len(),
@@ -225,7 +225,7 @@ impl Pair {
         })
     }
 
-    fn node<const D: usize>(&self, number: usize, systems: [&System<D>; 2]) -> NodeParting
+    fn node<const D: usize>(&self, number: usize, systems: [&System<D>; 2]) -> NodeDivergence
     where
         Dim<D>: Runs<D>,
     {
@@ -239,11 +239,11 @@ impl Pair {
         });
         let names = NODE.iter().flat_map(|(axes, name)| axes[..D.min(axes.len())].iter().map(move |axis| format!("{name}{axis}")));
         let values = names.zip(values[0].iter().zip(&values[1])).map(|(name, (&a, &b))| (name, Value(a, b)));
-        let is_told = |(k, (name, value)): &(usize, (String, Value))| {
+        let is_reported = |(k, (name, value)): &(usize, (String, Value))| {
             *k < ALWAYS * D || value.differs() || (*name != "mass" && (value.0 != 0.0 || value.1 != 0.0))
         };
-        let told = values.enumerate().filter(is_told).map(|(_, value)| value).collect();
-        NodeParting { number, user: systems[0].mesh.user_nodes[self.nodes[number][0] as usize], values: told }
+        let reported = values.enumerate().filter(is_reported).map(|(_, value)| value).collect();
+        NodeDivergence { number, user: systems[0].mesh.user_nodes[self.nodes[number][0] as usize], values: reported }
     }
 }
 

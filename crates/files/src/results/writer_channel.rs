@@ -1,7 +1,7 @@
 //! From the run to the writer: in turn, or on a thread of its own.
 //!
 //! With one thread the writer works when it is called, and the run waits. With more it has a thread: the run
-//! puts its jobs into a bounded queue and goes on. Errors come back with the next call, or at the end; a
+//! puts its jobs into a bounded queue and continues. Errors come back with the next call, or at the end; a
 //! panic of the writer is an error like others.
 
 use super::ResultsError;
@@ -20,7 +20,7 @@ struct Desk {
     worked: Duration,
 }
 
-/// The first fault that nobody has been told of; the two sides share it.
+/// The first fault that has not been reported yet; the two sides share it.
 type Faults = Arc<Mutex<Option<ResultsError>>>;
 
 impl Desk {
@@ -55,7 +55,7 @@ enum Place {
 }
 
 /// The run's side.
-pub(super) struct Handover {
+pub(super) struct WriterChannel {
     place: Place,
     faults: Faults,
     waited: Duration,
@@ -67,7 +67,7 @@ pub(super) struct Handover {
 
 /// How writing ended.
 pub(super) struct End {
-    /// What was not told yet and kept results from being written completely.
+    /// What was not reported yet and kept results from being written completely.
     pub(super) result: Result<(), ResultsError>,
     /// Why there are no pictures, if they are missing.
     pub(super) pictures_missing: Option<String>,
@@ -77,7 +77,7 @@ pub(super) struct End {
     pub(super) waited: Duration,
 }
 
-impl Handover {
+impl WriterChannel {
     /// Gives the writer its place; `beside`: on a thread of its own, if the system gives one.
     pub(super) fn new(writer: Writer, beside: bool) -> Self {
         let faults = Faults::default();
@@ -152,7 +152,7 @@ impl Handover {
         true
     }
 
-    /// What went wrong and was not told yet.
+    /// What went wrong and was not reported yet.
     pub(super) fn fault(&self) -> Result<(), ResultsError> {
         self.faults.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(Ok(()), Err)
     }
@@ -193,7 +193,7 @@ impl Handover {
     }
 }
 
-impl Drop for Handover {
+impl Drop for WriterChannel {
     /// A run that was given up leaves no thread behind.
     fn drop(&mut self) {
         drop(self.desk());

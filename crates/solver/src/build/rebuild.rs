@@ -2,10 +2,10 @@
 //! the elements that are left.
 //!
 //! The mesh knows which elements those are, so outsides, sides and bodies follow; stiffnesses and lengths are
-//! those of the initial configuration, as ever. What was known of the past is handed over by
+//! those of the initial configuration, as before. What was known of the past is handed over by
 //! [`Contact::renew`].
 
-use super::{Builder, Builds, Fans};
+use super::{Builder, Builds, NodeElements};
 use crate::contact::rebuild::{ContactParts, ContactSource};
 use crate::contact::{Contact, ContactKind};
 use crate::load::curve::Curves;
@@ -15,16 +15,16 @@ use crate::tensor::Dim;
 use std::mem::take;
 
 /// What contacts are made from beyond the mesh, kept for when surfaces change.
-pub(super) struct Origin<const D: usize> {
+pub(super) struct RebuildSource<const D: usize> {
     pub(super) model: Model,
-    pub(super) fans: Fans,
+    pub(super) node_elements: NodeElements,
     pub(super) moduli: Vec<[f64; 2]>,
     pub(super) time_step: f64,
     /// Initial positions of all nodes, m.
     pub(super) positions: Vec<[f64; D]>,
 }
 
-impl<const D: usize> ContactSource<D> for Origin<D>
+impl<const D: usize> ContactSource<D> for RebuildSource<D>
 where
     Dim<D>: Builds<D>,
 {
@@ -37,18 +37,18 @@ where
             constraints: take(parts.constraints),
             positions: take(&mut self.positions),
             mass: take(parts.mass),
-            fans: take(&mut self.fans).into(),
+            node_elements: take(&mut self.node_elements).into(),
             moduli: take(&mut self.moduli),
             time_step: self.time_step,
             bodies: take(parts.bodies),
             made: made.collect(),
-            again: true,
+            rebuild: true,
             ..Builder::of(&self.model, take(parts.mesh), Joins::default(), Curves::default())
         };
         <Dim<D>>::renew(&mut builder, contacts);
-        let Builder { mesh, constraints, positions, mass, fans, moduli, bodies, .. } = builder;
+        let Builder { mesh, constraints, positions, mass, node_elements, moduli, bodies, .. } = builder;
         (*parts.mesh, *parts.constraints, *parts.mass, *parts.bodies) = (mesh, constraints, mass, bodies);
-        (self.positions, self.fans, self.moduli) = (positions, fans.into_inner().unwrap_or_default(), moduli);
+        (self.positions, self.node_elements, self.moduli) = (positions, node_elements.into_inner().unwrap_or_default(), moduli);
     }
 }
 

@@ -15,22 +15,22 @@
 //!   the same line, or a node of theirs touches the other body: else they are.
 //!
 //! Pairs within the margin are searched; they are all until nodes have gone half of it (by the travel, ∑ dt
-//! max |v|, that none exceeds), when they are searched anew. A pair that was d apart at the travel T can't
-//! have met before 2 (T' − T) > d: until then it sleeps, and counts as swept. What touches and goes on doing
-//! so was not missed, and is not swept.
+//! max |v|, that none exceeds), when they are searched again. A pair that was d apart at the travel T can't
+//! have met before 2 (T' − T) > d: until then it sleeps, and counts as swept. What touches and continues
+//! doing so was not missed, and is not swept.
 
 use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
 use super::node_facet::groups::{Meeting, bend, bodies_of, halves, mean_edge};
-use super::node_facet::passage::{ALONG, Fate, Passages};
-use super::node_facet::tracker::{FACING, SAME_SIDE, Touch, Tracker};
+use super::node_facet::passage::{ALONG, Outcome, Passages};
+use super::node_facet::tracker::{ContactPoint, FACING, SAME_SIDE, Tracker};
 use super::projection::edge_edge::{crossing, distance};
 use super::projection::node_facet::{Placed, Vector};
 use super::projection::swept::crossings;
 use super::search::{Pair, Query, Search};
 use super::tracker::Certificate;
 use super::tracker::sleep::AWAKE;
-use crate::archive::{Archive, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::tensor::dot;
 use crate::vector::{length, minus};
@@ -41,8 +41,8 @@ const MARGIN: f64 = 1.0;
 const SLACK: f64 = 1.001;
 /// A sleeper wakes a little before it has to.
 const EARLY: f64 = 1.0 - 1e-9;
-/// Who is no farther before a facet than this fraction of its size is on it: what lies on a rim is told to be
-/// over it or beside it by rounding.
+/// Who is no farther before a facet than this fraction of its size is on it: what lies on a rim is reported
+/// to be over it or beside it by rounding.
 const FLUSH: f64 = 1e-6;
 /// How well both ridges open where they go through each other.
 const BETWEEN: f64 = 0.25;
@@ -66,7 +66,7 @@ struct Group {
     wake: f64,
 }
 
-keep_all!(Group { slave, node, body, begin, end, own, side, wake });
+persist_all!(Group { slave, node, body, begin, end, own, side, wake });
 
 /// Nodes of one surface against another one, or the same.
 #[derive(Default)]
@@ -79,7 +79,7 @@ struct Pass {
 }
 
 /// The proof of one contact.
-pub struct Proof {
+pub struct MissedContactCheck {
     passes: Vec<Pass>,
     bodies: Vec<u32>,
     search: Box<dyn Search<3>>,
@@ -96,7 +96,7 @@ pub struct Proof {
     certificate: Certificate,
 }
 
-impl Proof {
+impl MissedContactCheck {
     /// For the passes (slave, target) of surfaces; `bodies` of each node of the model, `positions` the
     /// initial ones. `makes` a search, which is not that of the contact.
     #[must_use]
@@ -158,7 +158,7 @@ impl Proof {
         self.bodies.get(node as usize).copied().unwrap_or(u32::MAX)
     }
 
-    /// Pairs anew; what is known of nodes that are inside goes on.
+    /// Pairs again; what is known of nodes that are inside continues.
     fn find(&mut self, surfaces: &[SpaceSurface], sweep: Sweep<'_, 3>) {
         let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
         for pass in &mut self.passes {
@@ -210,14 +210,14 @@ impl Proof {
     }
 
     /// Sweeps the nodes of a pass that do not sleep, `touches` are theirs.
-    fn look_at_nodes(&mut self, number: usize, tracker: &Tracker, touches: &[Touch], sweep: Sweep<'_, 3>) {
+    fn look_at_nodes(&mut self, number: usize, tracker: &Tracker, touches: &[ContactPoint], sweep: Sweep<'_, 3>) {
         let mut pass = std::mem::take(&mut self.passes[number]);
         let target = &tracker.surfaces()[pass.target];
         let placed = Placed { surface: target, positions: sweep.new };
         let mut touches = touches.iter().peekable();
         self.certificate.pairs_swept += pass.candidates.len() as u64;
         let bodies = &self.bodies;
-        let key = |touch: &Touch| {
+        let key = |touch: &ContactPoint| {
             let node = target.facets[touch.projection.facet as usize][0];
             (touch.slave, bodies.get(node as usize).copied().unwrap_or(u32::MAX))
         };
@@ -236,7 +236,7 @@ impl Proof {
             if group.wake > sweep.travel {
                 continue;
             }
-            // Who goes on with its face has not passed.
+            // Who continues with its face has not passed.
             if touch.is_some_and(|touch| dot(tracker.kept(touch).normal, touch.projection.normal) > 0.0) {
                 group.wake = AWAKE;
                 continue;
@@ -299,7 +299,7 @@ impl Proof {
         let meets = |a: [u32; 2], b: [u32; 2]| a.iter().any(|node| b.contains(node));
         let by_edges =
             touches.iter().any(|touch| touch.edges == edges || (meets(touch.nodes[0], nodes[0]) && meets(touch.nodes[1], nodes[1])));
-        let touches_body = |touch: &Touch, of: usize| {
+        let touches_body = |touch: &ContactPoint, of: usize| {
             let target = tracker.target(touch.pass);
             tracker.slave(touch.pass) == sides[of]
                 && nodes[of].contains(&touch.node)
@@ -309,10 +309,10 @@ impl Proof {
     }
 
     /// Keeps what was proven, and which pairs sleep.
-    pub(super) fn keep(&mut self, archive: &mut Archive<'_>, surfaces: &[SpaceSurface]) -> Kept {
+    pub(super) fn persist(&mut self, archive: &mut Archive<'_>, surfaces: &[SpaceSurface]) -> ArchiveResult {
         let Self { passes, bodies: _, search: _, pairs: _, edges, wakes, margin: _, searched, has_begun, certificate } = self;
         for pass in passes {
-            keep_each!(archive; &mut pass.groups, &mut pass.candidates);
+            persist_each!(archive; &mut pass.groups, &mut pass.candidates);
             let (slaves, facets) = (&surfaces[pass.slave].nodes, surfaces[pass.target].facets.len());
             let is_known = |group: &Group| {
                 slaves.get(group.slave as usize) == Some(&group.node)
@@ -322,16 +322,16 @@ impl Proof {
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a proof follows nodes or facets that are not there")?;
         }
-        keep_each!(archive; wakes, searched, has_begun, certificate);
+        persist_each!(archive; wakes, searched, has_begun, certificate);
         if let Some(edges) = edges {
-            edges.keep(archive, surfaces)?;
+            edges.persist(archive, surfaces)?;
             archive.check(wakes.len() == edges.candidates(), "a proof follows more or fewer edges than there are")?;
         }
         Ok(())
     }
 
-    /// Goes on with what another one knew whose surfaces were those before they changed to `surfaces`:
-    /// counts, and who is inside. Pairs are searched anew in the next step.
+    /// Continues with what another one knew whose surfaces were those before they changed to `surfaces`:
+    /// counts, and who is inside. Pairs are searched again in the next step.
     pub(super) fn inherit(&mut self, old: &Self, surfaces: &[SpaceSurface]) {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
             let slaves = &surfaces[pass.slave].nodes;
@@ -354,9 +354,9 @@ fn wake_at(clear: f64, travel: f64) -> f64 {
 
 /// Whether a node at x that went in, or through the far side, is neither held there nor came around the body,
 /// before the face again by which it came in.
-fn is_missed(fate: Fate, touch: Option<&Touch>, x: Vector, candidates: &[u32], placed: &Placed<'_>) -> bool {
-    let Fate { side, enters, is_through } = fate;
-    let is_held = |touch: &Touch| {
+fn is_missed(fate: Outcome, touch: Option<&ContactPoint>, x: Vector, candidates: &[u32], placed: &Placed<'_>) -> bool {
+    let Outcome { side, enters, is_through } = fate;
+    let is_held = |touch: &ContactPoint| {
         let nearness = FLUSH * placed.size(touch.projection.facet);
         touch.projection.gap <= nearness && dot(side, touch.projection.normal) > SAME_SIDE
     };

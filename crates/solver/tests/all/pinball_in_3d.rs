@@ -219,7 +219,7 @@ fn threads_and_instruction_sets_and_a_stop_between_change_no_bit() {
     }
     for more in [0, 1, 5] {
         first.advance(f64::INFINITY, more).unwrap();
-        goes_on_to(&alone, &model, &mut first, "balls");
+        continues_to(&alone, &model, &mut first, "balls");
     }
 }
 
@@ -244,7 +244,7 @@ fn balls_whose_elements_fail_are_gone_and_the_books_stay_closed() {
 }
 
 #[test]
-fn what_is_inside_at_the_start_is_told_or_counts_as_touching() {
+fn what_is_inside_at_the_start_is_reported_or_counts_as_touching() {
     let with = |initial_penetration: InitialPenetration| {
         let mut model = model(1e-3);
         add_box(&mut model, "lower", "hex8", ([0.1; 3], [2; 3]), [0.0; 3], |x| x);
@@ -252,8 +252,8 @@ fn what_is_inside_at_the_start_is_told_or_counts_as_touching() {
         meet(&mut model, true, Interface { initial_penetration, ..Interface::default() });
         model
     };
-    let told = faults(&with(InitialPenetration::Error));
-    assert!(!told.is_empty() && told[0].contains("1.000e-3 m inside at the start"), "{told:?}");
+    let reported = faults(&with(InitialPenetration::Error));
+    assert!(!reported.is_empty() && reported[0].contains("1.000e-3 m inside at the start"), "{reported:?}");
     let simulation = to_end(&with(InitialPenetration::Ignore));
     assert!(value(&simulation, "energy.contact") < 1e-9 && value(&simulation, "energy.kinetic") < 1e-9);
 }

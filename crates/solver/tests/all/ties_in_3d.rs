@@ -140,7 +140,7 @@ fn a_broken_tie_between_solids_is_ordinary_contact() {
 }
 
 #[test]
-fn ties_between_solids_that_bind_nothing_or_a_node_twice_are_told() {
+fn ties_between_solids_that_bind_nothing_or_a_node_twice_are_reported() {
     let faults = |model: &Model| match Simulation::new(model, &Options::default()) {
         Err(Error::Model(faults)) => faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
         other => panic!("{:?}", other.err()),
@@ -148,17 +148,20 @@ fn ties_between_solids_that_bind_nothing_or_a_node_twice_are_told() {
     let mut apart = tied_bars(f64::INFINITY, ContactLaw::default(), 0.0);
     block(&mut apart, "far", [0.5, 0.0, 0.0], [0.1; 3], [2; 3], [0.0; 3]);
     apart.contacts.push(Contact { tied: Some(1.0), ..Contact::between("loose", "far", "left") });
-    let told = faults(&apart);
-    assert!(told.contains("contact[1].tied") && told.contains("binds nothing"), "{told}");
+    let reported = faults(&apart);
+    assert!(reported.contains("contact[1].tied") && reported.contains("binds nothing"), "{reported}");
     let mut twice = tied_bars(f64::INFINITY, ContactLaw::default(), 0.0);
     block(&mut twice, "third", [-0.1, 0.0401, 0.0], [0.3, 0.02, 0.03], [12, 2, 2], [0.0; 3]);
     twice.contacts.push(Contact { tied: Some(1.0), ..Contact::between("second", "right", "third") });
-    let told = faults(&twice);
-    assert!(told.contains("contact[1].tied") && told.contains("tied already by contact \"glue\"") && told.contains("node at ("), "{told}");
+    let reported = faults(&twice);
+    assert!(
+        reported.contains("contact[1].tied") && reported.contains("tied already by contact \"glue\"") && reported.contains("node at ("),
+        "{reported}"
+    );
 }
 
 #[test]
-fn ties_between_solids_go_on_from_a_kept_state_and_begin_at_their_birth() {
+fn ties_between_solids_continue_run_from_a_kept_state_and_begin_at_their_birth() {
     for active in [[0.0, f64::INFINITY], [3e-5, 1e-4]] {
         let mut model = tied_bars(4e6, ContactLaw::default(), 0.3);
         model.contacts[0].interface.active = active;

@@ -1,16 +1,16 @@
-//! How far the results of a run are: what a checkpoint has of them, so that a run that goes on leaves the
+//! How far the results of a run are: what a checkpoint has of them, so that a run that continues leaves the
 //! same files as one that was never stopped.
 //!
-//! Made by the writer when a state is kept; read when a run goes on. The film's frames are beside it, as
+//! Made by the writer when a state is kept; read when a run continues. The film's frames are beside it, as
 //! sections of the checkpoint.
 
 use super::atomic::Mark;
 use crate::outline::Extent;
 use serde::{Deserialize, Serialize};
 
-/// What a run has told until a step.
+/// What a run has reported until a step.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Told {
+pub struct Reported {
     /// How far `history.csv` is.
     pub(super) history: Mark,
     /// How far `hashes.csv` is, if there is one.

@@ -1,10 +1,10 @@
 //! A contact whose bodies are looked at as they are, whatever makes its springs: pinballs, ties. What looks
-//! holds nothing, it tells.
+//! holds nothing, it reports.
 
 use super::findings::Findings;
 use super::springs::{Answers, Springs};
 use super::{Formulation, Scene};
-use crate::archive::{Archive, Kept};
+use crate::archive::{Archive, ArchiveResult};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 use std::any::Any;
@@ -30,57 +30,57 @@ where
     ///
     /// # Errors
     /// What is read is of other bodies.
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept;
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult;
 
-    /// Goes on with what another one knew, whose surfaces were those before they changed; the bodies are
-    /// looked at anew.
+    /// Continues with what another one knew, whose surfaces were those before they changed; the bodies are
+    /// looked at again.
     fn inherit(&mut self, old: &Self);
 }
 
 /// The contact.
-pub struct Judged<J, const D: usize>
+pub struct Checked<J, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
     contact: Box<dyn Formulation<D>>,
-    judge: J,
+    overlap_check: J,
 }
 
-impl<J: Look<D>, const D: usize> Judged<J, D>
+impl<J: Look<D>, const D: usize> Checked<J, D>
 where
     Dim<D>: TangentSpace<D>,
 {
     /// A contact, and what looks at its bodies.
     #[must_use]
-    pub fn new(contact: Box<dyn Formulation<D>>, judge: J) -> Self {
-        Self { contact, judge }
+    pub fn new(contact: Box<dyn Formulation<D>>, overlap_check: J) -> Self {
+        Self { contact, overlap_check }
     }
 }
 
-impl<J: Look<D>, const D: usize> Formulation<D> for Judged<J, D>
+impl<J: Look<D>, const D: usize> Formulation<D> for Checked<J, D>
 where
     Dim<D>: TangentSpace<D>,
 {
     fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>) {
-        self.judge.see_step(scene);
+        self.overlap_check.see_step(scene);
         self.contact.detect(scene, springs);
     }
 
     fn remember(&mut self, solved: Answers<'_, D>) {
-        self.judge.weigh(&solved);
+        self.overlap_check.weigh(&solved);
         self.contact.remember(solved);
     }
 
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
-        let Self { contact, judge } = self;
-        contact.keep(archive)?;
-        judge.keep(archive)
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Self { contact, overlap_check } = self;
+        contact.persist(archive)?;
+        overlap_check.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
         if let Ok(old) = old.downcast::<Self>() {
             self.contact.inherit(old.contact);
-            self.judge.inherit(&old.judge);
+            self.overlap_check.inherit(&old.overlap_check);
         }
     }
 
@@ -89,10 +89,10 @@ where
     }
 
     fn overlaps(&self) -> Option<&Findings> {
-        Some(self.judge.findings())
+        Some(self.overlap_check.findings())
     }
 
     fn inside(&self) -> &[(u32, f64)] {
-        self.judge.inside()
+        self.overlap_check.inside()
     }
 }

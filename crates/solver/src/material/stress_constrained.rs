@@ -12,7 +12,7 @@ use super::points::{PLANE, PointLaw, Points, RESPONSE};
 use super::{Family, History};
 use embate_lanes::{BATCH, Batch, Level};
 
-/// Components yy and zz of a tensor of the plane.
+/// Components yy and zz of a tensor in 2D.
 const YY: usize = 1;
 const ZZ: usize = 2;
 /// Largest |σ_zz| over the stiffness K + 4µ/3.
@@ -23,13 +23,13 @@ const CALLS: usize = 80;
 const PATIENCE: usize = 12;
 
 /// A law without load across.
-pub(super) struct Unloaded {
+pub(super) struct StressConstrained {
     law: Box<dyn PointLaw>,
     /// Whether there is none along y either.
     uniaxial: bool,
 }
 
-impl Unloaded {
+impl StressConstrained {
     pub(super) fn plane_stress(law: Box<dyn PointLaw>) -> Self {
         Self { law, uniaxial: false }
     }
@@ -140,7 +140,7 @@ impl Search {
     }
 }
 
-impl PointLaw for Unloaded {
+impl PointLaw for StressConstrained {
     fn family(&self) -> Family {
         self.law.family()
     }
@@ -175,13 +175,13 @@ impl PointLaw for Unloaded {
     }
 
     fn respond(&self, level: Level, points: Points<'_>) {
-        let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, room } = points;
+        let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, scratch } = points;
         let (inner, count) = (self.law.state_width(), strain.len() / PLANE);
         let width = inner + 1;
         let hyperelastic = self.law.family() == Family::Hyperelastic;
         // Strain, stress, state and ratio of the trial; then each point's search.
-        let (room, nested) = room.split(count * (2 * PLANE + inner + 1 + Search::WIDTH));
-        let (trial_strain, rest) = room.split_at_mut(count * PLANE);
+        let (scratch, nested) = scratch.split(count * (2 * PLANE + inner + 1 + Search::WIDTH));
+        let (trial_strain, rest) = scratch.split_at_mut(count * PLANE);
         let (trial_stress, rest) = rest.split_at_mut(count * PLANE);
         let (trial_state, rest) = rest.split_at_mut(count * inner);
         let (trial_ratio, searches) = rest.split_at_mut(count);
@@ -217,7 +217,7 @@ impl PointLaw for Unloaded {
                     stress: trial_stress,
                     state: trial_state,
                     response,
-                    room: nested,
+                    scratch: nested,
                 },
             );
             let mut found = true;

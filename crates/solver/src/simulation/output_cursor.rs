@@ -1,12 +1,12 @@
-//! Where a run stands beside its state: what was told, and where its stages begin, so that one that goes on
-//! later tells the same and takes the same samples.
+//! Where a run stands beside its state: what was reported, and where its stages begin, so that one that
+//! continues later reports the same and takes the same samples.
 
 use super::run::PROGRESS;
-use crate::archive::{Archive, Keep, Kept, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 
 /// Where a run stands.
 #[derive(Clone, Copy)]
-pub(super) struct Course {
+pub(super) struct OutputCursor {
     /// Time of the last row, s, and step of the last frame.
     pub(super) last_row: f64,
     pub(super) last_frame: Option<u64>,
@@ -14,11 +14,11 @@ pub(super) struct Course {
     pub(super) stage: u64,
     /// Step of the last state that was handed out, or taken over.
     pub(super) last_state: Option<u64>,
-    /// Whether the run goes on from a state that was kept.
+    /// Whether the run continues from a state that was kept.
     pub(super) is_resumed: bool,
 }
 
-impl Course {
+impl OutputCursor {
     pub(super) fn new(step: u64) -> Self {
         Self { last_row: f64::NEG_INFINITY, last_frame: None, stage: step, last_state: Some(step), is_resumed: false }
     }
@@ -40,10 +40,10 @@ impl Course {
     }
 }
 
-impl Keep for Course {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for OutputCursor {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { last_row, last_frame, stage, last_state, is_resumed } = self;
-        keep_each!(archive; last_row, last_frame, stage, last_state);
+        persist_each!(archive; last_row, last_frame, stage, last_state);
         *is_resumed |= archive.reads();
         Ok(())
     }

@@ -3,11 +3,11 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use embate_solver::contact::law::penalty::Penalty;
-use embate_solver::contact::node_facet::tracker::{Touch, Tracker};
+use embate_solver::contact::missed_contacts::MissedContactCheck;
+use embate_solver::contact::node_facet::tracker::{ContactPoint, Tracker};
 use embate_solver::contact::node_facet::{NodeFacet, PassInput, Slave};
 use embate_solver::contact::projection::node_facet::{Placed, Vector};
 use embate_solver::contact::projection::swept::entries;
-use embate_solver::contact::proof::Proof;
 use embate_solver::contact::search::{Pair, Query, Search, registry};
 use embate_solver::contact::springs::{Springs, Tangential, Terms};
 use embate_solver::contact::tracker::Certificate;
@@ -98,7 +98,7 @@ impl Pairing {
             ..PassInput::default()
         };
         let inputs = BOTH.iter().map(slaves).collect();
-        let proof = Proof::new(&surfaces, BOTH, &bodies, positions, with_edges, registry::<3>()[0].make);
+        let proof = MissedContactCheck::new(&surfaces, BOTH, &bodies, positions, with_edges, registry::<3>()[0].make);
         let tracker = Tracker::new(surfaces, BOTH, &bodies, search(), positions);
         let contact = NodeFacet::new(tracker, inputs, &Interface::default(), 0.0, positions).with_proof(proof);
         let contact = if with_edges { contact.with_edges(search()) } else { contact };
@@ -145,13 +145,13 @@ fn a_bullet_that_flies_through_a_plate_in_one_step_is_caught_where_the_contact_i
             // side walls are nearer.
             let seen = sighted.go(way);
             assert!(seen.unverified == 0, "{size} {way:?}: {seen:?}");
-            let inside = |touch: &&Touch| touch.pass == 0 && touch.projection.gap < 0.0;
-            let held: Vec<&Touch> = sighted.contact.tracker().touches().iter().filter(inside).collect();
+            let inside = |touch: &&ContactPoint| touch.pass == 0 && touch.projection.gap < 0.0;
+            let held: Vec<&ContactPoint> = sighted.contact.tracker().touches().iter().filter(inside).collect();
             assert!(held.len() as u64 == nodes && held.iter().all(|touch| touch.projection.normal == [0.0, 0.0, 1.0]), "{size} {way:?}");
-            // And goes on to do so, until it is before the face.
+            // And continues to do so, until it is before the face.
             for (by, held) in [(0.001, 8), (-0.2, 8), (0.1, 8), (2.0, 0)].into_iter().filter(|_| nodes == 8) {
                 assert_eq!(sighted.go([0.0, 0.0, by]).unverified, 0);
-                let inside = |touch: &&Touch| touch.pass == 0 && touch.projection.gap < 0.0 && touch.projection.normal[2] > 0.99;
+                let inside = |touch: &&ContactPoint| touch.pass == 0 && touch.projection.gap < 0.0 && touch.projection.normal[2] > 0.99;
                 let count = sighted.contact.tracker().touches().iter().filter(inside).count();
                 assert_eq!(count, held, "{size} {by}");
             }
@@ -316,7 +316,7 @@ proptest! {
 
     /// A rigid body darts about, by up to a metre a step, around, into and through a plate: who sees misses
     /// nothing, and whoever goes in, by a look at all pairs, is held on the side where it came in; who is
-    /// blind is told of each.
+    /// blind is reported for each.
     #[test]
     fn a_rigid_body_that_darts_through_a_plate_is_held_wherever_it_goes_in(
         ways in prop::collection::vec(prop::array::uniform3(-1.0..1.0_f64), 25),
@@ -350,8 +350,8 @@ proptest! {
                 sighted.contact.tracker().touches().iter().filter(|touch| touch.projection.gap < 0.0).map(|touch| (touch.pass, touch.node)).collect();
             entered.retain(|&(pass, node, _)| !was_inside.contains(&(pass, node)));
             prop_assert_eq!(blind.go_to(new.clone()).unverified, all, "blind, step {}", step);
-            let told = sighted.go_to(new);
-            prop_assert_eq!(told.unverified, 0, "step {} {:?}", step, ways[step].map(|c| speed * c));
+            let reported = sighted.go_to(new);
+            prop_assert_eq!(reported.unverified, 0, "step {} {:?}", step, ways[step].map(|c| speed * c));
             for (pass, node, side) in entered {
                 let touches = sighted.contact.tracker().touches().iter();
                 let held = touches.clone().any(|touch| touch.pass == pass && touch.node == node && touch.projection.gap < 0.0 && dot(touch.projection.normal, side) > -0.5);
@@ -392,8 +392,8 @@ proptest! {
                 [0, 1, 2].map(|d| x[d] + speed * (whole * way[d] + 0.05 * shake[d]))
             }).collect();
             all += all_that_enter(&surfaces, [&old, &new]).len() as u64;
-            let told = blind.go_to(new.clone());
-            prop_assert_eq!(told.unverified, all, "step {}", step);
+            let reported = blind.go_to(new.clone());
+            prop_assert_eq!(reported.unverified, all, "step {}", step);
             prop_assert_eq!(awake.go_to(new).unverified, all, "step {}", step);
         }
     }

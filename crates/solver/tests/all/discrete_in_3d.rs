@@ -1,4 +1,4 @@
-//! Springs, bars and boundaries that reflect nothing in space, against closed forms and against conservation.
+//! Springs, bars and boundaries that reflect nothing in 3D, against closed forms and against conservation.
 
 use crate::bodies::{elastic, every_step, group, model, simulation, to_end, value};
 use crate::patches::material;
@@ -88,7 +88,7 @@ fn two_bricks_on_a_spring_swing_with_the_frequency_of_their_masses_along_any_lin
 }
 
 #[test]
-fn dampers_in_space_slow_what_moves_along_them_and_book_what_they_take() {
+fn dampers_in_3d_slow_what_moves_along_them_and_book_what_they_take() {
     // Relative velocity v exp(−c t/µ) with µ = 32 kg.
     let (damping, speed) = (64.0, 0.1);
     let mut model = two_bricks(Spring { damping, ..Spring::default() });
@@ -123,7 +123,7 @@ fn bodies_that_tumble_on_springs_and_dampers_keep_both_momenta() {
 }
 
 #[test]
-fn stiff_springs_in_space_shorten_the_step_and_the_run_stays_stable() {
+fn stiff_springs_in_3d_shorten_the_step_and_the_run_stays_stable() {
     let mut model = two_bricks(Spring { stiffness: 1e11, damping: 10.0, ..Spring::default() });
     model.parts.iter_mut().for_each(|part| part.rigid = None);
     model.parts[1].velocity = [1.0, 0.0, 0.5];
@@ -153,7 +153,7 @@ fn a_stiffness_per_node_of_solids_is_that_of_each_node() {
 }
 
 #[test]
-fn a_bar_in_space_pulls_along_its_line_and_turns_without_strain() {
+fn a_bar_in_3d_pulls_along_its_line_and_turns_without_strain() {
     for law in ["elastic", "neo_hookean", "j2"] {
         let material = material(law, 0.3);
         let start = [[1.0, -2.0, 0.5], plus([1.0, -2.0, 0.5], 0.1, SKEW)];

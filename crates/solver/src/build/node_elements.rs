@@ -10,7 +10,7 @@ use crate::tensor::Dim;
 
 /// The element behind an edge.
 pub(super) struct Under {
-    /// One over the height of the element, 1/m: L / A, in space A / V.
+    /// One over the height of the element, 1/m: L / A, in 3D A / V.
     pub(super) flatness: f64,
     /// Index of the group of elements, and the element in it.
     pub(super) group: usize,
@@ -19,9 +19,9 @@ pub(super) struct Under {
 
 /// The elements at each node, counted through all groups.
 #[derive(Default)]
-pub(crate) struct Fans(Rows<u32>);
+pub(crate) struct NodeElements(Rows<u32>);
 
-impl Fans {
+impl NodeElements {
     /// Of the continuum elements.
     pub(super) fn of<const D: usize>(mesh: &Mesh<D>) -> Self
     where
@@ -64,7 +64,7 @@ where
 {
     /// What is behind a piece of the outside.
     pub(super) fn under(&self, facet: Facet<D>) -> Option<Under> {
-        let (group, element) = self.fans.get_or_init(|| Fans::of(&self.mesh)).behind(facet, &self.mesh)?;
+        let (group, element) = self.node_elements.get_or_init(|| NodeElements::of(&self.mesh)).behind(facet, &self.mesh)?;
         let (cell, positions) = (self.mesh.groups[group].cell(element), &self.mesh.positions);
         Some(Under { flatness: <Dim<D>>::inverse_height(facet, cell, positions), group, element })
     }

@@ -10,7 +10,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// From where files that an input names are read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Reach {
+pub enum PathPolicy {
     /// From the input's folder and those below it.
     #[default]
     Folder,
@@ -28,8 +28,8 @@ pub(crate) struct Bounds {
 
 impl Bounds {
     /// Those of an input in a folder.
-    pub(crate) fn of(folder: &Path, whose: &'static str, reach: Reach) -> Self {
-        Self { folder: (reach == Reach::Folder).then(|| real(folder)), whose }
+    pub(crate) fn of(folder: &Path, whose: &'static str, reach: PathPolicy) -> Self {
+        Self { folder: (reach == PathPolicy::Folder).then(|| real(folder)), whose }
     }
 
     /// Looks where a path ends; `written` is how the input names it.

@@ -105,7 +105,7 @@ where
             return Some((through.nodes[0] as usize, through.depth));
         }
         let deepest = contact.penetrations(&self.springs).map(|(_, depth)| depth).fold(0.0, f64::max);
-        // Of nodes that are equally deep to the digits that are told, such as those of both bodies, the
+        // Of nodes that are equally deep to the digits that are reported, such as those of both bodies, the
         // fastest: what moves is what to look at.
         let equal = contact.penetrations(&self.springs).filter(|&(_, depth)| depth >= (1.0 - 1e-3) * deepest);
         let speed = |node: u32| self.velocities.get(node as usize).map_or(0.0, |&v| dot(v, v));

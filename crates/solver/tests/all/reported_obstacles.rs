@@ -1,6 +1,6 @@
-//! What bodies do in rigid obstacles is held or told: what lies between nodes, what is pressed too softly,
-//! what goes through within a step; and contacts whose springs know nothing of overlaps, pinballs and single
-//! passes, are looked at too.
+//! What bodies do in rigid obstacles is held or reported: what lies between nodes, what is pressed too
+//! softly, what goes through within a step; and contacts whose springs know nothing of overlaps, pinballs and
+//! single passes, are looked at too.
 
 use crate::bodies::{add, model, rectangle, simulation, touch};
 use embate_solver::model::{
@@ -88,7 +88,7 @@ fn a_ball_and_a_cylinder_that_come_in_between_nodes_are_held() {
 }
 
 #[test]
-fn what_a_soft_spring_lets_into_an_obstacle_is_told_and_ends_the_run() {
+fn what_a_soft_spring_lets_into_an_obstacle_is_reported_and_ends_the_run() {
     let needle = {
         let (tip, base) = ([0.003, 0.001, -2e-4], [[-0.002, -0.002], [0.008, -0.002], [0.008, 0.006], [-0.002, 0.006]]);
         let base = base.map(|[x, y]| [x, y, -0.03]);
@@ -110,8 +110,8 @@ fn what_a_soft_spring_lets_into_an_obstacle_is_told_and_ends_the_run() {
         model.obstacles.push(Obstacle { interface: soft(), ..Obstacle::fixed("tool", shape.clone()) });
         let (summary, is_cut) = watch(&model, |_| {});
         assert!(summary.contact.unverified > 0 && is_cut == has_end, "{shape:?}: {summary:?}");
-        let told = summary.warnings.iter().map(|notice| notice.text.as_str()).collect::<String>();
-        assert!(told.contains("obstacle \"tool\"") && told.contains("part \"plate\" in the obstacle"), "{told}");
+        let reported = summary.warnings.iter().map(|notice| notice.text.as_str()).collect::<String>();
+        assert!(reported.contains("obstacle \"tool\"") && reported.contains("part \"plate\" in the obstacle"), "{reported}");
         // A limit of one's own counts alone.
         model.run.penetration_limit = Some(1.0);
         let (summary, is_cut) = watch(&model, |_| {});
@@ -120,7 +120,7 @@ fn what_a_soft_spring_lets_into_an_obstacle_is_told_and_ends_the_run() {
 }
 
 #[test]
-fn the_same_in_the_plane() {
+fn the_same_in_2d() {
     let square = |x: [f64; 2], size: f64| vec![x, [x[0], x[1] + size], [x[0] + size, x[1] + size], [x[0] + size, x[1]], x];
     let shapes = [
         ObstacleShape::Plane { point: [0.0, -2e-4, 0.0], normal: [0.0, 1.0, 0.0], length: None },
@@ -144,7 +144,7 @@ fn the_same_in_the_plane() {
 }
 
 #[test]
-fn what_goes_through_a_ball_within_a_step_is_told() {
+fn what_goes_through_a_ball_within_a_step_is_reported() {
     let speck = |speed: f64, aside: f64| {
         let mut model = model(3e-6);
         model.run.energy_limit = 1.0;
@@ -155,8 +155,8 @@ fn what_goes_through_a_ball_within_a_step_is_told() {
         model.run.end = 10.0 * dt;
         (watch(&model, |_| {}).0.contact.unverified, speed * dt)
     };
-    let (told, way) = speck(1e5, -5e-4);
-    assert!(told > 0 && way > 3e-3, "{told} {way}");
+    let (reported, way) = speck(1e5, -5e-4);
+    assert!(reported > 0 && way > 3e-3, "{reported} {way}");
     // Beside it there is nothing.
     assert_eq!(speck(1e5, 3e-3).0, 0);
 }
@@ -164,15 +164,15 @@ fn what_goes_through_a_ball_within_a_step_is_told() {
 #[test]
 fn pinballs_and_single_passes_are_looked_at() {
     for formulation in [Formulation::Pinball, Formulation::SinglePass { slave: 0 }, Formulation::DoublePass] {
-        for (scale, is_told) in [(1e-6, true), (1.0, false)] {
+        for (scale, is_reported) in [(1e-6, true), (1.0, false)] {
             let mut model = plate(1e-3, 10.0);
             model.parts.push(brick("floor", [-0.04, -0.04, -0.0202], [0.08, 0.08, 0.02], [5, 5, 2], [0.0; 3]));
             let interface = Penalty::automatic(scale).into();
             model.contacts.push(Contact { formulation, interface, ..Contact::between("c", "plate", "floor") });
             let (summary, _) = watch(&model, |_| {});
-            assert_eq!(summary.contact.unverified > 0, is_told, "{formulation:?} in space: {summary:?}");
+            assert_eq!(summary.contact.unverified > 0, is_reported, "{formulation:?} in 3D: {summary:?}");
         }
-        for (scale, is_told) in [(1e-6, true), (1.0, false)] {
+        for (scale, is_reported) in [(1e-6, true), (1.0, false)] {
             let mut model = crate::bodies::model(1e-3);
             model.run.energy_limit = 1.0;
             add(&mut model, "plate", rectangle([-0.03, 0.0], [0.06, 0.01], [6, 1]), [0.0, -10.0]);
@@ -180,21 +180,21 @@ fn pinballs_and_single_passes_are_looked_at() {
             touch(&mut model, "plate", "floor");
             (model.contacts[0].formulation, model.contacts[0].interface) = (formulation, Penalty::automatic(scale).into());
             let (summary, _) = watch(&model, |_| {});
-            assert_eq!(summary.contact.unverified > 0, is_told, "{formulation:?} in the plane: {summary:?}");
+            assert_eq!(summary.contact.unverified > 0, is_reported, "{formulation:?} in the plane: {summary:?}");
         }
     }
 }
 
 #[test]
-fn ties_in_space_are_looked_at() {
+fn ties_in_3d_are_looked_at() {
     // The plate is glued to the floor below it, too softly, well, and until it is torn off.
-    for (scale, strength, is_told) in [(1e-6, f64::INFINITY, true), (1.0, f64::INFINITY, false), (1.0, 1e5, false)] {
+    for (scale, strength, is_reported) in [(1e-6, f64::INFINITY, true), (1.0, f64::INFINITY, false), (1.0, 1e5, false)] {
         let mut model = plate(1e-3, 10.0);
         model.parts.push(brick("floor", [-0.04, -0.04, -0.0202], [0.08, 0.08, 0.02], [5, 5, 2], [0.0; 3]));
         let interface = Penalty::automatic(scale).into();
         model.contacts.push(Contact { tied: Some(strength), interface, ..Contact::between("glue", "plate", "floor") });
         let (summary, _) = watch(&model, |_| {});
-        assert_eq!(summary.contact.unverified > 0, is_told, "{scale} {strength}: {summary:?}");
+        assert_eq!(summary.contact.unverified > 0, is_reported, "{scale} {strength}: {summary:?}");
     }
 }
 

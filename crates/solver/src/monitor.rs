@@ -6,7 +6,7 @@
 //! written: energies are summed there already, and elements are looked at only every 256 steps or more.
 //! Nothing here changes the run.
 
-use crate::archive::{Archive, Keep, Kept, keep_all, keep_each};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_all, persist_each};
 use crate::dimension::Dimension;
 use crate::error::Notice;
 use crate::material::variable::PLASTIC_STRAIN;
@@ -30,8 +30,10 @@ static HOURGLASS: Message = Message {
          [[constraint]]\non = \"strip.left\"\nfixed = [\"x\", \"y\"]\n\n[[load]]\non = \"strip.right\"\nforce = [0, \"100 kN/m\"]\n\n\
          [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "Elements with one point have shapes that strain nothing. What holds them is no material: where its energy is more than a tenth of the part's internal energy for more than a hundredth of the run, the part is too stiff or too soft by about as much.",
-    cure: "Take `quad4`, more elements, or spread the load over more nodes; look at the part in the last state for a zigzag.",
+    cause: "Elements with one point have shapes that strain nothing. What holds them is no material: where its \
+        energy is more than a tenth of the part's internal energy for more than a hundredth of the run, the part is \
+        too stiff or too soft by about as much.",
+    remedy: "Take `quad4`, more elements, or spread the load over more nodes; look at the part in the last state for a zigzag.",
 };
 
 static SPRINGS: Message = Message {
@@ -40,8 +42,9 @@ static SPRINGS: Message = Message {
     example: Example::Model(
         "[run]\nend = \"100 us\"\n\n[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\npenalty_scale = 1e-4\n",
     ),
-    cause: "More than a fifth of the largest total energy is stored in the springs of contacts for more than a hundredth of the run: bodies go deep into each other, and the contact is softer than they are.",
-    cure: "Raise `penalty_scale` or `penalty`, or take the law `multiplier`.",
+    cause: "More than a fifth of the largest total energy is stored in the springs of contacts for more than a \
+        hundredth of the run: bodies go deep into each other, and the contact is softer than they are.",
+    remedy: "Raise `penalty_scale` or `penalty`, or take the law `multiplier`.",
 };
 
 /// Presses a pad flat.
@@ -53,8 +56,11 @@ static NEEDLES: Message = Message {
     code: "W0613",
     title: "elements of poor shape",
     example: Example::Model(SQUEEZED),
-    cause: "The smallest Jacobian determinant at a corner over the square of the longest side (1 for a square) fell below 0.05, and to less than half of what it was: the element is squeezed, sheared or folded nearly flat, and its stress and stable step are no longer good.",
-    cure: "Refine the mesh there or shape it so that it deforms into squares; let elements fail (`failure`) where material really breaks.",
+    cause: "The smallest Jacobian determinant at a corner over the square of the longest side (1 for a square) fell \
+        below 0.05, and to less than half of what it was: the element is squeezed, sheared or folded nearly flat, \
+        and its stress and stable step are no longer good.",
+    remedy: "Refine the mesh there or shape it so that it deforms into squares; let elements fail (`failure`) where \
+        material really breaks.",
 };
 
 static BEYOND_TABLE: Message = Message {
@@ -64,22 +70,25 @@ static BEYOND_TABLE: Message = Message {
         "[run]\nend = \"2 us\"\n\n[material.steel]\nlaw = \"j2_table\"\nplastic_strain = [0, 0.01]\nstress = [\"300 MPa\", \"350 MPa\"]\n\n\
          [[constraint]]\non = \"wall.right\"\nvelocity = { x = \"-1 km/s\" }\n",
     ),
-    cause: "Beyond its last point a flow curve goes on with its last stress, which nobody has measured.",
-    cure: "Continue the table, or take a law with a formula such as `j2_voce` that was fitted to it.",
+    cause: "Beyond its last point a flow curve continues with its last stress, which was not measured.",
+    remedy: "Continue the table, or take a law with a formula such as `j2_voce` that was fitted to it.",
 };
 
 static SHORT_STEP: Message = Message {
     code: "W0615",
     title: "a step that fell to a tenth",
     example: Example::Model(
-        "[run]\nend = \"99.6 us\"\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [1, 2] }\n\n[[constraint]]\non = \"block\"\nfixed = \"x\"\n\n[[constraint]]\non = \"block.bottom\"\nfixed = \"y\"\n\n[[constraint]]\non = \"block.top\"\nvelocity = { y = \"-100 m/s\" }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+        "[run]\nend = \"99.6 us\"\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, \
+            0], size = [\"10 mm\", \"10 mm\"], elements = [1, 2] }\n\n[[constraint]]\non = \"block\"\nfixed = \"x\"\n\n[[constraint]]\non \
+            = \"block.bottom\"\nfixed = \"y\"\n\n[[constraint]]\non = \"block.top\"\nvelocity = { y = \"-100 m/s\" \
+            }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
     cause: "The step goes with the smallest element over the speed of sound in it: one was squeezed, or a material became stiff.",
-    cure: "Look at the element that the message names; let it fail (`failure = { time_step = ... }`), or refine less there.",
+    remedy: "Look at the element that the message names; let it fail (`failure = { time_step = ... }`), or refine less there.",
 };
 
 /// Hourglass energy over internal energy of a part, and energy of contact springs over the largest total
-/// energy, from which on they are told.
+/// energy, from which on they are reported.
 const HOURGLASS_MOST: f64 = 0.1;
 const SPRINGS_MOST: f64 = 0.2;
 /// For how long they must be there, as a fraction of the run: when bodies meet, springs may hold much of the
@@ -88,7 +97,7 @@ const SPRINGS_MOST: f64 = 0.2;
 const LASTS: f64 = 0.01;
 /// Hourglass energy that is less than this of the largest total energy harms nothing.
 const NOTHING: f64 = 1e-3;
-/// Shape of an element below which it is told, and the fraction of its shape at the start.
+/// Shape of an element below which it is reported, and the fraction of its shape at the start.
 const SHAPE_LEAST: f64 = 0.05;
 const SHAPE_LOST: f64 = 0.5;
 /// Step over the first one.
@@ -96,16 +105,16 @@ const STEP_LEAST: f64 = 0.1;
 /// Steps between two looks at all elements.
 const PAUSE: u64 = 256;
 
-/// Something that was seen: what was told, and how it went on.
+/// Something that was seen: what was reported, and how it continued.
 #[derive(Clone, Debug, Default)]
 struct Seen {
-    told: String,
+    reported: String,
     most: f64,
 }
 
-keep_all!(Seen { told, most });
+persist_all!(Seen { reported, most });
 
-/// Hourglass and internal energy of each part, J (in the plane J/m).
+/// Hourglass and internal energy of each part, J (in 2D J/m).
 fn hourglass<const D: usize>(system: &System<D>) -> Vec<[f64; 2]>
 where
     Dim<D>: Dimension<D>,
@@ -124,7 +133,7 @@ where
 type Matter = (usize, usize);
 
 /// What has been seen of a run.
-pub(crate) struct Watch {
+pub(crate) struct RunMonitor {
     seen: BTreeMap<Matter, Seen>,
     /// The shortest step at the first look, s.
     first_step: Option<f64>,
@@ -138,10 +147,10 @@ pub(crate) struct Watch {
     since: BTreeMap<Matter, f64>,
 }
 
-impl Keep for Watch {
-    fn keep(&mut self, archive: &mut Archive<'_>) -> Kept {
+impl Persist for RunMonitor {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { seen, first_step, looked, since, ends: _, fails: _ } = self;
-        keep_each!(archive; seen, first_step, looked, since);
+        persist_each!(archive; seen, first_step, looked, since);
         archive.check(seen.keys().chain(since.keys()).all(|&(kind, _)| kind < MESSAGES.len()), "a warning of no known kind")
     }
 }
@@ -150,7 +159,7 @@ fn matter(kind: &Message, part: usize) -> Matter {
     (MESSAGES.iter().position(|other| other.code == kind.code).unwrap_or(MESSAGES.len()), part)
 }
 
-impl Watch {
+impl RunMonitor {
     pub(crate) fn new<const D: usize>(model: &Model, system: &System<D>) -> Self
     where
         Dim<D>: Dimension<D>,
@@ -199,7 +208,7 @@ impl Watch {
         Dim<D>: Dimension<D>,
     {
         let now = hourglass(system);
-        self.seen.iter().map(move |(&(number, part), Seen { told, most })| {
+        self.seen.iter().map(move |(&(number, part), Seen { reported, most })| {
             let kind = MESSAGES[number];
             let share = now.get(part).map(|[hourglass, internal]| hourglass / internal).filter(|share| share.is_finite());
             let most = if let (Some(share), true) = (share, kind == &HOURGLASS) {
@@ -213,14 +222,14 @@ impl Watch {
             } else {
                 format!("{most} elements at most")
             };
-            Notice::new(kind, format!("{told}; {most}"))
+            Notice::new(kind, format!("{reported}; {most}"))
         })
     }
 
     fn see(&mut self, kind: &'static Message, part: usize, size: f64, text: String, new: &mut Vec<Notice>) {
         let seen = self.seen.entry(matter(kind, part)).or_insert_with(|| {
             new.push(Notice::new(kind, &text));
-            Seen { told: text, most: size }
+            Seen { reported: text, most: size }
         });
         seen.most = seen.most.max(size);
     }

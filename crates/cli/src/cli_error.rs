@@ -12,9 +12,9 @@ use std::fmt;
 
 /// The text of a failure or warning.
 #[derive(Debug)]
-pub(crate) struct Complaint(String);
+pub(crate) struct CliError(String);
 
-impl Complaint {
+impl CliError {
     pub(crate) fn new(kind: &Message, text: impl fmt::Display) -> Self {
         Self(format!("{kind}: {text}"))
     }
@@ -35,26 +35,26 @@ impl Complaint {
     }
 }
 
-impl fmt::Display for Complaint {
+impl fmt::Display for CliError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
     }
 }
 
-impl From<&Diagnostics> for Complaint {
+impl From<&Diagnostics> for CliError {
     fn from(diagnostics: &Diagnostics) -> Self {
         Self(diagnostics.rendered.clone())
     }
 }
 
-impl From<&Notice> for Complaint {
+impl From<&Notice> for CliError {
     fn from(notice: &Notice) -> Self {
         Self::new(notice.kind, &notice.text)
     }
 }
 
 /// One paragraph for each fault of a model.
-impl From<&Error> for Complaint {
+impl From<&Error> for CliError {
     fn from(error: &Error) -> Self {
         match (error, error.kind()) {
             (_, Some(kind)) => Self::new(kind, error),
@@ -64,7 +64,7 @@ impl From<&Error> for Complaint {
     }
 }
 
-impl From<&[Fault]> for Complaint {
+impl From<&[Fault]> for CliError {
     fn from(faults: &[Fault]) -> Self {
         Self(paragraphs(faults))
     }
@@ -78,8 +78,8 @@ fn paragraphs(faults: &[Fault]) -> String {
         *count += 1;
         if *count <= SHOWN {
             let place = if fault.path.is_empty() { String::new() } else { format!("{}: ", fault.path) };
-            let complaint = Complaint::new(fault.kind, format!("{place}{}", fault.message));
-            lines.push(if fault.help.is_empty() { complaint.0 } else { complaint.help(&fault.help).0 });
+            let cli_error = CliError::new(fault.kind, format!("{place}{}", fault.message));
+            lines.push(if fault.help.is_empty() { cli_error.0 } else { cli_error.help(&fault.help).0 });
         }
     }
     let hidden = counts.into_iter().filter(|(_, count)| *count > SHOWN);
@@ -93,18 +93,18 @@ mod tests {
     use embate_solver::model::messages::{RANGE, UNKNOWN_NAME};
 
     #[test]
-    fn every_fault_is_told_with_its_code_and_help() {
+    fn every_fault_is_reported_with_its_code_and_help() {
         let faults = [Fault::new(&RANGE, "run.end", "is 0", "give a time"), Fault::new(&UNKNOWN_NAME, "", "no parts", "")];
-        let told = "error[E0110]: run.end: is 0\n  help: give a time\nerror[E0116]: no parts";
-        assert_eq!(Complaint::from(&Error::Model(faults.to_vec())).to_string(), told);
+        let reported = "error[E0110]: run.end: is 0\n  help: give a time\nerror[E0116]: no parts";
+        assert_eq!(CliError::from(&Error::Model(faults.to_vec())).to_string(), reported);
     }
 
     #[test]
     fn of_each_code_twenty_are_shown_and_the_rest_is_counted() {
         let mut faults: Vec<Fault> = (0..57).map(|k| Fault::new(&RANGE, format!("part[{k}]"), "is 0", "")).collect();
         faults.push(Fault::new(&UNKNOWN_NAME, "", "no parts", ""));
-        let told = Complaint::from(faults.as_slice()).to_string();
-        assert_eq!(told.matches("error[E0110]").count(), 20);
-        assert!(told.ends_with("error[E0116]: no parts\nand 37 more of E0110"), "{told}");
+        let reported = CliError::from(faults.as_slice()).to_string();
+        assert_eq!(reported.matches("error[E0110]").count(), 20);
+        assert!(reported.ends_with("error[E0116]: no parts\nand 37 more of E0110"), "{reported}");
     }
 }

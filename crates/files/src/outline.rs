@@ -10,7 +10,7 @@ const ENDLESS: f64 = 30.0;
 const DRAWN_OUT: f64 = 1e3;
 
 /// Lower and upper corner.
-pub(crate) type Extent<const D: usize = 2> = [[f64; D]; 2];
+pub(crate) type Extent<const D: usize> = [[f64; D]; 2];
 
 /// The surface of an obstacle at one time, the solid on its right.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl Line {
     }
 
     /// The box around all points.
-    pub(crate) fn extent(&self) -> Extent {
+    pub(crate) fn extent(&self) -> Extent<2> {
         let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for p in &self.points {
             bounds[0] = [bounds[0][0].min(p[0]), bounds[0][1].min(p[1])];
@@ -55,7 +55,7 @@ impl Line {
     }
 
     /// Its points; of a line without end the piece across `near`.
-    pub(crate) fn piece(&self, near: Extent) -> Vec<[f64; 2]> {
+    pub(crate) fn piece(&self, near: Extent<2>) -> Vec<[f64; 2]> {
         let middle = [0, 1].map(|k| 0.5 * (near[0][k] + near[1][k]));
         let half = (near[1][0] - near[0][0]).hypot(near[1][1] - near[0][1]);
         match (self.is_endless && half.is_finite(), &self.points[..], self.nearest(middle)) {
@@ -191,7 +191,7 @@ impl Plane {
     }
 
     /// Coordinates in the plane of the smallest rectangle above which a box lies, and some room beside it.
-    pub(crate) fn sides(&self, near: Extent<3>) -> Extent {
+    pub(crate) fn sides(&self, near: Extent<3>) -> Extent<2> {
         let mut sides = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for corner in 0..8_usize {
             let x = [0, 1, 2].map(|k| near[corner >> k & 1][k]);
@@ -205,7 +205,7 @@ impl Plane {
     }
 
     /// Corners of a rectangle in 2D, outward by the right-hand rule, m.
-    pub(crate) fn rectangle(&self, [low, high]: Extent) -> [[f64; 3]; 4] {
+    pub(crate) fn rectangle(&self, [low, high]: Extent<2>) -> [[f64; 3]; 4] {
         [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]].map(|at| self.place(at))
     }
 }

@@ -3,6 +3,7 @@
 
 mod rebuild;
 mod bodies;
+mod contacts;
 mod dimension;
 mod discrete;
 mod failure;

@@ -9,7 +9,7 @@ use embate_lanes::BATCH;
 /// Forces of contacts and obstacles on nodes, N/m. Of a model without contacts there are none, not even of
 /// zero: [`ContactForces::new`] of no nodes.
 #[derive(Clone, Debug, Default)]
-pub struct ContactForces<const D: usize = 2> {
+pub struct ContactForces<const D: usize> {
     /// As far as any node was pushed: nodes of surfaces come before the others.
     values: Vec<[f64; D]>,
     /// Number of nodes.

@@ -33,7 +33,7 @@ pub type Drive = Option<Speed>;
 
 /// The rigid bodies of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bodies<const D: usize = 2>
+pub struct Bodies<const D: usize>
 where
     Dim<D>: RigidMotion<D>,
 {
@@ -44,7 +44,7 @@ where
 
 /// State of a rigid body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body<const D: usize = 2>
+pub struct Body<const D: usize>
 where
     Dim<D>: RigidMotion<D>,
 {
@@ -97,7 +97,7 @@ type Angle<const D: usize> = <Dim<D> as RigidMotion<D>>::Angle;
 
 /// A node of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Member<const D: usize = 2> {
+pub struct Member<const D: usize> {
     /// The node.
     pub node: u32,
     /// Where it is seen from the reference point, in the frame of the body, m.
@@ -106,7 +106,7 @@ pub struct Member<const D: usize = 2> {
 
 /// What acts on the mass of a body: a force, and a moment where parts of one body weigh differently.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Weight<const D: usize = 2>
+pub struct Weight<const D: usize>
 where
     Dim<D>: RigidMotion<D>,
 {
@@ -371,7 +371,7 @@ pub(crate) fn turn(v: [f64; 2], angle: f64) -> [f64; 2] {
 }
 
 /// What acts on bodies beside contact.
-pub struct Acting<'a, F: Fn(usize) -> [f64; D], const D: usize = 2> {
+pub struct Acting<'a, F: Fn(usize) -> [f64; D], const D: usize> {
     /// ½ (dt^{n−1} + dt^n), s.
     pub mean_step: f64,
     /// Times t^n and t^{n+1}, between which what is driven follows its curve, s.

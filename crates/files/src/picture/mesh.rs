@@ -24,7 +24,7 @@ pub fn mesh_png(frame: &Frame, cells: &Cells, settings: &FilmSettings, path: &Pa
 }
 
 /// What stands in the picture besides the mesh.
-fn plan<'a>(cells: &Cells, settings: &'a FilmSettings, view: Extent, sides: [f64; 2], note: &'a str) -> Plan<'a> {
+fn plan<'a>(cells: &Cells, settings: &'a FilmSettings, view: Extent<2>, sides: [f64; 2], note: &'a str) -> Plan<'a> {
     let size = [settings.width, settings.height];
     Plan { title: &settings.title, mirror: settings.mirror, sides, size, view, key: Key::Parts(cells.part_names.clone()), note }
 }

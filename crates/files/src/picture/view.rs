@@ -3,7 +3,7 @@
 
 use crate::outline::{Extent, Line};
 
-pub(super) const NOTHING: Extent = nothing();
+pub(super) const NOTHING: Extent<2> = nothing();
 
 /// The box of no points.
 pub(super) const fn nothing<const D: usize>() -> Extent<D> {
@@ -68,7 +68,7 @@ pub(super) fn sides(nodes: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
 }
 
 /// Where obstacles may be shown beside `bodies`: not beyond the mirror lines, where the mirror image lies.
-pub(super) fn room(bodies: Extent, mirror: [bool; 2], sides: [f64; 2]) -> Extent {
+pub(super) fn room(bodies: Extent<2>, mirror: [bool; 2], sides: [f64; 2]) -> Extent<2> {
     let more = ROOM * size(bodies);
     let [mut low, mut high] = [bodies[0].map(|v| v - more), bodies[1].map(|v| v + more)];
     for axis in (0..2).filter(|k| mirror[*k]) {
@@ -79,7 +79,12 @@ pub(super) fn room(bodies: Extent, mirror: [bool; 2], sides: [f64; 2]) -> Extent
 
 /// What is to be seen of obstacles within `room` of `bodies`, with the nodes of one frame. A long line adds
 /// no more than its points near the bodies.
-pub(super) fn obstacles(lines: &[Line], nodes: impl ExactSizeIterator<Item = [f64; 2]> + Clone, bodies: Extent, room: Extent) -> Extent {
+pub(super) fn obstacles(
+    lines: &[Line],
+    nodes: impl ExactSizeIterator<Item = [f64; 2]> + Clone,
+    bodies: Extent<2>,
+    room: Extent<2>,
+) -> Extent<2> {
     let large = size(bodies);
     let mut seen = NOTHING;
     for line in lines {
@@ -106,9 +111,9 @@ pub(super) fn obstacles(lines: &[Line], nodes: impl ExactSizeIterator<Item = [f6
 mod tests {
     use super::*;
 
-    const BODIES: Extent = [[0.0, 0.0], [2.0, 1.0]];
+    const BODIES: Extent<2> = [[0.0, 0.0], [2.0, 1.0]];
 
-    fn seen(points: Vec<[f64; 2]>, is_endless: bool, mirror: [bool; 2]) -> Extent {
+    fn seen(points: Vec<[f64; 2]>, is_endless: bool, mirror: [bool; 2]) -> Extent<2> {
         let nodes = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
         let line = Line { points, is_endless };
         obstacles(&[line], nodes.into_iter(), BODIES, room(BODIES, mirror, [1.0, 1.0]))

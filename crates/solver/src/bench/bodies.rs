@@ -64,7 +64,7 @@ pub fn material(law: &str) -> Material {
 
 /// A square of quadrilaterals, or a cube of solid elements, in a swirling, stretching motion that yields.
 #[derive(Clone, Debug)]
-pub struct Patch<const D: usize = 2> {
+pub struct Patch<const D: usize> {
     /// Positions of its nodes, m.
     pub positions: Vec<[f64; D]>,
     /// Their velocities, m/s.
@@ -94,7 +94,7 @@ impl Patch<3> {
     }
 }
 
-impl Patch {
+impl Patch<2> {
     /// `n` × `n` elements of 1 mm.
     #[must_use]
     pub fn new(n: usize) -> Self {

@@ -13,7 +13,7 @@ use crate::tensor::{Dim, Space};
 
 /// What a block is made from.
 #[derive(Clone, Copy, Debug)]
-pub struct BlockInput<'a, const D: usize = 2> {
+pub struct BlockInput<'a, const D: usize> {
     /// Name in the element registry.
     pub element: &'a str,
     /// Cross-section of bars, m² (per metre of depth, m).

@@ -115,7 +115,7 @@ where
 }
 
 impl Builder<'_, 2> {
-    pub(crate) fn rigid_part(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body {
+    pub(crate) fn rigid_part(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<2> {
         let (mesh, part, positions) = (&self.mesh.parts[index], &self.model.parts[index], &self.mesh.positions);
         // The whole mass of the nodes: that of other parts at common nodes belongs to the body.
         let whole: Vec<(u32, f64)> = own.iter().map(|&(node, _)| (node, self.mass[node as usize])).collect();

@@ -1,7 +1,8 @@
 //! What is built in a way of its own in 2D and 3D ([`Builds`], on [`Dim`]).
 
 use super::{Builder, plane};
-use crate::contact::Contact;
+use crate::contact::Formulation;
+use crate::contact::outline::Outlines;
 use crate::dimension::Dimension;
 use crate::error::Fault;
 use crate::mesh::Mesh;
@@ -27,16 +28,33 @@ pub trait Builds<const D: usize>: Dimension<D> {
     fn rigid_part(builder: &Builder<'_, D>, index: usize, motion: &model::Motion, own: &[(u32, f64)]) -> Body<D>
     where
         Dim<D>: Builds<D>;
-    /// The contacts of the model; notes faults.
-    fn contacts(builder: &mut Builder<'_, D>) -> Vec<Contact<D>>
+    /// What contacts are made with beyond the builder: in 2D the outlines of all bodies.
+    type Outlines;
+    /// See [`Builds::Outlines`].
+    fn outlines(builder: &Builder<'_, D>) -> Self::Outlines
     where
         Dim<D>: Builds<D>;
-    /// Its obstacles.
-    fn obstacles(builder: &mut Builder<'_, D>) -> Vec<Contact<D>>
+    /// What makes the springs of a contact, and the number of the terms that they follow. Faults have paths
+    /// relative to the contact.
+    ///
+    /// # Errors
+    /// All faults of the contact.
+    fn formulation(
+        builder: &mut Builder<'_, D>,
+        contact: &model::Contact,
+        outlines: &Self::Outlines,
+    ) -> Result<(Box<dyn Formulation<D>>, usize), Vec<Fault>>
     where
         Dim<D>: Builds<D>;
-    /// Gives contacts and obstacles new surfaces after elements were eroded.
-    fn renew(builder: &mut Builder<'_, D>, contacts: &mut [Contact<D>])
+    /// The body of an obstacle, and what makes springs at it. Faults have paths relative to the obstacle.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    fn obstacle(
+        builder: &mut Builder<'_, D>,
+        obstacle: &model::Obstacle,
+        outlines: &Self::Outlines,
+    ) -> Result<(usize, Box<dyn Formulation<D>>), Fault>
     where
         Dim<D>: Builds<D>;
 }
@@ -51,14 +69,23 @@ impl Builds<2> for Dim<2> {
     fn rigid_part(builder: &Builder<'_, 2>, index: usize, motion: &model::Motion, own: &[(u32, f64)]) -> Body<2> {
         builder.rigid_part(index, motion, own)
     }
-    fn contacts(builder: &mut Builder<'_, 2>) -> Vec<Contact> {
-        builder.contacts()
+    type Outlines = Outlines;
+    fn outlines(builder: &Builder<'_, 2>) -> Outlines {
+        builder.outlines()
     }
-    fn obstacles(builder: &mut Builder<'_, 2>) -> Vec<Contact> {
-        builder.obstacles()
+    fn formulation(
+        builder: &mut Builder<'_, 2>,
+        contact: &model::Contact,
+        outlines: &Outlines,
+    ) -> Result<(Box<dyn Formulation<2>>, usize), Vec<Fault>> {
+        builder.formulation(contact, outlines)
     }
-    fn renew(builder: &mut Builder<'_, 2>, contacts: &mut [Contact]) {
-        builder.renew(contacts);
+    fn obstacle(
+        builder: &mut Builder<'_, 2>,
+        obstacle: &model::Obstacle,
+        outlines: &Outlines,
+    ) -> Result<(usize, Box<dyn Formulation<2>>), Fault> {
+        builder.obstacle_formulation(obstacle, outlines)
     }
 }
 
@@ -72,13 +99,16 @@ impl Builds<3> for Dim<3> {
     fn rigid_part(builder: &Builder<'_, 3>, index: usize, motion: &model::Motion, own: &[(u32, f64)]) -> Body<3> {
         builder.rigid_part_in_3d(index, motion, own)
     }
-    fn contacts(builder: &mut Builder<'_, 3>) -> Vec<Contact<3>> {
-        builder.contacts_in_3d()
+    type Outlines = ();
+    fn outlines(_: &Builder<'_, 3>) -> () {}
+    fn formulation(
+        builder: &mut Builder<'_, 3>,
+        contact: &model::Contact,
+        (): &(),
+    ) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
+        builder.node_facet(contact)
     }
-    fn obstacles(builder: &mut Builder<'_, 3>) -> Vec<Contact<3>> {
-        builder.obstacles_in_3d()
-    }
-    fn renew(builder: &mut Builder<'_, 3>, contacts: &mut [Contact<3>]) {
-        builder.renew_in_3d(contacts);
+    fn obstacle(builder: &mut Builder<'_, 3>, obstacle: &model::Obstacle, (): &()) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
+        builder.obstacle_in_3d(obstacle)
     }
 }

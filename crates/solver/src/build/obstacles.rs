@@ -13,7 +13,7 @@ use crate::contact::obstacle::{Both, Manner, NodeObstacle, OutlineShape, Shape};
 use crate::contact::outline::{Outlines, Sides};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::tracker::{SKIN, Tracker};
-use crate::contact::{self, Contact, ContactKind, Formulation, Tributary, Vector, initial, law, length};
+use crate::contact::{self, Formulation, Tributary, Vector, initial, law, length};
 use crate::error::Fault;
 use crate::mesh::surface::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
@@ -63,26 +63,12 @@ impl Met<'_> {
 const ROUND: usize = 360;
 
 impl Builder<'_, 2> {
-    pub(crate) fn obstacles(&mut self) -> Vec<Contact> {
-        let (mut contacts, outlines) = (Vec::new(), self.outlines());
-        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            match self.obstacle_formulation(obstacle, &outlines) {
-                Ok((body, formulation)) => {
-                    let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
-                    contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
-                }
-                Err(fault) => self.faults.push(Fault { path: format!("obstacle[{i}]{}", fault.path), ..fault }),
-            }
-        }
-        contacts
-    }
-
     /// The body of an obstacle, and what makes springs at it.
     pub(super) fn obstacle_formulation(
         &mut self,
         obstacle: &Obstacle,
         outlines: &Outlines,
-    ) -> Result<(usize, Box<dyn Formulation>), Fault> {
+    ) -> Result<(usize, Box<dyn Formulation<2>>), Fault> {
         let met = self.met(obstacle, terms_of(&obstacle.interface).law.reach(), outlines)?;
         self.obstacle(obstacle, met)
     }
@@ -106,7 +92,7 @@ impl Builder<'_, 2> {
     }
 
     /// The body of an obstacle, and what makes springs at it.
-    fn obstacle(&mut self, obstacle: &Obstacle, met: Met<'_>) -> Result<(usize, Box<dyn Formulation>), Fault> {
+    fn obstacle(&mut self, obstacle: &Obstacle, met: Met<'_>) -> Result<(usize, Box<dyn Formulation<2>>), Fault> {
         match &obstacle.shape {
             ObstacleShape::Plane { point, normal, length } => self.plane(obstacle, met, first(*point), first(*normal), *length),
             ObstacleShape::Circle { centre, radius, hollow } => self.circle(obstacle, met, first(*centre), *radius, *hollow),
@@ -124,7 +110,7 @@ impl Builder<'_, 2> {
         point: [f64; 2],
         normal: [f64; 2],
         length: Option<f64>,
-    ) -> Result<(usize, Box<dyn Formulation>), Fault> {
+    ) -> Result<(usize, Box<dyn Formulation<2>>), Fault> {
         let reference = obstacle.reference.map_or(point, first);
         let shape = plane(seen(point, reference), normal, length, obstacle.interface.thickness, met.mean.length)?;
         // Beyond every picture of the model.
@@ -158,7 +144,7 @@ impl Builder<'_, 2> {
         centre: [f64; 2],
         radius: f64,
         hollow: bool,
-    ) -> Result<(usize, Box<dyn Formulation>), Fault> {
+    ) -> Result<(usize, Box<dyn Formulation<2>>), Fault> {
         let reference = obstacle.reference.map_or(centre, first);
         let shape = circle(seen(centre, reference), radius, hollow, obstacle.interface.thickness)?;
         let Circle { middle, radius: pushed, .. } = shape;
@@ -184,7 +170,7 @@ impl Builder<'_, 2> {
 
     /// Points and lines are nodes and segments that move with the body, and meet the outside of the parts as
     /// surfaces meet: nodes of each against segments of the other.
-    fn polyline(&mut self, obstacle: &Obstacle, met: Met<'_>, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation>) {
+    fn polyline(&mut self, obstacle: &Obstacle, met: Met<'_>, points: &[[f64; 2]]) -> (usize, Box<dyn Formulation<2>>) {
         let (own, closed) = distinct(points);
         let mean = [0, 1].map(|d| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64);
         let reference = obstacle.reference.map_or(mean, first);
@@ -270,7 +256,7 @@ impl Builder<'_, 2> {
     }
 
     /// The rigid body of an obstacle with its reference point, m.
-    fn obstacle_body(&self, obstacle: &Obstacle, reference: [f64; 2]) -> Body {
+    fn obstacle_body(&self, obstacle: &Obstacle, reference: [f64; 2]) -> Body<2> {
         let drives = self.drives(&obstacle.motion);
         let [mass, inertia] = [obstacle.mass, obstacle.inertia].map(|mass| mass.unwrap_or(0.0));
         let mass: [f64; 3] = std::array::from_fn(|k| if drives[k].is_none() { [mass, mass, inertia][k] } else { 0.0 });
@@ -313,7 +299,7 @@ pub(super) fn distinct(points: &[[f64; 2]]) -> (&[[f64; 2]], bool) {
 }
 
 /// Lines from node to node, as a surface.
-pub(super) fn chain(nodes: Vec<u32>, closed: bool) -> Surface {
+pub(super) fn chain(nodes: Vec<u32>, closed: bool) -> Surface<2> {
     let count = nodes.len() - usize::from(!closed);
     let segments = (0..count).map(|k| [nodes[k], nodes[(k + 1) % nodes.len()]]).collect();
     let mut previous: Vec<u32> = (0..count as u32).map(|k| k.wrapping_sub(1)).collect();

@@ -7,7 +7,7 @@ use crate::contact::formulation::{self, Setup, Side};
 use crate::contact::messages::ON_SYMMETRY;
 use crate::contact::outline::Outlines;
 use crate::contact::projection::node_segment::Target;
-use crate::contact::{self, Contact, ContactKind, Formulation};
+use crate::contact::{self, Formulation};
 use crate::error::Fault;
 use crate::mesh::Mesh;
 use crate::mesh::messages::NEGATIVE_RADIUS;
@@ -17,7 +17,6 @@ use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{self, Interface, Model, Partners, PenaltySource, Symmetry};
 use crate::vector::{dot, minus};
 use std::cell::RefCell;
-use std::collections::BTreeMap;
 
 /// An axisymmetric model with its axis as a symmetry line, if it touches that.
 pub(crate) fn with_axis(model: &Model, mesh: &Mesh<2>) -> Result<Option<Model>, Vec<Fault>> {
@@ -67,33 +66,6 @@ impl Builder<'_, 2> {
         Side { lids, segments, parts, nodes, cells, target }
     }
 
-    pub(crate) fn contacts(&mut self) -> Vec<Contact> {
-        let mut contacts = Vec::new();
-        let mut tied = BTreeMap::new();
-        let outlines = self.outlines();
-        for (i, contact) in self.model.contacts.iter().enumerate() {
-            match self.contact(contact, &outlines) {
-                Ok(made) => {
-                    if let Some(ties) = made.ties() {
-                        self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
-                    }
-                    contacts.push(made);
-                }
-                Err(faults) => self.faults.extend(faults.into_iter().map(|fault| {
-                    let dot = if fault.path.is_empty() { "" } else { "." };
-                    Fault { path: format!("contact[{i}]{dot}{}", fault.path), ..fault }
-                })),
-            }
-        }
-        contacts
-    }
-
-    /// A contact; faults have paths relative to it.
-    fn contact(&mut self, contact: &model::Contact, outlines: &Outlines) -> Result<Contact, Vec<Fault>> {
-        let (formulation, terms) = self.formulation(contact, outlines)?;
-        Ok(Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active))
-    }
-
     /// Outlines of all bodies; nothing where nothing meets them.
     pub(crate) fn outlines(&self) -> Outlines {
         if self.model.contacts.is_empty() && self.model.obstacles.is_empty() {
@@ -110,7 +82,7 @@ impl Builder<'_, 2> {
         &mut self,
         contact: &model::Contact,
         outlines: &Outlines,
-    ) -> Result<(Box<dyn Formulation>, usize), Vec<Fault>> {
+    ) -> Result<(Box<dyn Formulation<2>>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
         let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
         let sides: Vec<Side<'_>> = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
@@ -166,7 +138,7 @@ impl Builder<'_, 2> {
     /// leaves open.
     pub(crate) fn outlined(
         &self,
-        surface: impl Fn(&dyn Fn([u32; 2]) -> bool) -> Result<Surface, Fault>,
+        surface: impl Fn(&dyn Fn([u32; 2]) -> bool) -> Result<Surface<2>, Fault>,
         what: &str,
     ) -> Result<Outlined, Fault> {
         let lids = RefCell::new(Vec::new());
@@ -184,7 +156,7 @@ impl Builder<'_, 2> {
     }
 
     /// A surface as a target that continues beyond symmetry lines.
-    fn with_mirrors(&self, surface: Surface) -> Target {
+    fn with_mirrors(&self, surface: Surface<2>) -> Target {
         let starts =
             surface.segments.iter().zip(&surface.previous).filter(|(_, previous)| **previous == NONE).map(|(segment, _)| segment[0]);
         let ends = surface.segments.iter().zip(&surface.next).filter(|(_, next)| **next == NONE).map(|(segment, _)| segment[1]);

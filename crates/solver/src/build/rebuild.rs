@@ -45,30 +45,9 @@ where
             rebuild: true,
             ..Builder::of(&self.model, take(parts.mesh), Joins::default(), Curves::default())
         };
-        <Dim<D>>::renew(&mut builder, contacts);
+        builder.rebuild_contacts(contacts);
         let Builder { mesh, constraints, positions, mass, node_elements, moduli, bodies, .. } = builder;
         (*parts.mesh, *parts.constraints, *parts.mass, *parts.bodies) = (mesh, constraints, mass, bodies);
         (self.positions, self.node_elements, self.moduli) = (positions, node_elements.into_inner().unwrap_or_default(), moduli);
-    }
-}
-
-impl Builder<'_, 2> {
-    /// Makes contacts again, of the surfaces that are left.
-    pub(crate) fn renew(&mut self, contacts: &mut [Contact]) {
-        // Contacts come first, then obstacles, both in model order.
-        let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());
-        let outlines = self.outlines();
-        for (model, contact) in self.model.contacts.iter().zip(between) {
-            match self.formulation(model, &outlines) {
-                Ok((formulation, _)) => contact.renew(formulation),
-                Err(_) => contact.end(),
-            }
-        }
-        for (model, contact) in self.model.obstacles.iter().zip(obstacles) {
-            match self.obstacle_formulation(model, &outlines) {
-                Ok((_, formulation)) => contact.renew(formulation),
-                Err(_) => contact.end(),
-            }
-        }
     }
 }

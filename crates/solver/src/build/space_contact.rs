@@ -17,14 +17,13 @@ use crate::contact::obstacle::OutlineShape;
 use crate::contact::obstacle::space::{NodeSolid, Outside, Solid, Vector};
 use crate::contact::overlap::{Bodies, OverlapCheck, Walls};
 use crate::contact::search::{Search, registry};
-use crate::contact::{Contact, ContactKind, Formulation, Tributary};
+use crate::contact::{Formulation, Tributary};
 use crate::error::Fault;
 use crate::mesh::surface::SpaceSurface;
 use crate::mesh::surface::tributary::{self, Depth};
 use crate::model::messages::{NO_DIRECTION, NOT_IN_SPACE, UNKNOWN_NAME};
 use crate::model::{self, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource};
 use crate::vector::{dot, minus, plus, times, unit};
-use std::collections::BTreeMap;
 
 /// What a contact in 2D may do and one in 3D may not (yet).
 fn refused(contact: &model::Contact) -> Option<(&'static str, &'static str, &'static str)> {
@@ -41,60 +40,8 @@ pub(super) fn meets_edges(contact: &model::Contact, passes: Passes) -> bool {
 }
 
 impl Builder<'_, 3> {
-    /// See [`crate::build::Builds::contacts`].
-    pub(crate) fn contacts_in_3d(&mut self) -> Vec<Contact<3>> {
-        let mut contacts = Vec::new();
-        let mut tied = BTreeMap::new();
-        for (i, contact) in self.model.contacts.iter().enumerate() {
-            match self.node_facet(contact) {
-                Ok((made, terms)) => {
-                    let made = Contact::new(contact.name.clone(), ContactKind::Contact, made, terms, contact.interface.active);
-                    if let Some(ties) = made.ties() {
-                        self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
-                    }
-                    contacts.push(made);
-                }
-                Err(faults) => self.faults.extend(faults.into_iter().map(|fault| below(&format!("contact[{i}]"), fault))),
-            }
-        }
-        contacts
-    }
-
-    /// See [`crate::build::Builds::renew`].
-    pub(crate) fn renew_in_3d(&mut self, contacts: &mut [Contact<3>]) {
-        // Contacts come first, then obstacles, both in model order.
-        let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());
-        for (model, contact) in self.model.contacts.iter().zip(between) {
-            match self.node_facet(model) {
-                Ok((formulation, _)) => contact.renew(formulation),
-                Err(_) => contact.end(),
-            }
-        }
-        for (model, contact) in self.model.obstacles.iter().zip(obstacles) {
-            match self.obstacle_in_3d(model) {
-                Ok((_, formulation)) => contact.renew(formulation),
-                Err(_) => contact.end(),
-            }
-        }
-    }
-
-    /// See [`crate::build::Builds::obstacles`].
-    pub(crate) fn obstacles_in_3d(&mut self) -> Vec<Contact<3>> {
-        let mut contacts = Vec::new();
-        for (i, obstacle) in self.model.obstacles.iter().enumerate() {
-            match self.obstacle_in_3d(obstacle) {
-                Ok((body, formulation)) => {
-                    let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
-                    contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
-                }
-                Err(fault) => self.faults.push(below(&format!("obstacle[{i}]"), fault)),
-            }
-        }
-        contacts
-    }
-
     /// The body of an obstacle, and what makes springs at it. Faults have paths relative to the obstacle.
-    fn obstacle_in_3d(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
+    pub(super) fn obstacle_in_3d(&mut self, obstacle: &Obstacle) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
         let outside = self.outside_met(obstacle)?;
         match &obstacle.shape {
             ObstacleShape::Triangles(surface) => self.triangles(obstacle, surface, outside),
@@ -216,7 +163,7 @@ impl Builder<'_, 3> {
 
     /// What makes the springs of a contact, and the number of the terms that they follow. Faults have paths
     /// relative to the contact.
-    fn node_facet(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
+    pub(super) fn node_facet(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
         if let Some((key, message, help)) = refused(contact) {
             return Err(vec![Fault::new(&NOT_IN_SPACE, key, format!("in 3D {message}"), help)]);
         }
@@ -460,10 +407,4 @@ impl Sided {
         let of_mass = target.of_mass.iter().map(|of_mass| share * of_mass).collect();
         PassInput { slaves, per_modulus, moduli: target.moduli.clone(), of_mass, ..PassInput::default() }
     }
-}
-
-/// A fault of a key below a path.
-fn below(path: &str, fault: Fault) -> Fault {
-    let dot = if fault.path.is_empty() { "" } else { "." };
-    Fault { path: format!("{path}{dot}{}", fault.path), ..fault }
 }

@@ -156,8 +156,7 @@ where
     pub(super) fn conditions(&mut self, elements: &Elements<D>) -> Result<Conditions<D>, Vec<Fault>> {
         let springs = self.springs().map(|springs| Box::new(springs) as Box<dyn Block<D>>);
         let (forces, boundary) = self.loads();
-        let mut contacts = <Dim<D>>::contacts(self);
-        contacts.extend(<Dim<D>>::obstacles(self));
+        let contacts = self.contacts_and_obstacles();
         let contacts = self.sound(contacts)?;
         self.bodies.weigh(&elements.body_forces, &self.mass);
         let criteria = self.criteria(&elements.blocks);

@@ -125,7 +125,7 @@ impl Builder<'_, 2> {
     }
 
     /// Nodes of a surface that an obstacle may have springs for.
-    fn nodes_met(&self, obstacle: &Obstacle, surface: &Surface) -> Vec<u32> {
+    fn nodes_met(&self, obstacle: &Obstacle, surface: &Surface<2>) -> Vec<u32> {
         let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(first(normal)) } else { None };
         let is_met = |node: &u32| along.is_none_or(|normal| !self.is_held_along(*node, normal));
         surface.nodes.iter().copied().filter(is_met).collect()
@@ -169,7 +169,7 @@ type Behind = Box<dyn Fn(Vector) -> Option<(f64, Vector)>>;
 
 /// What says whether nodes are behind an obstacle, as it will see them; of a polyline nodes and segments say
 /// it.
-fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Option<Behind> {
+fn behind(obstacle: &Obstacle, surface: &Surface<2>, positions: &[Vector]) -> Option<Behind> {
     let thickness = obstacle.interface.thickness;
     let shape: Box<dyn Shape> = match &obstacle.shape {
         ObstacleShape::Plane { point, normal, length: wide } => {
@@ -189,7 +189,7 @@ fn behind(obstacle: &Obstacle, surface: &Surface, positions: &[Vector]) -> Optio
     Some(Box::new(move |x| shape.meet(Way { from: x, to: x }, &mut ContactHistory::default())))
 }
 
-fn penetrations(nodes: &[u32], positions: &[Vector], behind: &Behind, tolerance: f64) -> Vec<Penetration> {
+fn penetrations(nodes: &[u32], positions: &[Vector], behind: &Behind, tolerance: f64) -> Vec<Penetration<2>> {
     let of = |&node: &u32| {
         let place = positions[node as usize];
         let (gap, _) = behind(place)?;

@@ -80,7 +80,7 @@ impl Depths {
     }
 
     /// A new step begins.
-    pub fn begin(&mut self, scene: &Scene<'_>) {
+    pub fn begin(&mut self, scene: &Scene<'_, 2>) {
         let way = scene.sweep.travel - self.travel;
         (self.travel, self.way) = (scene.sweep.travel, if way.is_finite() { way } else { 0.0 });
         self.findings.begin();
@@ -94,7 +94,7 @@ impl Depths {
     }
 
     /// Judges the bodies as they are.
-    fn look(&mut self, scene: &Scene<'_>) {
+    fn look(&mut self, scene: &Scene<'_, 2>) {
         let positions = scene.sweep.new;
         let overlap_check = &mut self.overlap_check;
         overlap_check.outlines.iter_mut().for_each(|outline| outline.refit(positions));
@@ -128,7 +128,7 @@ impl Depths {
     }
 
     /// Takes a node that is so deep inside, m, where bodies were `initial` thick at the start, m.
-    pub fn see(&mut self, tracker: &Tracker, touch: &ContactPoint, depth: f64, initial: f64, scene: &Scene<'_>) {
+    pub fn see(&mut self, tracker: &Tracker, touch: &ContactPoint, depth: f64, initial: f64, scene: &Scene<'_, 2>) {
         if !(depth > SEEN * initial) {
             return;
         }
@@ -155,7 +155,7 @@ impl Depths {
 }
 
 impl Look<2> for Depths {
-    fn see_step(&mut self, scene: &Scene<'_>) {
+    fn see_step(&mut self, scene: &Scene<'_, 2>) {
         self.begin(scene);
         self.end();
     }
@@ -198,13 +198,13 @@ impl OverlapCheck {
 }
 
 /// How deep a place of a segment is in another body.
-fn deep(x: Vector, side: &Side, other: &Outline, scene: &Scene<'_>) -> Option<Overlap> {
+fn deep(x: Vector, side: &Side, other: &Outline, scene: &Scene<'_, 2>) -> Option<Overlap> {
     let (square, nearest) = other.nearest(x, scene.sweep.new)?;
     Some(overlap_of(x, [side, &nearest], square, scene))
 }
 
 /// The overlap at a place of the first side, whose distance from the second one has this square, m².
-fn overlap_of(x: Vector, sides: [&Side; 2], square: f64, scene: &Scene<'_>) -> Overlap {
+fn overlap_of(x: Vector, sides: [&Side; 2], square: f64, scene: &Scene<'_, 2>) -> Overlap {
     let thickness = sides.map(|side| side.opposite.now(side.segment, scene.sweep.new));
     let nodes = sides.map(|side| side.segment[0]);
     Overlap { place: [x[0], x[1], 0.0], depth: square.sqrt(), thickness: thickness[0].min(thickness[1]), nodes, time: scene.time }

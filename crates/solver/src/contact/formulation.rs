@@ -29,7 +29,7 @@ pub struct FormulationKind {
     /// Which nodes meet which surface.
     pub passes: fn(&model::Contact) -> Passes,
     /// Makes one. Faults have paths relative to the contact.
-    pub make: fn(Setup<'_>) -> Result<Box<dyn Formulation>, Fault>,
+    pub make: fn(Setup<'_>) -> Result<Box<dyn Formulation<2>>, Fault>,
 }
 
 /// Every formulation.

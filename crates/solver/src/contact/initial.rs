@@ -22,7 +22,7 @@ const SWEEPS: usize = 10;
 
 /// What is inside at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Penetration<const D: usize = 2> {
+pub struct Penetration<const D: usize> {
     /// A node or an edge.
     pub what: Inside,
     /// Where it is, m.
@@ -103,7 +103,7 @@ pub fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
 
 /// Nodes that are inside other bodies, or nearer than `thickness` (m), by more than `tolerance` (m).
 #[must_use]
-pub fn penetrations(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<Penetration> {
+pub fn penetrations(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<Penetration<2>> {
     let inside = inside(tracker, thickness, positions, tolerance);
     let of = |touch: &ContactPoint| Penetration {
         what: Inside::Node,

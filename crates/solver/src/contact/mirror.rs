@@ -29,7 +29,7 @@ pub struct MirroredNode {
 
 /// A symmetry line or plane with the nodes on its free side.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mirror<const D: usize = 2> {
+pub struct Mirror<const D: usize> {
     /// A point of it, m.
     pub point: [f64; D],
     /// Unit normal that points to the model.
@@ -41,7 +41,7 @@ pub struct Mirror<const D: usize = 2> {
 }
 
 /// A contact of bodies with each other and themselves, and with their images.
-pub struct Mirrored<const D: usize = 2>
+pub struct Mirrored<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {

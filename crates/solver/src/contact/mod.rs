@@ -54,7 +54,7 @@ pub type Vector = [f64; 2];
 
 /// What makes springs of surfaces: nodes against segments, segments against segments, pinballs, nodes against
 /// obstacles.
-pub trait Formulation<const D: usize = 2>: Any + Send + Sync
+pub trait Formulation<const D: usize>: Any + Send + Sync
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -127,7 +127,7 @@ where
 
 /// What a step shows to contacts.
 #[derive(Clone, Copy)]
-pub struct Scene<'a, const D: usize = 2>
+pub struct Scene<'a, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -141,7 +141,7 @@ where
 
 /// Positions at both ends of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Sweep<'a, const D: usize = 2> {
+pub struct Sweep<'a, const D: usize> {
     /// At the beginning, m.
     pub old: &'a [[f64; D]],
     /// At the end, m: the configuration on which all forces are evaluated.
@@ -180,7 +180,7 @@ impl ContactKind {
 }
 
 /// A contact between surfaces, or between surfaces and an obstacle.
-pub struct Contact<const D: usize = 2>
+pub struct Contact<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -439,7 +439,7 @@ pub struct Tributary {
 
 /// What each node of a surface stands for, in the order of its nodes.
 #[must_use]
-pub fn tributaries(surface: &Surface, pressure_stiffness: &[f64], positions: &[Vector], depth: Depth) -> Vec<Tributary> {
+pub fn tributaries(surface: &Surface<2>, pressure_stiffness: &[f64], positions: &[Vector], depth: Depth) -> Vec<Tributary> {
     let mut sums = vec![Tributary::default(); surface.nodes.len()];
     for (&segment, &stiffness) in surface.segments.iter().zip(pressure_stiffness) {
         let shares = depth.shares(segment.map(|node| positions[node as usize]));

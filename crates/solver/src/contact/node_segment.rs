@@ -250,7 +250,7 @@ impl NodeSegment {
 
     /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by
     /// index; empty: all).
-    pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_>, springs: &mut Springs) {
+    pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
         let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
         self.used.clear();
         self.depths.begin(scene);
@@ -297,12 +297,12 @@ impl NodeSegment {
     }
 }
 
-impl Formulation for NodeSegment {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl Formulation<2> for NodeSegment {
+    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
         self.detect_free(&[], scene, springs);
     }
 
-    fn remember(&mut self, solved: Answers<'_>) {
+    fn remember(&mut self, solved: Answers<'_, 2>) {
         self.closed = Closed::default();
         for (&index, answer) in self.used.iter().zip(solved) {
             let touch = self.tracker.touches()[index as usize];
@@ -367,7 +367,7 @@ pub(super) fn is_stored(interface: &model::Interface) -> bool {
 /// θ̇ with the rate θ̇ at which the segment turns: it does not see rotations of both together, and its
 /// transpose, the friction, keeps the angular momentum.
 #[must_use]
-pub fn ends(node: u32, projection: &Projection, target: &Target, positions: &[Vector]) -> [End; 3] {
+pub fn ends(node: u32, projection: &Projection, target: &Target, positions: &[Vector]) -> [End<2>; 3] {
     let segment = target.surface.segments[projection.segment as usize];
     let [wa, wb] = projection.weights;
     let [xa, xb] = segment.map(|node| positions[node as usize]);
@@ -381,7 +381,7 @@ pub fn ends(node: u32, projection: &Projection, target: &Target, positions: &[Ve
 /// The nodes of a segment as ends of a spring to what is seen from its foot at the distance `arm` (m), and
 /// slides there.
 #[must_use]
-pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positions: &[Vector]) -> [End; 2] {
+pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positions: &[Vector]) -> [End<2>; 2] {
     let Projection { weights: [wa, wb], normal, .. } = *projection;
     let (xa, xb) = (positions[a as usize], positions[b as usize]);
     let along = [xb[0] - xa[0], xb[1] - xa[1]];
@@ -405,7 +405,7 @@ pub fn segment_ends([a, b]: [u32; 2], projection: &Projection, arm: f64, positio
 /// d = ± t·(x − C) with the segment's direction t and its nearer end C, so dd = ± [t·(dx − dC) + h n·(dx_C2 −
 /// dx_C1) / L] with the height h of the node over the segment's line. The whole gradient, so no energy is
 /// lost, and d does not see motions of node and segment together, so both momenta are exact.
-fn lean(ends: &mut [End; 3], touch: &ContactPoint, positions: &[Vector]) {
+fn lean(ends: &mut [End<2>; 3], touch: &ContactPoint, positions: &[Vector]) {
     let Projection { weights: [before, place], normal, .. } = touch.projection;
     let t = tangent(normal);
     let along = |k: usize| positions[ends[k].at as usize];
@@ -444,7 +444,7 @@ mod tests {
             let touch = ContactPoint { pass: 0, slave: 0, node: 0, projection, slope, group: 0, own: false };
             let mut ends = ends(0, &projection, &target, &positions);
             lean(&mut ends, &touch, &positions);
-            let row = |end: &End| [0, 1].map(|d| end.share * projection.normal[d] + end.lean[d]);
+            let row = |end: &End<2>| [0, 1].map(|d| end.share * projection.normal[d] + end.lean[d]);
             let (mut sum, mut moment) = ([0.0; 2], 0.0);
             for end in &ends {
                 let (row, place) = (row(end), positions[end.at as usize]);

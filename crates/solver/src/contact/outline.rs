@@ -89,7 +89,7 @@ impl Outlines {
 
     /// What is opposite of the segments of a surface.
     #[must_use]
-    pub fn opposite(&self, surface: &Surface) -> Vec<Opposite> {
+    pub fn opposite(&self, surface: &Surface<2>) -> Vec<Opposite> {
         surface.segments.iter().map(|segment| self.opposite.get(segment).copied().unwrap_or_default()).collect()
     }
 }

@@ -48,7 +48,7 @@ pub struct Pinball {
 impl Disk {
     /// Ends of a spring that pushes the disk along `sign` n; friction's couple of `moment` per force is taken
     /// by the element's nodes around their mean.
-    fn ends(&self, positions: &[Vector], sign: f64, moment: f64) -> [End; 4] {
+    fn ends(&self, positions: &[Vector], sign: f64, moment: f64) -> [End<2>; 4] {
         let nodes = &self.nodes[..self.count];
         let mut mean = [0.0; 2];
         for &node in nodes {
@@ -136,8 +136,8 @@ impl Pinball {
     }
 }
 
-impl Formulation for Pinball {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl Formulation<2> for Pinball {
+    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
         let follower = &mut self.follower;
         follower.follow(scene.sweep);
         for index in 0..follower.near.len() {
@@ -168,7 +168,7 @@ impl Formulation for Pinball {
         }
     }
 
-    fn remember(&mut self, solved: Answers<'_>) {
+    fn remember(&mut self, solved: Answers<'_, 2>) {
         for (near, answer) in self.follower.near.iter_mut().zip(solved) {
             near.slip = answer.solved.slip_new[0];
         }
@@ -183,7 +183,7 @@ mod tests {
     use crate::mesh::shapes::{Body, rectangle};
     use crate::mesh::surface::Surface;
 
-    fn disks_of(body: &Body) -> Vec<Disk> {
+    fn disks_of(body: &Body<2>) -> Vec<Disk> {
         let surface = Surface::<2>::outside(body.cells()).unwrap();
         let cell = |segment: &[u32; 2]| {
             let quad = body.cells().find(|quad| quad.edges().any(|[a, b]| [b, a] == *segment));
@@ -245,7 +245,7 @@ mod tests {
         let t = tangent([(a[0] - b[0]) / distance, (a[1] - b[1]) / distance]);
         let ends = [one.ends(&positions, 1.0, 0.5 * distance), other.ends(&positions, -1.0, 0.5 * distance)].concat();
         let rate = |v: &dyn Fn(Vector) -> Vector| -> f64 {
-            let of = |end: &End| (0..2).map(|d| (end.share * t[d] + end.turn[0][d]) * v(positions[end.at as usize])[d]).sum::<f64>();
+            let of = |end: &End<2>| (0..2).map(|d| (end.share * t[d] + end.turn[0][d]) * v(positions[end.at as usize])[d]).sum::<f64>();
             ends.iter().map(of).sum()
         };
         assert!(rate(&|x| [-x[1], x[0]]).abs() < 1e-14 && rate(&|_| [3.0, -7.0]).abs() < 1e-14);

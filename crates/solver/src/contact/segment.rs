@@ -151,7 +151,7 @@ struct Facing {
 persist_all!(Facing { pair, length, slips, offsets, stored });
 
 impl Chain {
-    fn new(surface: &Surface, stiffness: Vec<f64>) -> Self {
+    fn new(surface: &Surface<2>, stiffness: Vec<f64>) -> Self {
         // Nodes of segments are nodes of the surface.
         let local: Vec<[u32; 2]> = surface
             .segments
@@ -216,7 +216,7 @@ impl Segment {
     }
 
     /// The pairs that touching nodes lead to.
-    fn pair_up(&mut self, scene: &Scene<'_>) {
+    fn pair_up(&mut self, scene: &Scene<'_, 2>) {
         self.pairs.clear();
         for chain in &mut self.chains {
             for node in chain.deep.drain(..) {
@@ -329,7 +329,7 @@ impl Segment {
     }
 
     /// Adds the springs of a pair.
-    fn connect(&mut self, Meeting { pair, common, pressure, distance }: Meeting, sweep: Sweep<'_>, springs: &mut Springs) {
+    fn connect(&mut self, Meeting { pair, common, pressure, distance }: Meeting, sweep: Sweep<'_, 2>, springs: &mut Springs<2>) {
         let at = self.root(pair);
         let least = self.least[at as usize];
         let (mut facing, is_new) = self.kept(pair, common.length);
@@ -435,8 +435,8 @@ fn root(tree: &mut [u32], mut at: u32) -> u32 {
     at
 }
 
-impl Formulation for Segment {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl Formulation<2> for Segment {
+    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
         self.pair_up(scene);
         let surfaces = self.surfaces();
         self.commons.clear();
@@ -521,7 +521,7 @@ impl Formulation for Segment {
         Some(self.tracker.search_report())
     }
 
-    fn remember(&mut self, solved: Answers<'_>) {
+    fn remember(&mut self, solved: Answers<'_, 2>) {
         let count = self.rule.len();
         for (index, facing) in self.facing.iter_mut().enumerate() {
             facing.stored = 0.0;

@@ -155,8 +155,8 @@ fn place(positions: &[Vector], node: u32, segment: [u32; 2]) -> Option<[f64; 3]>
     (whole > 0.0).then(|| [(r[0] * d[0] + r[1] * d[1]) / whole, (d[0] * r[1] - d[1] * r[0]) / whole, whole])
 }
 
-impl Formulation for Tied {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl Formulation<2> for Tied {
+    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
         let positions = scene.sweep.new;
         self.bind(positions);
         for tie in &self.ties {
@@ -175,7 +175,7 @@ impl Formulation for Tied {
         self.loose.detect_free(&self.bound, scene, springs);
     }
 
-    fn remember(&mut self, solved: Answers<'_>) {
+    fn remember(&mut self, solved: Answers<'_, 2>) {
         let (mut ties, loose) = (solved.part(0, self.ties.len()), solved.part(self.ties.len(), usize::MAX));
         self.loose.remember(loose);
         self.freed = 0.0;
@@ -239,7 +239,7 @@ impl Formulation for Tied {
         }
     }
 
-    fn within(&self) -> Option<&dyn Formulation> {
+    fn within(&self) -> Option<&dyn Formulation<2>> {
         Some(&self.loose)
     }
 

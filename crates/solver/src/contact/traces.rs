@@ -15,7 +15,7 @@ use crate::tensor::{Dim, dot};
 
 /// Sums over the run, and the outside that they belong to.
 #[derive(Clone, Debug)]
-pub struct Traces<const D: usize = 2>
+pub struct Traces<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -100,7 +100,7 @@ impl Traces<2> {
     /// their current positions: −f·n and f·t by current area, t along the surface with the body on its right.
     /// In pairs, as far as the nodes of the surface go; zero inside.
     #[must_use]
-    pub fn tractions(&self, forces: &ContactForces, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    pub fn tractions(&self, forces: &ContactForces<2>, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let nodes = self.nodes();
         let mut along = vec![[0.0; 2]; nodes];
         let mut area = vec![0.0; nodes];

@@ -286,7 +286,7 @@ pub struct Held<L, const D: usize, const N: usize> {
 }
 
 /// Someone who does something with every element's type.
-pub trait ElementVisitor<const D: usize = 2>
+pub trait ElementVisitor<const D: usize>
 where
     Dim<D>: Space<D>,
 {

@@ -128,7 +128,7 @@ mod tests {
     use crate::mesh::surface::{Surface, exterior};
     use crate::model::{Copies, Mirror};
 
-    fn is_sound(body: &Body) {
+    fn is_sound(body: &Body<2>) {
         for cell in body.cells() {
             let n = cell.nodes.len();
             let x = |k: usize| body.positions[cell.nodes[k % n] as usize];

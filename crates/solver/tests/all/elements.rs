@@ -11,7 +11,7 @@ macro_rules! every_element {
         #[test]
         fn $name() {
             struct Check;
-            impl ElementVisitor for Check {
+            impl ElementVisitor<2> for Check {
                 type Output = ();
                 fn visit<E: Element<2, N, P>, const N: usize, const P: usize>(self) {
                     $check::<E, N, P>();

@@ -169,7 +169,7 @@ pub(crate) fn nodes_of(element: &str) -> usize {
 
 struct ReferenceNodes;
 
-impl ElementVisitor for ReferenceNodes {
+impl ElementVisitor<2> for ReferenceNodes {
     type Output = Vec<[f64; 2]>;
     fn visit<E: Element<2, N, P>, const N: usize, const P: usize>(self) -> Self::Output {
         E::NODES.to_vec()

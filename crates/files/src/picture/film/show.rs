@@ -16,7 +16,7 @@ pub(super) struct Show {
     pub(super) scalar: Option<usize>,
     pub(super) range: [f64; 2],
     pub(super) key: Key,
-    pub(super) view: Extent,
+    pub(super) view: Extent<2>,
     /// Side of the mirror lines on which the model lies.
     pub(super) sides: [f64; 2],
     /// In 3D: box around the bodies and their mirror images, m.
@@ -45,14 +45,14 @@ impl Film {
     }
 
     /// Sides of the mirror lines on which the model lies, nothing, and what is seen.
-    fn view_in_plane(&self) -> ([f64; 2], Extent<3>, Extent) {
+    fn view_in_plane(&self) -> ([f64; 2], Extent<3>, Extent<2>) {
         let sides = self.stored.first().map_or([1.0; 2], |first| view::sides(self.nodes(first)));
         (sides, nothing(), mirrored(self.view(sides), self.mirror_lines()))
     }
 
     /// Nothing, the box around bodies and mirror images, and what is seen of them and of the obstacles near
     /// them.
-    fn view_in_3d(&self) -> ([f64; 2], Extent<3>, Extent) {
+    fn view_in_3d(&self) -> ([f64; 2], Extent<3>, Extent<2>) {
         let (own, sight) = (self.bodies(), self.sight());
         let bodies = mirrored(own, self.settings.mirror);
         let view = self.stored.iter().map(|frame| self.seen(frame, own, bodies, &sight)).fold(NOTHING, joined);
@@ -60,7 +60,7 @@ impl Film {
     }
 
     /// What is seen of one frame in 3D: of nodes in the box `own`, and of the obstacles near `bodies`.
-    fn seen(&self, frame: &Stored, own: Extent<3>, bodies: Extent<3>, sight: &Sight) -> Extent {
+    fn seen(&self, frame: &Stored, own: Extent<3>, bodies: Extent<3>, sight: &Sight) -> Extent<2> {
         let origin = self.origin();
         let places = frame.places::<3>().iter().map(|p| [0, 1, 2].map(|k| f64::from(p[k]) + origin[k]));
         let nodes = places.filter(|x| (0..3).all(|k| x[k] >= own[0][k] && x[k] <= own[1][k]));
@@ -90,7 +90,7 @@ impl Film {
     }
 
     /// What is to be seen of the obstacles beside `bodies` in one frame.
-    fn obstacles(&self, frame: &Stored, bodies: Extent, sides: [f64; 2]) -> Extent {
+    fn obstacles(&self, frame: &Stored, bodies: Extent<2>, sides: [f64; 2]) -> Extent<2> {
         view::obstacles(&frame.obstacles, self.nodes(frame), bodies, view::room(bodies, self.mirror_lines(), sides))
     }
 
@@ -111,7 +111,7 @@ impl Film {
     }
 
     /// Box of all bodies in 2D and of the obstacles near them, m.
-    pub(super) fn view(&self, sides: [f64; 2]) -> Extent {
+    pub(super) fn view(&self, sides: [f64; 2]) -> Extent<2> {
         let bodies = self.bodies();
         self.stored.iter().map(|frame| self.obstacles(frame, bodies, sides)).fold(bodies, joined)
     }

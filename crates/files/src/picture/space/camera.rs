@@ -65,7 +65,7 @@ impl Sight {
     }
 
     /// Box around places (m) in the picture, in all images: to the right and upwards.
-    pub(in crate::picture) fn view(&self, places: impl Iterator<Item = [f64; 3]>) -> Extent {
+    pub(in crate::picture) fn view(&self, places: impl Iterator<Item = [f64; 3]>) -> Extent<2> {
         let images: Vec<Directions> = self.images.iter().map(|sign| self.directions.mirrored(*sign)).collect();
         let mut view = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for place in places.filter(|place| place.iter().all(|v| v.is_finite())) {
@@ -79,7 +79,7 @@ impl Sight {
 
     /// What the camera shows where a picture of everything would show `view`: around the place that it looks
     /// at, and as much larger as was asked for.
-    pub(in crate::picture) fn aimed(&self, view: Extent) -> Extent {
+    pub(in crate::picture) fn aimed(&self, view: Extent<2>) -> Extent<2> {
         let at = self.camera.at.map(|at| self.directions.seen(at));
         let zoom = if self.camera.zoom > 0.0 { self.camera.zoom } else { 1.0 };
         let middle = [0, 1].map(|k| at.map_or(0.5 * (view[0][k] + view[1][k]), |at| at[k]));

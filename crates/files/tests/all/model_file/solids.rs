@@ -204,7 +204,7 @@ fn bars_beside_parts_of_another_dimension_are_called_bars_and_reported_their_sha
     let found: Vec<String> = faults(&text).iter().map(|fault| format!("{}: {} | {}", fault.path, fault.message, fault.help)).collect();
     let help = "take `truss`: bars in 2D; or make the other parts solids, such as by `extrude`";
     assert!(
-        found.contains(&format!("part[1].space_truss: the part is of bars in 3D, but part `flat` is in the plane | {help}")),
+        found.contains(&format!("part[1].space_truss: the part is of bars in 3D, but part `flat` is 2D | {help}")),
         "{found:#?}"
     );
 }

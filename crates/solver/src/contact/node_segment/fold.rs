@@ -25,7 +25,7 @@ pub(super) fn other_at_node(node: u32, projection: &Projection, target: &Target)
 
 /// Makes the slip rate at a node of the target blind to the mean spin of both segments there, instead of that
 /// of the one which the projection names; the end that the `other` one adds.
-pub(super) fn turn_with_both(ends: &mut [End; 3], projection: &Projection, other: u32, target: &Target, positions: &[Vector]) -> End {
+pub(super) fn turn_with_both(ends: &mut [End<2>; 3], projection: &Projection, other: u32, target: &Target, positions: &[Vector]) -> End<2> {
     let [x, a, b] = [0, 1, 2].map(|k| positions[ends[k].at as usize]);
     let k = if projection.weights[0] > projection.weights[1] { 0 } else { 1 };
     let foot = [a, b][k];

@@ -158,7 +158,7 @@ impl RoundSegments {
     }
 
     /// The spring at a body that is near, and its ends.
-    fn spring(&self, touch: &ContactPoint, positions: &[Vector]) -> (Spring, [End; 3]) {
+    fn spring(&self, touch: &ContactPoint, positions: &[Vector]) -> (Spring<2>, [End<2>; 3]) {
         let projection = touch.projection;
         let (normal, centre) = (projection.normal, positions[touch.node as usize]);
         // Where the circle touches.
@@ -175,8 +175,8 @@ impl RoundSegments {
     }
 }
 
-impl Formulation for RoundSegments {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl Formulation<2> for RoundSegments {
+    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
         let count = self.tracker.track(scene.sweep, self.radius + self.reach).len();
         for index in 0..count {
             let touch = self.tracker.touches()[index];
@@ -191,7 +191,7 @@ impl Formulation for RoundSegments {
         self.has_begun = true;
     }
 
-    fn remember(&mut self, solved: Answers<'_>) {
+    fn remember(&mut self, solved: Answers<'_, 2>) {
         for (index, answer) in solved.enumerate() {
             let touch = self.tracker.touches()[index];
             self.tracker.kept_mut(&touch).slip = answer.solved.slip_new[0];

@@ -89,7 +89,7 @@ const STATES: [State; 5] = [State::Unknown, State::Free, State::Ahead, State::He
 
 /// Outline of an obstacle in the frame of its body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct OutlineShape<const D: usize = 2> {
+pub struct OutlineShape<const D: usize> {
     /// Name of the obstacle.
     pub name: String,
     /// Its rigid body.
@@ -168,7 +168,7 @@ impl Near {
     const GAP: f64 = 1.0 + 8.0 * Self::WAY;
 
     /// Whether the far nodes are still far.
-    fn holds(&self, scene: &Scene<'_>, place: (f64, Vector), reach: f64) -> bool {
+    fn holds(&self, scene: &Scene<'_, 2>, place: (f64, Vector), reach: f64) -> bool {
         self.place == place && self.since.is_some_and(|since| scene.sweep.travel - since < Self::WAY * reach)
     }
 }
@@ -200,8 +200,8 @@ impl Persist for ContactHistory {
     }
 }
 
-impl Formulation for NodeObstacle {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl Formulation<2> for NodeObstacle {
+    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
         self.found.clear();
         self.behind.begin();
         let body = scene.bodies.state(self.body);
@@ -294,7 +294,7 @@ impl Formulation for NodeObstacle {
         }
     }
 
-    fn remember(&mut self, solved: Answers<'_>) {
+    fn remember(&mut self, solved: Answers<'_, 2>) {
         for (&index, answer) in self.found.iter().zip(solved) {
             self.nodes[index as usize].1.slip = answer.solved.slip_new[0];
             self.memories[index as usize].presses = answer.solved.force != 0.0;
@@ -308,7 +308,7 @@ impl Formulation for NodeObstacle {
 
 /// Two formulations of one contact, one after the other.
 pub struct Both {
-    parts: [Box<dyn Formulation>; 2],
+    parts: [Box<dyn Formulation<2>>; 2],
     /// Springs of the first in this step.
     split: usize,
     /// What both found of overlaps.
@@ -318,7 +318,7 @@ pub struct Both {
 impl Both {
     /// From these two.
     #[must_use]
-    pub fn new(parts: [Box<dyn Formulation>; 2]) -> Self {
+    pub fn new(parts: [Box<dyn Formulation<2>>; 2]) -> Self {
         Self { parts, split: 0, findings: Findings::default() }
     }
 
@@ -328,8 +328,8 @@ impl Both {
     }
 }
 
-impl Formulation for Both {
-    fn detect(&mut self, scene: &Scene<'_>, springs: &mut Springs) {
+impl Formulation<2> for Both {
+    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
         let begin = springs.list.len();
         let [first, second] = &mut self.parts;
         first.detect(scene, springs);
@@ -369,7 +369,7 @@ impl Formulation for Both {
         self.parts.iter().find_map(|part| part.search_report())
     }
 
-    fn remember(&mut self, solved: Answers<'_>) {
+    fn remember(&mut self, solved: Answers<'_, 2>) {
         // Nothing is found, and nothing solved, while the contact does not act.
         self.parts[0].remember(solved.part(0, self.split));
         self.parts[1].remember(solved.part(self.split, usize::MAX));

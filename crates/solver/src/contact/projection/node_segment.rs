@@ -17,7 +17,7 @@ pub type Vector = [f64; 2];
 #[derive(Clone, Debug, Default)]
 pub struct Target {
     /// The segments, body on the right.
-    pub surface: Surface,
+    pub surface: Surface<2>,
     /// Normal of the symmetry line that the node of an open end lies on: (node, normal), by node. The
     /// mirrored half of the body continues there.
     pub mirrors: Vec<(u32, Vector)>,

@@ -74,7 +74,7 @@ impl Common {
     /// Friction acts along t at both points, which are the gap apart; its couple is taken by forces across
     /// both segments, half of it each. So the slip rate ṡ = t·(v_a − v_b) + ½ g (θ̇_a + θ̇_b) does not see
     /// rotations of both together, and friction keeps the angular momentum.
-    pub(super) fn point(&self, place: f64) -> (f64, [End; 4]) {
+    pub(super) fn point(&self, place: f64) -> (f64, [End<2>; 4]) {
         let n = self.normal;
         let [xa, xb] = self.points(place);
         let gap = dot(minus(xa, xb), n);
@@ -115,7 +115,7 @@ impl Common {
     }
 
     /// How far the four nodes moved in a step, less what they moved together, m.
-    pub(super) fn moved(&self, sweep: Sweep<'_>) -> f64 {
+    pub(super) fn moved(&self, sweep: Sweep<'_, 2>) -> f64 {
         let nodes = [self.nodes[0][0], self.nodes[0][1], self.nodes[1][0], self.nodes[1][1]].map(|node| node as usize);
         let ways = nodes.map(|node| minus(sweep.new[node], sweep.old[node]));
         let mean = [0, 1].map(|d| 0.25 * (ways[0][d] + ways[1][d] + ways[2][d] + ways[3][d]));
@@ -123,8 +123,8 @@ impl Common {
     }
 
     /// By how much a gap with these ends grew in a step, m.
-    pub(super) fn way(&self, ends: &[End; 4], sweep: Sweep<'_>) -> f64 {
-        let of = |end: &End| {
+    pub(super) fn way(&self, ends: &[End<2>; 4], sweep: Sweep<'_, 2>) -> f64 {
+        let of = |end: &End<2>| {
             let way = minus(sweep.new[end.at as usize], sweep.old[end.at as usize]);
             dot([0, 1].map(|d| end.share * self.normal[d] + end.lean[d]), way)
         };
@@ -169,7 +169,7 @@ impl Common {
 
     /// Adds `factor` times the derivative of ln(r) to the rows of the gap, with the radius r half way between
     /// both points at a place.
-    pub(super) fn vary_radius(&self, ends: &mut [End; 4], place: f64, factor: f64) {
+    pub(super) fn vary_radius(&self, ends: &mut [End<2>; 4], place: f64, factor: f64) {
         let radius = self.middle(place)[0];
         if !(radius > 0.0) {
             return;
@@ -186,7 +186,7 @@ impl Common {
     ///
     /// d area / area = dℓ/ℓ − tan θ (dφ_a − dφ_b) with the angle θ between the segments, dℓ = t·(dx_end −
     /// dx_begin) + (h_end − h_begin) dφ.
-    pub(super) fn vary_area(&self, ends: &mut [End; 4], factor: f64) {
+    pub(super) fn vary_area(&self, ends: &mut [End<2>; 4], factor: f64) {
         let (n, per_length) = (self.normal, factor / self.length);
         let t = [-n[1], n[0]];
         let [da, db] = self.positions.map(|[begin, end]| minus(end, begin));

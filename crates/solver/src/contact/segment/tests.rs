@@ -12,7 +12,7 @@ use crate::rigid::Bodies;
 /// with the body above.
 struct Facing2 {
     positions: Vec<Vector>,
-    surfaces: [Surface; 2],
+    surfaces: [Surface<2>; 2],
 }
 
 fn facing(first: &[f64], second: &[f64], gap: f64, angle: f64) -> Facing2 {
@@ -39,20 +39,20 @@ fn even(count: usize) -> Vec<f64> {
 }
 
 /// Springs of the formulation at rest, with what acts in it.
-fn springs_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Springs {
+fn springs_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Springs<2> {
     let mut springs = Springs::new(model.positions.len(), 0, Vec::new());
     detect(&mut *formulation_of(model, penalty, depth), model, &mut springs);
     springs
 }
 
-fn detect(formulation: &mut dyn Formulation, model: &Facing2, springs: &mut Springs) {
+fn detect(formulation: &mut dyn Formulation<2>, model: &Facing2, springs: &mut Springs<2>) {
     let sweep = Sweep::between(&model.positions, &model.positions);
     formulation.detect(&Scene { sweep, bodies: &Bodies::default(), time: 0.0 }, springs);
 }
 
-fn formulation_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Box<dyn Formulation> {
+fn formulation_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Box<dyn Formulation<2>> {
     let contact = model::Contact { formulation: model::Formulation::Segment, interface: penalty.into(), ..model::Contact::default() };
-    let side = |surface: &Surface| Side {
+    let side = |surface: &Surface<2>| Side {
         segments: vec![1.0; surface.segments.len()],
         target: Target { surface: surface.clone(), mirrors: Vec::new() },
         ..Side::default()
@@ -78,7 +78,7 @@ fn formulation_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Box<dyn Fo
 }
 
 /// Forces F = −k g at the nodes.
-fn forces(model: &Facing2, springs: &Springs) -> Vec<Vector> {
+fn forces(model: &Facing2, springs: &Springs<2>) -> Vec<Vector> {
     let mut forces = vec![[0.0; 2]; model.positions.len()];
     for spring in &springs.list {
         let force = spring.stiffness * (-spring.gap).max(0.0);
@@ -175,7 +175,7 @@ fn where_each_surface_overhangs_forces_are_the_slope_of_all_the_energy() {
 }
 
 /// The next step of a formulation whose springs hold 2 J/m a pair.
-fn continue_run(formulation: &mut dyn Formulation, positions: &[Vector], springs: &mut Springs) -> Vec<[u32; 2]> {
+fn continue_run(formulation: &mut dyn Formulation<2>, positions: &[Vector], springs: &mut Springs<2>) -> Vec<[u32; 2]> {
     let segments: &mut Segment = (formulation as &mut dyn Any).downcast_mut().unwrap();
     segments.facing.iter_mut().for_each(|facing| facing.stored = 2.0);
     springs.clear();

@@ -14,7 +14,7 @@ use std::ops::Range;
 
 /// Solved springs, in the order in which they were found.
 #[derive(Clone)]
-pub struct Answers<'a, const D: usize = 2>
+pub struct Answers<'a, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -24,7 +24,7 @@ where
 
 /// A solved spring.
 #[derive(Clone, Copy)]
-pub struct Answer<'a, const D: usize = 2>
+pub struct Answer<'a, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {

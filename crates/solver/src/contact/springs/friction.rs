@@ -52,7 +52,7 @@ impl Friction {
 
 /// What a tangential force can do.
 #[derive(Clone, Copy, Debug)]
-pub struct FrictionInput<const D: usize = 2>
+pub struct FrictionInput<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -87,7 +87,7 @@ where
 
 /// Friction that was found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FrictionResult<const D: usize = 2>
+pub struct FrictionResult<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {

@@ -68,7 +68,7 @@ pub type Along<const D: usize> = <Dim<D> as TangentSpace<D>>::TangentVector<f64>
 /// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on
 /// the others. In 2D a cache line: there is one for every node that touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring<const D: usize = 2>
+pub struct Spring<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -193,7 +193,7 @@ where
 
 /// What the solution found of a spring: what the ledger and the contacts need of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Solved<const D: usize = 2>
+pub struct Solved<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -218,7 +218,7 @@ where
 /// ġ = Σ (share n + lean)·v, ṡ = Σ (share t + turn)·v with t = (n₂, −n₁). On a rigid body v is its velocity
 /// at `point`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct End<const D: usize = 2>
+pub struct End<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -335,7 +335,7 @@ pub enum Tangential {
 
 /// The springs of all contacts and obstacles in one step.
 #[derive(Default)]
-pub struct Springs<const D: usize = 2>
+pub struct Springs<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -359,7 +359,7 @@ where
 }
 
 /// What the solution needs of the model.
-pub struct Update<'a, M: NodeResponses<D>, const D: usize = 2>
+pub struct Update<'a, M: NodeResponses<D>, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -375,7 +375,7 @@ where
 }
 
 /// Nodes as springs see them.
-pub trait NodeResponses<const D: usize = 2>
+pub trait NodeResponses<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -394,7 +394,7 @@ where
 
 /// A node without springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NodeResponse<const D: usize = 2>
+pub struct NodeResponse<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -421,7 +421,7 @@ pub struct Closing<'a> {
 
 /// Sums over the springs of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Totals<const D: usize = 2> {
+pub struct Totals<const D: usize> {
     /// Force on the first surface, N/m.
     pub resultant: [f64; D],
     /// Sum of the normal forces, N/m: what is transmitted, also where the resultant vanishes.

@@ -8,14 +8,14 @@ use proptest::prelude::*;
 type Vector = [f64; 2];
 
 /// One node of mass one.
-impl NodeResponses for NodeResponse {
+impl NodeResponses<2> for NodeResponse<2> {
     fn count(&self) -> usize {
         1
     }
     fn leader(&self, node: u32) -> (u32, Option<Vector>) {
         (node, None)
     }
-    fn response(&self, _: usize) -> NodeResponse {
+    fn response(&self, _: usize) -> NodeResponse<2> {
         *self
     }
 }
@@ -57,7 +57,7 @@ struct Rows {
     mass: Vec<f64>,
     positions: Vec<Vector>,
     velocities: Vec<Vector>,
-    springs: Vec<(Spring, Vec<End>)>,
+    springs: Vec<(Spring<2>, Vec<End<2>>)>,
 }
 
 /// `counts` segments below and above, `stiffness` of each spring.
@@ -89,21 +89,21 @@ fn rows(counts: [usize; 2], stiffness: f64) -> Rows {
     rows
 }
 
-impl NodeResponses for Rows {
+impl NodeResponses<2> for Rows {
     fn count(&self) -> usize {
         self.mass.len()
     }
     fn leader(&self, node: u32) -> (u32, Option<Vector>) {
         (node, None)
     }
-    fn response(&self, node: usize) -> NodeResponse {
+    fn response(&self, node: usize) -> NodeResponse<2> {
         let (velocity, give) = (self.velocities[node], 0.01 / self.mass[node]);
         NodeResponse { velocity_old: velocity, velocity, mobility: [give, 0.0, give] }
     }
 }
 
 impl Rows {
-    fn solve(&self, terms: Terms) -> Springs {
+    fn solve(&self, terms: Terms) -> Springs<2> {
         let mut springs = Springs::new(self.mass.len(), 0, vec![terms]);
         for (spring, ends) in &self.springs {
             springs.push(*spring, ends);
@@ -115,7 +115,7 @@ impl Rows {
     }
 
     /// What is wrong with the forces, as a fraction of the largest: what each law wants where the others are.
-    fn error(&self, springs: &Springs) -> f64 {
+    fn error(&self, springs: &Springs<2>) -> f64 {
         let (dt, terms) = (0.01, &springs.terms[0]);
         let answers = springs.answers(0..springs.list.len());
         let mut velocities = self.velocities.clone();
@@ -125,7 +125,7 @@ impl Rows {
                 (0..2).for_each(|d| velocities[end.at as usize][d] += dt * force[d] / self.mass[end.at as usize]);
             }
         }
-        let rate = |spring: &Spring, v: &[Vector]| {
+        let rate = |spring: &Spring<2>, v: &[Vector]| {
             springs
                 .ends(spring)
                 .map(|end| end.share * (v[end.at as usize][0] * spring.normal[0] + v[end.at as usize][1] * spring.normal[1]))
@@ -189,7 +189,7 @@ fn islands_are_solved_to_the_same_bits_by_any_number_of_threads() {
         all.mass.extend(one.mass);
         all.positions.extend(one.positions);
         all.velocities.extend(one.velocities);
-        let shift = |end: &End| End { at: end.at + first, ..*end };
+        let shift = |end: &End<2>| End { at: end.at + first, ..*end };
         all.springs.extend(one.springs.iter().map(|(spring, ends)| (*spring, ends.iter().map(shift).collect())));
     }
     assert!(all.springs.len() > 1500);

@@ -33,7 +33,7 @@ pub(super) struct Ends {
 }
 
 /// Segments that end and begin at each node of a surface; [`NONE`] where there is none.
-fn around(surface: &Surface) -> Vec<[u32; 2]> {
+fn around(surface: &Surface<2>) -> Vec<[u32; 2]> {
     let mut around = vec![[NONE; 2]; surface.nodes.len()];
     for (segment, nodes) in (0..).zip(&surface.segments) {
         for (end, node) in nodes.iter().enumerate() {
@@ -113,7 +113,7 @@ impl Ends {
     /// `segment`.
     pub(super) fn overlaps(
         &self,
-        slaves: &Surface,
+        slaves: &Surface<2>,
         target: &Target,
         (slave, segment, end): (u32, u32, usize),
         positions: &[Vector],
@@ -134,7 +134,7 @@ impl Ends {
 
     /// Whether a node may be in contact through the face that `projection` is on, as far as the end of it is
     /// concerned: within round-off of the end only who goes back over it.
-    pub(super) fn admit(&self, slaves: &Surface, target: &Target, slave: u32, projection: &Projection, positions: &[Vector]) -> bool {
+    pub(super) fn admit(&self, slaves: &Surface<2>, target: &Target, slave: u32, projection: &Projection, positions: &[Vector]) -> bool {
         let place = projection.weights[1];
         let end = usize::from(place > 0.5);
         let at_end = !(AT_END..=1.0 - AT_END).contains(&place);
@@ -153,7 +153,7 @@ impl Ends {
         band: f64,
         [x_old, x]: [Vector; 2],
         hold: f64,
-        sweep: Sweep<'_>,
+        sweep: Sweep<'_, 2>,
     ) -> bool {
         let (Some(old), Some(new)) = (target.seen(x_old, beyond.segment, sweep.old), target.seen(x, beyond.segment, sweep.new)) else {
             return false;

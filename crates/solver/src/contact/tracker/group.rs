@@ -182,7 +182,7 @@ impl Pass {
         targets: &'a [Target],
         number: usize,
         skin_and_extra: [f64; 2],
-        (sweep, way): (Sweep<'a>, f64),
+        (sweep, way): (Sweep<'a, 2>, f64),
     ) -> (Located<'a>, View<'a>) {
         let surfaces = [&targets[self.slave], &targets[self.target]];
         let view = View::new(surfaces, &self.ends, &self.candidates, number, skin_and_extra, (sweep, way));
@@ -190,7 +190,7 @@ impl Pass {
     }
 
     /// Global search, then a filter by distance: candidates are the same whatever the search, and few.
-    pub(super) fn search(&mut self, targets: &[Target], sweep: Sweep<'_>, distance: f64, reach: &mut Reach) {
+    pub(super) fn search(&mut self, targets: &[Target], sweep: Sweep<'_, 2>, distance: f64, reach: &mut Reach) {
         let target = &targets[self.target];
         self.ends.find(target, sweep.new);
         let slaves = &targets[self.slave].surface.nodes;

@@ -53,7 +53,7 @@ pub(super) struct View<'a> {
     hold: f64,
     /// Distance at which nodes are seen that do not move, m.
     near: f64,
-    sweep: Sweep<'a>,
+    sweep: Sweep<'a, 2>,
     /// Who wakes later sleeps on.
     awake: f64,
     level: Level,
@@ -76,7 +76,7 @@ impl<'a> View<'a> {
         candidates: &'a [u32],
         pass: usize,
         [skin, extra]: [f64; 2],
-        (sweep, way): (Sweep<'a>, f64),
+        (sweep, way): (Sweep<'a, 2>, f64),
     ) -> Self {
         let (own_surface, near) = (std::ptr::eq(slaves, target), extra + START * skin);
         let (rounding, hold, awake) = (ROUNDING * skin, HOLD * skin, awake(near, LOOK_AHEAD, sweep.travel, way));

@@ -222,7 +222,7 @@ impl Tracker {
     /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and
     /// body. Pairs farther than the skin and `extra` (m) are not looked at. In the first call nothing is
     /// known of the past: a node in another body is where the nearest feature of that body says.
-    pub fn track(&mut self, sweep: Sweep<'_>, extra: f64) -> &[ContactPoint] {
+    pub fn track(&mut self, sweep: Sweep<'_, 2>, extra: f64) -> &[ContactPoint] {
         self.reach.report.steps += 1;
         let mut sweep = sweep;
         let way = sweep.travel - std::mem::replace(&mut self.travel, sweep.travel);

@@ -68,12 +68,12 @@ impl Reach {
     }
 
     /// How far to search now, m.
-    pub(super) fn radius(&self, sweep: Sweep<'_>) -> f64 {
+    pub(super) fn radius(&self, sweep: Sweep<'_, 2>) -> f64 {
         self.skin + 2.0 * self.fastest(sweep)
     }
 
     /// Notes where the nodes were searched.
-    pub(super) fn settle(&mut self, sweep: Sweep<'_>) {
+    pub(super) fn settle(&mut self, sweep: Sweep<'_, 2>) {
         self.report.searches += 1;
         self.travel = sweep.travel;
         self.positions.clear();
@@ -81,12 +81,12 @@ impl Reach {
     }
 
     /// Longest way of a node in the step, m: so far a spring must be seen ahead.
-    fn fastest(&self, sweep: Sweep<'_>) -> f64 {
+    fn fastest(&self, sweep: Sweep<'_, 2>) -> f64 {
         self.nodes.iter().map(|&node| way(node, sweep)).fold(0.0, f64::max)
     }
 
     /// Whether some node has moved by more than half the skin since the last search (or there was none).
-    pub(super) fn is_left(&self, sweep: Sweep<'_>) -> bool {
+    pub(super) fn is_left(&self, sweep: Sweep<'_, 2>) -> bool {
         let limit = 0.25 * self.skin * self.skin;
         if !self.is_new() && (0.0..SAFE * self.skin).contains(&(sweep.travel - self.travel)) {
             return false;
@@ -102,6 +102,6 @@ impl Reach {
 }
 
 /// Bound of how far a node moves in the step, m.
-fn way(node: u32, sweep: Sweep<'_>) -> f64 {
+fn way(node: u32, sweep: Sweep<'_, 2>) -> f64 {
     bound_of(minus(sweep.new[node as usize], sweep.old[node as usize]))
 }

@@ -49,7 +49,7 @@ impl Stays {
         candidates: &[u32],
         is_awake: impl Fn(usize) -> bool,
         target: &Target,
-        sweep: Sweep<'_>,
+        sweep: Sweep<'_, 2>,
         hold: f64,
         level: Level,
     ) -> Self {
@@ -84,7 +84,7 @@ impl Stays {
 }
 
 impl Places {
-    fn set(&mut self, lane: usize, group: &Group, target: &Target, sweep: Sweep<'_>) {
+    fn set(&mut self, lane: usize, group: &Group, target: &Target, sweep: Sweep<'_, 2>) {
         let surface = &target.surface;
         let segment = group.memory as usize;
         let [a, b] = surface.segments[segment];

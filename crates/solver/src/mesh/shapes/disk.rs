@@ -37,7 +37,7 @@ static SECTION: Section = Section {
     ..Section::EMPTY
 };
 
-impl BuiltIn for Disk {
+impl BuiltIn<2> for Disk {
     fn read(values: &dyn Values) -> Self {
         Self { centre: values.vector("centre"), radius: values.number("radius"), elements: values.count(ELEMENTS) }
     }
@@ -60,7 +60,7 @@ impl BuiltIn for Disk {
     }
 
     /// Nodes: the core row by row, then the layers outwards, each counter-clockwise from −135 degrees.
-    fn body(&self) -> Result<Body, Wrong> {
+    fn body(&self) -> Result<Body<2>, Wrong> {
         let Self { centre, radius, elements: n } = *self;
         let layers = layers_of(n);
         let mut body = Body::default();
@@ -176,7 +176,7 @@ mod tests {
     use crate::mesh::shapes::tests::{cross, minus, moments};
     use std::f64::consts::PI;
 
-    fn disk(centre: [f64; 2], radius: f64, elements: usize) -> Body {
+    fn disk(centre: [f64; 2], radius: f64, elements: usize) -> Body<2> {
         Disk { centre, radius, elements }.body().unwrap()
     }
 
@@ -197,7 +197,7 @@ mod tests {
 
     /// Smallest corner angle in degrees, largest ratio of two sides of an element, largest over smallest side
     /// of the mesh.
-    fn quality(body: &Body) -> [f64; 3] {
+    fn quality(body: &Body<2>) -> [f64; 3] {
         let (mut angle, mut aspect, mut shortest, mut longest) = (180.0_f64, 1.0_f64, f64::MAX, 0.0_f64);
         for quad in body.all::<4>(CellKind::Quadrilateral) {
             let x = quad.map(|n| body.positions[n as usize]);

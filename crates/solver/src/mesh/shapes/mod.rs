@@ -33,7 +33,7 @@ use std::collections::BTreeMap;
 /// The mesh of one body: nodes, elements, and named sides. Elements are numbered kind by kind, those of the
 /// last kind first.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Body<const D: usize = 2>
+pub struct Body<const D: usize>
 where
     Dim<D>: Meshed<D>,
 {
@@ -190,7 +190,7 @@ impl dyn ShapeCheck + '_ {
 }
 
 /// A shape that makes its own mesh, in 2D or 3D.
-pub(crate) trait BuiltIn<const D: usize = 2>
+pub(crate) trait BuiltIn<const D: usize>
 where
     Dim<D>: Meshed<D>,
 {
@@ -260,7 +260,7 @@ macro_rules! shapes {
         impl Shape {
             /// The built-in shape in 2D, and the key of a part that has its table; `None` for all
             /// others.
-            pub(crate) fn built_in(&self) -> Option<(&dyn BuiltIn, &'static str)> {
+            pub(crate) fn built_in(&self) -> Option<(&dyn BuiltIn<2>, &'static str)> {
                 match self {
                     $(Self::$shape(shape) => Some((shape, $module::KEY.name)),)*
                     $(Self::$solid(_) => None,)*
@@ -385,7 +385,7 @@ impl Part {
     }
 
     /// Its body in 2D, placed; `None` for a group of a mesh file.
-    pub(super) fn plane_body(&self) -> Option<Result<Body, Fault>> {
+    pub(super) fn plane_body(&self) -> Option<Result<Body<2>, Fault>> {
         let (shape, key) = self.shape.built_in()?;
         Some(shape.body().map(|body| self.placement.applied(body)).map_err(|wrong| wrong.at(key)))
     }
@@ -457,7 +457,7 @@ static MESH_SECTION: Section = Section {
 /// A body of `elements` quadrilaterals between the points `at(i, j)`, of which those with i + 1 lie on the
 /// right of those with j + 1. `closed`: the last row is the first. Nodes run along i first. Sides at the
 /// lowest and highest i, then at the lowest and highest j.
-fn lattice(elements: [usize; 2], closed: bool, sides: [&str; 4], at: impl Fn(usize, usize) -> [f64; 2]) -> Body {
+fn lattice(elements: [usize; 2], closed: bool, sides: [&str; 4], at: impl Fn(usize, usize) -> [f64; 2]) -> Body<2> {
     let [nx, ny] = elements;
     let row = nx + 1;
     let rows = if closed { ny } else { ny + 1 };
@@ -481,7 +481,7 @@ fn lattice(elements: [usize; 2], closed: bool, sides: [&str; 4], at: impl Fn(usi
 
 /// Where a body of quadrilaterals folds over: the first element with a corner that does not turn
 /// counter-clockwise, and the place.
-fn fold(body: &Body) -> Option<(usize, [f64; 2])> {
+fn fold(body: &Body<2>) -> Option<(usize, [f64; 2])> {
     let turns = |quad: &[u32; 4], k: usize| {
         let x = |k: usize| body.positions[quad[k % 4] as usize];
         numbers::cross(numbers::minus(x(k + 1), x(k)), numbers::minus(x(k + 3), x(k))) > 0.0
@@ -491,7 +491,7 @@ fn fold(body: &Body) -> Option<(usize, [f64; 2])> {
 }
 
 /// A body of quadrilaterals that must not fold; `help` says what to do about it.
-fn unfolded(body: Body, help: &str) -> Result<Body, Wrong> {
+fn unfolded(body: Body<2>, help: &str) -> Result<Body<2>, Wrong> {
     match fold(&body) {
         None => Ok(body),
         Some((element, [x, y])) => Err(Wrong::new("", format!("the mesh folds over at ({x:.6e}, {y:.6e}) m, in element {element}"), help)),
@@ -503,17 +503,17 @@ fn node(index: usize) -> u32 {
 }
 
 #[cfg(test)]
-pub(crate) fn rectangle(corner: [f64; 2], size: [f64; 2], elements: [usize; 2]) -> Body {
+pub(crate) fn rectangle(corner: [f64; 2], size: [f64; 2], elements: [usize; 2]) -> Body<2> {
     Rectangle { corner, size, elements, ..Rectangle::default() }.body().expect("a rectangle never fails")
 }
 
 #[cfg(test)]
-pub(crate) fn ring(centre: [f64; 2], inner: f64, outer: f64, from: f64, to: f64, elements: [usize; 2]) -> Body {
+pub(crate) fn ring(centre: [f64; 2], inner: f64, outer: f64, from: f64, to: f64, elements: [usize; 2]) -> Body<2> {
     Ring { centre, inner, outer, from, to, elements, ..Ring::default() }.body().expect("a ring never fails")
 }
 
 #[cfg(test)]
-pub(crate) fn disk(centre: [f64; 2], radius: f64, elements: usize) -> Body {
+pub(crate) fn disk(centre: [f64; 2], radius: f64, elements: usize) -> Body<2> {
     Disk { centre, radius, elements }.body().expect("a disk never fails")
 }
 
@@ -532,7 +532,7 @@ mod tests {
         numbers::cross(a, b)
     }
 
-    fn jacobians(body: &Body) -> impl Iterator<Item = f64> + '_ {
+    fn jacobians(body: &Body<2>) -> impl Iterator<Item = f64> + '_ {
         body.cells().flat_map(|cell| {
             let x: Vec<[f64; 2]> = cell.nodes.iter().map(|&n| body.positions[n as usize]).collect();
             let n = x.len();
@@ -541,7 +541,7 @@ mod tests {
     }
 
     /// Area, ∫x², ∫y² and ∫xy, exact for the polygons (triangle formula).
-    pub(super) fn moments(body: &Body) -> [f64; 4] {
+    pub(super) fn moments(body: &Body<2>) -> [f64; 4] {
         let mut sum = [0.0; 4];
         for cell in body.cells() {
             for t in 1..cell.nodes.len() - 1 {
@@ -560,7 +560,7 @@ mod tests {
         sum
     }
 
-    pub(super) fn is_its_mirror_image(body: &Body) {
+    pub(super) fn is_its_mirror_image(body: &Body<2>) {
         let mut ours = body.positions.clone();
         let mut mirrored: Vec<_> = ours.iter().map(|&[x, y]| [x, 0.0 - y]).collect();
         let order = |a: &[f64; 2], b: &[f64; 2]| a.partial_cmp(b).unwrap();
@@ -569,7 +569,7 @@ mod tests {
         assert_eq!(ours, mirrored);
     }
 
-    fn body(shape: &Shape) -> Body {
+    fn body(shape: &Shape) -> Body<2> {
         let made = shape.built_in().unwrap().0.body();
         made.unwrap_or_else(|wrong| panic!("{shape:?}: {wrong:?}"))
     }

@@ -156,7 +156,7 @@ impl Path {
     }
 }
 
-impl BuiltIn for Path {
+impl BuiltIn<2> for Path {
     fn read(values: &dyn Values) -> Self {
         Self {
             points: values.points("points"),
@@ -219,7 +219,7 @@ impl BuiltIn for Path {
         Count::of_lattice(self.elements, self.closed)
     }
 
-    fn body(&self) -> Result<Body, Wrong> {
+    fn body(&self) -> Result<Body<2>, Wrong> {
         let pieces = self.pieces()?;
         let counts = shares(&pieces.iter().map(Piece::length).collect::<Vec<f64>>(), self.elements[1]);
         // Where each row of nodes lies: its piece, and how far along it.

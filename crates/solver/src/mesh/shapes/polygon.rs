@@ -96,7 +96,7 @@ impl Polygon {
     }
 }
 
-impl BuiltIn for Polygon {
+impl BuiltIn<2> for Polygon {
     fn read(values: &dyn Values) -> Self {
         Self {
             outline: values.points("outline"),
@@ -146,7 +146,7 @@ impl BuiltIn for Polygon {
         CellKind::Triangle
     }
 
-    fn body(&self) -> Result<Body, Wrong> {
+    fn body(&self) -> Result<Body<2>, Wrong> {
         // Counter-clockwise, holes clockwise: the body on the left.
         let is_turned = |(k, outline): (usize, &Vec<[f64; 2]>)| (area(outline) < 0.0) == (k == 0);
         let turned: Vec<bool> = self.outlines().enumerate().map(is_turned).collect();
@@ -292,7 +292,7 @@ mod tests {
     use super::*;
 
     /// Smallest angle of each triangle, degrees, with its place.
-    fn angles(body: &Body) -> Vec<(f64, [f64; 2])> {
+    fn angles(body: &Body<2>) -> Vec<(f64, [f64; 2])> {
         let of = |triangle: &[u32; 3]| {
             let x = triangle.map(|node| body.positions[node as usize]);
             let angle = |k: usize| {
@@ -331,7 +331,7 @@ mod tests {
         let mut turned = polygon.clone();
         turned.outline.reverse();
         let n = turned.outline.len();
-        let places = |body: &Body, name: &str| {
+        let places = |body: &Body<2>, name: &str| {
             let segments = &body.sides.iter().find(|side| side.0 == name).unwrap().1;
             let mut places: Vec<[f64; 2]> = segments.iter().flatten().map(|&node| body.positions[node as usize]).collect();
             places.sort_by(|a, b| a.partial_cmp(b).unwrap());

@@ -84,7 +84,7 @@ impl Quadrilateral {
     }
 }
 
-impl BuiltIn for Quadrilateral {
+impl BuiltIn<2> for Quadrilateral {
     fn read(values: &dyn Values) -> Self {
         let edge = |[line, arc]: [&str; 2]| {
             if values.has(arc) {
@@ -125,7 +125,7 @@ impl BuiltIn for Quadrilateral {
         Count::of_lattice(self.elements, false)
     }
 
-    fn body(&self) -> Result<Body, Wrong> {
+    fn body(&self) -> Result<Body<2>, Wrong> {
         let [Some(bottom), Some(right), Some(top), Some(left)] = self.curves() else {
             return Err(Wrong::new("", "an edge is an arc through a point in line with its corners", "leave it straight"));
         };

@@ -40,7 +40,7 @@ static SECTION: Section = Section {
     ..Section::EMPTY
 };
 
-impl BuiltIn for Rectangle {
+impl BuiltIn<2> for Rectangle {
     fn read(values: &dyn Values) -> Self {
         let vector = |key| values.vector(key);
         Self { corner: vector("corner"), size: vector("size"), elements: values.counts(ELEMENTS), grading: vector("grading") }
@@ -62,7 +62,7 @@ impl BuiltIn for Rectangle {
     }
 
     /// Nodes run along x first.
-    fn body(&self) -> Result<Body, Wrong> {
+    fn body(&self) -> Result<Body<2>, Wrong> {
         let ([x, y], [width, height]) = (self.corner, self.size);
         let [along, up] = [0, 1].map(|d| Steps::new(self.elements[d], self.grading[d]));
         let at = |i, j| [along.between(x, x + width, i), up.between(y, y + height, j)];

@@ -89,7 +89,7 @@ impl Ring {
     }
 }
 
-impl BuiltIn for Ring {
+impl BuiltIn<2> for Ring {
     fn read(values: &dyn Values) -> Self {
         let number = |key| values.number(key);
         Self {
@@ -124,7 +124,7 @@ impl BuiltIn for Ring {
     }
 
     /// Nodes run through the wall first, from the inside.
-    fn body(&self) -> Result<Body, Wrong> {
+    fn body(&self) -> Result<Body<2>, Wrong> {
         let closed = self.is_closed();
         let first = quarters(self.from);
         let last = if closed { first + 4.0 } else { quarters(self.to) };
@@ -160,7 +160,7 @@ mod tests {
     use crate::mesh::shapes::tests::moments;
     use std::f64::consts::PI;
 
-    fn ring(centre: [f64; 2], inner: f64, outer: f64, from: f64, to: f64, elements: [usize; 2]) -> Body {
+    fn ring(centre: [f64; 2], inner: f64, outer: f64, from: f64, to: f64, elements: [usize; 2]) -> Body<2> {
         Ring { centre, inner, outer, from, to, elements, ..Ring::default() }.body().unwrap()
     }
 

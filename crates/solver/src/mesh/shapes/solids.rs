@@ -97,7 +97,7 @@ fn the_volume_of_every_solid_is_exact_or_converges_with_the_square_of_the_elemen
 }
 
 /// Area and ∫ x dA of a section.
-fn section(body: &Body) -> [f64; 2] {
+fn section(body: &Body<2>) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for cell in body.cells() {
         for t in 1..cell.nodes.len() - 1 {
@@ -167,7 +167,7 @@ fn elements_with_a_side_on_the_axis_become_wedges_and_tetrahedra() {
 
 #[test]
 fn what_can_not_be_turned_is_reported_with_the_place() {
-    let wrong = |section: &Body, revolve: Revolve| Sweep::Revolve(revolve).swept(section).unwrap_err().message;
+    let wrong = |section: &Body<2>, revolve: Revolve| Sweep::Revolve(revolve).swept(section).unwrap_err().message;
     let square = rectangle([0.0, 0.0], [1.0, 1.0], [1, 1]);
     assert!(wrong(&square, Revolve { axis: [1.0, 1.0], ..Revolve::default() }).contains("both sides of the axis"));
     assert!(wrong(&square, Revolve { axis: [1.0, -1.0], ..Revolve::default() }).contains("one corner on the axis"));

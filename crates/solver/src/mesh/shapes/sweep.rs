@@ -295,7 +295,7 @@ impl Sweep {
     }
 
     /// The body that a section becomes.
-    pub(crate) fn swept(&self, section: &Body) -> Result<Body<3>, Wrong> {
+    pub(crate) fn swept(&self, section: &Body<2>) -> Result<Body<3>, Wrong> {
         let (layers, positions) = self.layers(&section.positions)?;
         let mut body = Body { positions, ..Body::default() };
         for layer in 0..layers.elements {

@@ -48,7 +48,7 @@ static SECTION: Section = Section {
     ..Section::EMPTY
 };
 
-impl BuiltIn for Trapezoid {
+impl BuiltIn<2> for Trapezoid {
     fn read(values: &dyn Values) -> Self {
         let number = |key| values.number(key);
         Self {
@@ -82,7 +82,7 @@ impl BuiltIn for Trapezoid {
         Count::of_lattice(self.elements, false)
     }
 
-    fn body(&self) -> Result<Body, Wrong> {
+    fn body(&self) -> Result<Body<2>, Wrong> {
         let shift = self.shift.unwrap_or(0.5 * (self.bottom - self.top));
         let [x, y] = self.corner;
         let [across, up] = [0, 1].map(|d| Steps::new(self.elements[d], self.grading[d]));

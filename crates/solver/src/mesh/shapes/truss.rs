@@ -132,7 +132,7 @@ where
     }
 }
 
-impl BuiltIn for Truss {
+impl BuiltIn<2> for Truss {
     fn read(values: &dyn Values) -> Self {
         Self { lines: values.outlines("lines"), elements: values.count(ELEMENTS) }
     }
@@ -164,7 +164,7 @@ impl BuiltIn for Truss {
         CellKind::Line
     }
 
-    fn body(&self) -> Result<Body, Wrong> {
+    fn body(&self) -> Result<Body<2>, Wrong> {
         Ok(Net::of(&self.lines).body(self.elements))
     }
 

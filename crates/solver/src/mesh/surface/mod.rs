@@ -27,7 +27,7 @@ pub const NONE: u32 = u32::MAX;
 pub type Facet<const D: usize> = <super::Dim<D> as Meshed<D>>::Facet;
 
 /// An oriented surface of bodies of dimension `D`.
-pub type Surface<const D: usize = 2> = <super::Dim<D> as Meshed<D>>::Surface;
+pub type Surface<const D: usize> = <super::Dim<D> as Meshed<D>>::Surface;
 
 /// What all pieces of an outside have: their nodes.
 pub trait Corners: Copy + Debug + Ord + Send + Sync + 'static {

@@ -1,5 +1,5 @@
-// One run in the page: what the server reported of it, its topologies, the frame on the screen, its history and
-// ranges. Frames of all runs share one bounded store.
+// One run in the page: what the server reported of it, its topologies, the frame on the screen, its history
+// and ranges. Frames of all runs share one bounded store.
 
 import { decodeFrame, decodeTopology } from "../wire";
 import type { Frame, History, Range, Run, Scalar, Topology } from "../types";

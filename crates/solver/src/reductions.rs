@@ -1,5 +1,6 @@
-//! Minima, maxima and exact sums over chunks, bodies and contacts, whose bits do not depend on the order of
-//! their terms. Sums are exact until they are rounded once.
+//! Minima, maxima and sums of a step over nodes, blocks, bodies and contacts, in one place. Minima, maxima
+//! and [`sum`] do not depend on the order of their terms: a sum is exact until it is rounded once.
+//! [`SumInOrder`] keeps the order in which nodes are stored.
 //!
 //! Loops over chunks themselves go through [`embate_lanes::Team::each`].
 
@@ -137,6 +138,25 @@ pub fn sum(values: impl IntoIterator<Item = f64>) -> f64 {
     let mut sum = ExactSum::default();
     [first, second, third].into_iter().chain(values).for_each(|value| sum.add(value));
     sum.value()
+}
+
+/// A sum in the order in which its terms come, rounded after each: what moves nodes and has always been added
+/// so.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SumInOrder(f64);
+
+impl SumInOrder {
+    /// Adds a number.
+    #[inline]
+    pub fn add(&mut self, value: f64) {
+        self.0 += value;
+    }
+
+    /// The sum.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        self.0
+    }
 }
 
 /// The smallest of numbers; infinite where there is none. A number that is none counts for nothing.

@@ -19,6 +19,7 @@ use crate::load::body_force::BodyForces;
 use crate::load::curve::{Curves, Speed};
 use crate::load::damping::Damping;
 use crate::mesh::geometry::CellGeometry;
+use crate::reductions;
 use crate::rotation::Rotate;
 use crate::tensor::Dim;
 use crate::vector::{dot, plus};
@@ -520,7 +521,7 @@ where
     /// Kinetic energy with v^{n+½}, J/m; without what is driven.
     #[must_use]
     pub fn kinetic(&self) -> f64 {
-        self.list.iter().map(|body| body.kinetic(&body.velocity, &body.velocity)).sum()
+        reductions::sum(self.list.iter().map(|body| body.kinetic(&body.velocity, &body.velocity)))
     }
 
     /// v^{n+½} without contact forces; forgets the contact forces of the last step.

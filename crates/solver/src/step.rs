@@ -275,13 +275,13 @@ where
         self.bodies.start(&self.curves, &self.positions, &mut self.velocities);
         let free = |&(node, _): &(u32, _)| self.bodies.of_node(node).is_none();
         let kinetic = |(_, (m, v)): (u32, (&f64, &[f64; D]))| 0.5 * m * dot(*v, *v);
-        let nodes: f64 = (0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic).sum();
+        let nodes = reductions::sum((0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic));
         let rotations = self.rotations.start(&self.bodies);
         self.ledger = Ledger::new(nodes + self.bodies.kinetic() + rotations, self.energy_of_round_off());
-        let nodes = self.velocities.iter().map(|&v| dot(v, v)).fold(0.0, f64::max);
+        let nodes = reductions::max(self.velocities.iter().map(|&v| dot(v, v)));
         self.positions_old.clone_from(&self.positions);
         self.evaluate_rigid_parts();
-        let fastest = self.bodies.iter().map(|body| body.speed_squared()).fold(nodes, f64::max);
+        let fastest = reductions::max(self.bodies.iter().map(|body| body.speed_squared()).chain([nodes]));
         self.speed = fastest.sqrt();
         self.evaluate_forces()?;
         if self.limits.step <= 0.0 {
@@ -413,7 +413,7 @@ where
         }
         let way = self.speed * time_step;
         let allowed = if self.step == 0 {
-            let thinnest = self.contacts.iter().map(Contact::thinnest).fold(f64::INFINITY, f64::min);
+            let thinnest = reductions::min(self.contacts.iter().map(Contact::thinnest));
             let ways = APPROACH * LIMIT * thinnest / (2.0 * way);
             if ways < 1.0 { ways * time_step } else { time_step }
         } else {
@@ -441,7 +441,7 @@ where
             self.penetration_max = self.penetration_max.max(contact.depth());
         }
         if let Some(erosion) = &mut self.erosion {
-            erosion.close_springs(|| self.contacts.iter().map(|contact| contact.stored_before(&self.springs)).sum());
+            erosion.close_springs(|| reductions::sum(self.contacts.iter().map(|contact| contact.stored_before(&self.springs))));
         }
     }
 
@@ -555,8 +555,8 @@ where
     /// Energy of the elements when every node is off by 1e-12 of the model's size, J/m: thousands of
     /// roundings.
     fn energy_of_round_off(&self) -> f64 {
-        let size = self.positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
-        let stiffness: f64 = self.blocks.iter().map(|block| block.wave_modulus() * block.elements() as f64).sum();
+        let size = reductions::max(self.positions.iter().flatten().map(|x| x.abs()));
+        let stiffness = reductions::sum(self.blocks.iter().map(|block| block.wave_modulus() * block.elements() as f64));
         stiffness * (1e-12 * size) * (1e-12 * size)
     }
 

@@ -50,8 +50,8 @@ where
         contacts
     }
 
-    /// Gives contacts and obstacles, in the order in which they were made, the surfaces that the mesh has now;
-    /// one without any ends.
+    /// Gives contacts and obstacles, in the order in which they were made, the surfaces that the mesh has
+    /// now; one without any ends.
     pub(super) fn rebuild_contacts(&mut self, contacts: &mut [Contact<D>]) {
         let outlines = <Dim<D>>::outlines(self);
         let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());

@@ -100,7 +100,7 @@ impl Builds<3> for Dim<3> {
         builder.rigid_part_in_3d(index, motion, own)
     }
     type Outlines = ();
-    fn outlines(_: &Builder<'_, 3>) -> () {}
+    fn outlines(_: &Builder<'_, 3>) {}
     fn formulation(
         builder: &mut Builder<'_, 3>,
         contact: &model::Contact,

@@ -16,6 +16,7 @@ use crate::failure::{Criterion, by_name};
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::{Corners, Facet};
 use crate::model::in_3d;
+use crate::reductions;
 use crate::tensor::Dim;
 
 /// What fails and what has failed.
@@ -200,7 +201,7 @@ where
         let part = group.part;
         erosion.by_part[part] += failed.len();
         let pulls = NodalForces { forces: &mut self.slots[slots], moments: &mut self.rotations.slots[moments] };
-        erosion.energy += self.blocks[index].erode(&numbers, pulls).iter().sum::<f64>();
+        erosion.energy += reductions::sum(self.blocks[index].erode(&numbers, pulls));
         for &element in &numbers {
             self.mesh.groups[index].erode(element as usize);
         }
@@ -224,7 +225,7 @@ where
         // The outside of what was sound before stays sound with elements taken out of it.
         let outside = self.mesh.outside_without(&[], |segment| self.constraints.is_mirror(segment)).unwrap_or_default();
         self.traces.renew(outside, &self.mesh.positions);
-        erosion.springs = Some(self.contacts.iter().map(|contact| contact.stored(&self.springs)).sum());
+        erosion.springs = Some(reductions::sum(self.contacts.iter().map(|contact| contact.stored(&self.springs))));
         let parts =
             ContactParts { mesh: &mut self.mesh, constraints: &mut self.constraints, mass: &mut self.mass, bodies: &mut self.bodies };
         erosion.source.rebuild(parts, &mut self.contacts);
@@ -235,7 +236,7 @@ where
     pub(crate) fn mass_loose(&self) -> f64 {
         let has_elements = self.has_elements();
         let count = self.mesh.positions.len();
-        self.mass[..count].iter().zip(&has_elements).filter(|(_, has)| !**has).map(|(mass, _)| mass).sum()
+        reductions::sum(self.mass[..count].iter().zip(&has_elements).filter(|(_, has)| !**has).map(|(mass, _)| *mass))
     }
 
     /// Whether each node has an element.

@@ -11,6 +11,7 @@ use super::System;
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::dimension::Dimension;
 use crate::model;
+use crate::reductions::SumInOrder;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus};
 
@@ -52,17 +53,17 @@ where
     /// Sets the rate of damping for the coming update.
     pub(super) fn relax(&mut self) {
         let Some(relaxation) = &mut self.relaxation else { return };
-        let (mut power, mut inertia) = (0.0, 0.0);
+        let (mut powers, mut inertias) = (SumInOrder::default(), SumInOrder::default());
         for (node, old) in relaxation.forces.iter_mut().enumerate() {
             let force = self.assembly.force(node, &self.slots);
             if self.bodies.of_node(node as u32).is_none() {
                 let v = self.velocities[node];
-                power += dot(v, minus(force, *old));
-                inertia += self.mass[node] * dot(v, v);
+                powers.add(dot(v, minus(force, *old)));
+                inertias.add(self.mass[node] * dot(v, v));
             }
             *old = force;
         }
-        let square = -power / (self.time_step_old * inertia);
+        let square = -powers.value() / (self.time_step_old * inertias.value());
         // Of what is at rest, or gives way, nothing is learnt.
         if square.is_finite() && square > 0.0 {
             relaxation.frequency = square.sqrt();

@@ -203,8 +203,5 @@ fn bars_beside_parts_of_another_dimension_are_called_bars_and_reported_their_sha
     let text = format!("{steel}{flat}{}space_truss.lines = [[[0, 0, 0], [1, 0, 1]]]\n", area("m^2"));
     let found: Vec<String> = faults(&text).iter().map(|fault| format!("{}: {} | {}", fault.path, fault.message, fault.help)).collect();
     let help = "take `truss`: bars in 2D; or make the other parts solids, such as by `extrude`";
-    assert!(
-        found.contains(&format!("part[1].space_truss: the part is of bars in 3D, but part `flat` is 2D | {help}")),
-        "{found:#?}"
-    );
+    assert!(found.contains(&format!("part[1].space_truss: the part is of bars in 3D, but part `flat` is 2D | {help}")), "{found:#?}");
 }

@@ -2,7 +2,7 @@
 //! body.
 //!
 //! Pairs come from the global search; groups go to the tracker of the nodes ([`super::tracker`]) and to the
-//! proof ([`super::super::proof`]), which keep what they know of each.
+//! check of missed contacts ([`super::super::missed_contacts`]), which keep what they know of each.
 
 use super::super::projection::node_facet::Vector;
 use super::super::search::{Pair, Query, Search};

@@ -2,9 +2,10 @@
 //! inside at the end, and on which side it came in.
 //!
 //! Positions come from the step, candidates from the tracker of the nodes ([`super::tracker`]) or from the
-//! proof ([`super::super::proof`]), times from `projection/swept.rs`. A node that comes in is inside until it
-//! goes out by a facet that looks to the side from which it came, or beside: the far side of a thin body is
-//! none, and who goes through it in one step is inside. There the face by which it came in leads it.
+//! check of missed contacts ([`super::super::missed_contacts`]), times from `projection/swept.rs`. A node
+//! that comes in is inside until it goes out by a facet that looks to the side from which it came, or beside:
+//! the far side of a thin body is none, and who goes through it in one step is inside. There the face by
+//! which it came in leads it.
 
 use super::super::Sweep;
 use super::super::projection::node_facet::{Placed, Projection, Vector};

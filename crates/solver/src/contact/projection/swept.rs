@@ -1,14 +1,15 @@
 //! When, in a step, a node goes through a triangle that moves, and an edge through another one: the swept
 //! check of solids, for the proof that no contact was missed.
 //!
-//! Positions of both ends of a step come from the proof ([`super::super::proof`]); all nodes go straight and
-//! evenly between them. Then the volume that a node spans with a triangle, and that of two edges, is a cubic
-//! of the time, det(u, v, w) of three vectors that are linear in it. Where it vanishes all four nodes are in
-//! one plane (Provot 1997; Bridson, Fedkiw and Anderson 2002), and where the place is on the triangle, or on
-//! both edges, one goes through the other. In Bernstein's form no sign changes among the coefficients mean no
-//! root, one change one root, and halves have their coefficients by de Casteljau's rule: roots are isolated,
-//! not guessed. Everything within rounding counts as it is worst for the proof: who begins a rounding behind
-//! the triangle begins in front of it, and a place a rounding beyond an edge is on it.
+//! Positions of both ends of a step come from the check of missed contacts
+//! ([`super::super::missed_contacts`]); all nodes go straight and evenly between them. Then the volume that a
+//! node spans with a triangle, and that of two edges, is a cubic of the time, det(u, v, w) of three vectors
+//! that are linear in it. Where it vanishes all four nodes are in one plane (Provot 1997; Bridson, Fedkiw and
+//! Anderson 2002), and where the place is on the triangle, or on both edges, one goes through the other. In
+//! Bernstein's form no sign changes among the coefficients mean no root, one change one root, and halves have
+//! their coefficients by de Casteljau's rule: roots are isolated, not guessed. Everything within rounding
+//! counts as it is worst for the proof: who begins a rounding behind the triangle begins in front of it, and
+//! a place a rounding beyond an edge is on it.
 
 use crate::tensor::{cross, dot};
 use crate::vector::minus;

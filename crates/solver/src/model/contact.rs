@@ -1,6 +1,6 @@
 //! Contacts and obstacles of a [`super::Model`]: formulations, laws, friction, what touches what.
 //!
-//! Values come from the model file, checked by [`super::check`]; contacts are made of them by
+//! Values come from the model file, checked by `input`; contacts are made of them by
 //! [`crate::build`].
 
 use super::in_3d;

@@ -190,7 +190,7 @@ impl Tracker {
         SearchReport { candidates, ..self.reach.report }
     }
 
-    /// Keeps what is known of the past, for [`crate::contact::Formulation::keep`].
+    /// Keeps what is known of the past, for [`crate::contact::Formulation::persist`].
     pub(in crate::contact) fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { targets, passes, reach, found: Found { touches, certificate }, chunks: _, travel, past } = self;
         passes.iter_mut().try_for_each(|pass| pass.persist(targets, archive))?;

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Lets hangups be ignored that whoever started the program wants ignored (`nohup`): watching would take them
-/// for a request to stop. Before any thread begins.
+/// Lets hangups be ignored that anyone who started the program wants ignored (`nohup`): watching would take
+/// them for a request to stop. Before any thread begins.
 pub(crate) fn respect_nohup() {
     #[cfg(target_os = "linux")]
     {

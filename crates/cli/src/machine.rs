@@ -1,6 +1,6 @@
 //! The machine that the program runs on: its processor and its memory, as far as the system reports.
 
-/// Name of the processor; empty where the system does not tell.
+/// Name of the processor; empty where the system does not report it.
 pub(crate) fn processor() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let line = text.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':').map(|(_, name)| name.trim().to_string()));
@@ -12,12 +12,12 @@ pub(crate) fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Memory that programs can have now, bytes; `None` where the system does not tell.
+/// Memory that programs can have now, bytes; `None` where the system does not report it.
 pub(crate) fn memory_available() -> Option<u64> {
     kibibytes("/proc/meminfo", "MemAvailable:")
 }
 
-/// Memory that this process has in use, bytes; `None` where the system does not tell.
+/// Memory that this process has in use, bytes; `None` where the system does not report it.
 pub(crate) fn memory_used() -> Option<u64> {
     kibibytes("/proc/self/status", "VmRSS:")
 }

@@ -58,7 +58,7 @@ enum Command {
     Replay(replay::Arguments),
     /// Look at results in the browser, or at two runs side by side
     View(view::Arguments),
-    /// Tell the first step, part and node at which two runs part
+    /// Find the first step, part and node at which two runs diverge
     Diff(diff::Arguments),
     /// Write what a run left as one HTML file that can be sent away
     Report(report::Arguments),

@@ -50,7 +50,7 @@ impl<'a, T> Chunks<'a, T> {
     }
 }
 
-// SAFETY: whoever has a part of it has the only access to these values, as with a slice that is split.
+// SAFETY: anyone who has a part of it has the only access to these values, as with a slice that is split.
 unsafe impl<T: Send> Sync for Chunks<'_, T> {}
 
 // SAFETY: chunks begin at multiples of their size, so no two overlap.
@@ -195,7 +195,7 @@ impl Shared {
     }
 }
 
-/// The team. Whoever calls [`Team::each`] is its leader and works too.
+/// The team. Anyone who calls [`Team::each`] is its leader and works too.
 pub struct Team {
     shared: Option<Arc<Shared>>,
     members: Vec<JoinHandle<()>>,

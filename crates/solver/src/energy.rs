@@ -7,7 +7,7 @@
 //! friction and damping took, less what came from outside by the trapezoidal rule in the displacement, Σ
 //! f·½(x^{n+1} − x^{n-1}). For linear springs, dead loads and a constant step this is exactly constant, from
 //! time zero on; there the velocity v^{-1/2} is the mirror image 2v⁰ − v^{1/2}. What friction, damping and
-//! multipliers take is their work with its sign turned, by the same rule: the drift can't judge it, its sign
+//! multipliers take is their work with its sign turned, by the same rule: the drift can't detect it, its sign
 //! can.
 
 use crate::archive::persist_all;
@@ -207,7 +207,7 @@ impl Stores {
     }
 }
 
-/// The books of a run.
+/// The energy balance of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
     /// Kinetic energy at the start, J/m.
@@ -256,7 +256,7 @@ pub struct Entry {
 }
 
 impl Ledger {
-    /// Books that begin with `kinetic` energy, J/m. Drift and residual are fractions of the largest total
+    /// A ledger that begins with `kinetic` energy, J/m. Drift and residual are fractions of the largest total
     /// energy, but at least of `round_off`, the energy that rounded positions alone can bring: a body at rest
     /// must not seem to gain energy.
     #[must_use]

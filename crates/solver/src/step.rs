@@ -59,7 +59,7 @@ const HOLD: f64 = 1.25;
 const GROWTH: f64 = 1.0001;
 
 /// How far something may go into another body within a step, in depths at which the springs of contact
-/// stiffen: an eighth of the local thickness. Springs are made before they close, but they give way while
+/// stiffen: an eighth of the local thickness. Springs are made before they close, but they yield while
 /// they take up the momentum, so a body that comes at some tenths of the wave speed of one that is an element
 /// thick would be deep in it before they hold.
 const APPROACH: f64 = 2.5;
@@ -607,7 +607,7 @@ where
     }
 
     /// Kinetic energy of a node at the whole step by its mass, J/kg: its share in [`Stores::kinetic`] as the
-    /// ledger books it.
+    /// ledger enters it.
     pub(crate) fn specific_kinetic(&self, node: usize) -> f64 {
         let [old, new] = match self.bodies.of_node(node as u32) {
             Some(body) => {

@@ -1,7 +1,7 @@
 //! The socket of one viewer of a running simulation: says what is new, newest first, and takes orders.
 //!
 //! A page that says nothing, not even that it is still there, is not waited for. A frame is sent when the
-//! page has seen the one before; what came in between is dropped and counted. Whoever is slow makes no one
+//! page has seen the one before; what came in between is dropped and counted. Anyone who is slow makes no one
 //! wait.
 
 use crate::connections::Patience;

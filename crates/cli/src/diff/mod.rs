@@ -1,6 +1,6 @@
-//! `embate diff`: the first step, part and node at which two runs part.
+//! `embate diff`: the first step, part and node at which two runs diverge.
 //!
-//! First by what the runs left: models, and the logs of their hashes, which tell the stretch of steps in
+//! First by what the runs left: models, and the logs of their hashes, which give the stretch of steps in
 //! which they part. Then both are gone over this stretch once more, side by side, and their states compared
 //! after each step. Exit codes: 0 the runs are the same, 1 they are not, 2 they can't be compared.
 
@@ -87,7 +87,7 @@ pub(crate) fn diff(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Why runs can't be gone over once more.
 enum Unable {
-    /// What the logs tell is all that is known.
+    /// What the logs contain is all that is known.
     Told(CliError),
     /// Nothing can be compared, or nothing can be said.
     Failure(Failure),

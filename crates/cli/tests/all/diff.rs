@@ -1,4 +1,4 @@
-//! `embate diff`: it names the step, part and node at which two runs part. Cases whose answer is known
+//! `embate diff`: it names the step, part and node at which two runs diverge. Cases whose answer is known
 //! without it, and the answer by brute force: logs of every step.
 
 use crate::{Answer, embate, fresh};

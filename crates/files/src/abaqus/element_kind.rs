@@ -96,7 +96,7 @@ pub(super) static KINDS: &[ElementKind] = &[
 pub(super) enum Found {
     /// It can be computed.
     Body(&'static ElementKind),
-    /// A point, line, spring, mass or the like: no body, stepped over.
+    /// A point, line, spring, mass or the like: no body, skipped.
     Beside,
     /// It can't be computed; why, and what to do.
     Refused(&'static str, &'static str),

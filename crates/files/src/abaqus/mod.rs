@@ -35,7 +35,7 @@ pub(crate) fn read_within(path: &Path, scale: f64, bounds: &Bounds) -> Result<Im
     mesh(&text, scale)
 }
 
-/// Makes a mesh from the bytes of a deck (.inp), in 3D if it has solids, else of the plane; what it
+/// Makes a mesh from the bytes of a deck (.inp), in 3D if it has solids, else 2D; what it
 /// includes is looked for in `folder` and nowhere else.
 ///
 /// - Positions are those of the file times `scale` (m per unit of the file), with instances in place; in the
@@ -47,7 +47,7 @@ pub(crate) fn read_within(path: &Path, scale: f64, bounds: &Bounds) -> Result<Im
 ///   elements are the group `all`.
 /// - Nodes keep the file's order; those of no body are left out, also of sets.
 /// - Clockwise elements and those of negative volume are turned, their first node kept.
-/// - Masses, springs, rigid lines, beams and the like are stepped over, and so is every keyword that is not
+/// - Masses, springs, rigid lines, beams and the like are skipped, and so is every keyword that is not
 ///   about geometry.
 ///
 /// `source` names the file in messages.

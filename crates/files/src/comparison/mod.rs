@@ -88,7 +88,7 @@ impl RunLeft {
     }
 }
 
-/// The stretch in which two runs part, by what they left.
+/// The stretch in which two runs diverge, by what they left.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Window {
     /// Steps that both logs have, from the first until they part.

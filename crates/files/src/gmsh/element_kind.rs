@@ -1,5 +1,5 @@
 //! The element types that the .msh format numbers: dimension and number of nodes of each, so that those that
-//! embate doesn't compute can be stepped over in a binary file and named in a message. Source: "Node
+//! embate doesn't compute can be skipped in a binary file and named in a message. Source: "Node
 //! ordering" and "MSH file format" of the Gmsh reference manual; the numbers of nodes are those that Gmsh
 //! 4.15 reports for each type.
 

@@ -60,9 +60,9 @@ pub(crate) static NODE: Message = Message {
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n\
          $Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 1\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n",
     ),
-    cause: "The file was put together by hand, the geometry of plane bodies does not lie in z = 0, or the volumes of \
+    cause: "The file was put together by hand, the geometry of 2D bodies does not lie in z = 0, or the volumes of \
         solids are in no group.",
-    remedy: "Move plane bodies into the plane of x and y, give the elements of solids a group, and export the mesh again.",
+    remedy: "Move 2D bodies into the plane of x and y, give the elements of solids a group, and export the mesh again.",
 };
 
 pub(crate) static CELL: Message = Message {

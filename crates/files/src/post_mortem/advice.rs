@@ -1,6 +1,6 @@
 //! What to change in the model after a failure: keys, with what this failure says about them.
 //!
-//! General causes and cures are in the catalogue of messages; here is only what follows from the failure
+//! General causes and remedies are in the catalogue of messages; here is only what follows from the failure
 //! location, its history, and what acts on it.
 
 use super::Failed;

@@ -120,7 +120,7 @@ pub(super) fn energies(title: &str, trace: &Trace, failed: u64, is_of_whole_bodi
     (closed.len() > 1).then(|| over_steps(title, panels)).flatten()
 }
 
-/// By how much each energy of a part or contact changed between two of the steps whose books are closed, the
+/// By how much each energy of a part or contact changed between two of the steps whose ledger is closed, the
 /// largest change first: change, column.
 pub(super) fn changes(trace: &Trace, [from, to]: [usize; 2]) -> Vec<(f64, usize)> {
     let closed: Vec<&Moment> = trace.moments.iter().filter(|moment| !moment.row.is_empty()).collect();

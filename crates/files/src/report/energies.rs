@@ -1,4 +1,4 @@
-//! The books of a run: energies at its beginning and end, how well they balance, and their plot.
+//! The energy balance of a run: energies at its beginning and end, how well they balance, and their plot.
 
 use super::Left;
 use super::html::{self, paragraph, plot, table};

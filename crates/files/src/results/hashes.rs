@@ -2,7 +2,7 @@
 //! so that two runs can be held against each other later.
 //!
 //! Lines come from the simulation through the recorder, and grow as those of the history. Each ends with a
-//! check sum of what stands before it: a line that was changed is told from a run that was another.
+//! check sum of what stands before it: a line that was changed is distinguished from a run that was another.
 //! [`HashTable::read`] gives them to `embate diff`, also those of a run that was killed.
 
 use super::atomic::part_path;

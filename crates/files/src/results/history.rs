@@ -1,6 +1,6 @@
 //! `history.csv` read back, also the growing `history.csv.part` of a run that continues.
 //!
-//! Columns and rows come from the result folder; they go to `embate report` and to whoever follows a run.
+//! Columns and rows come from the result folder; they go to `embate report` and to anyone who follows a run.
 //! [`unit`] says what the columns are in.
 
 use super::ResultsError;

@@ -105,7 +105,7 @@ pub struct Report {
     pub rest: Option<f64>,
     /// Wall time of the run with its output and pictures, without reading and meshing the model, s.
     pub wall_seconds: f64,
-    /// User CPU time of the whole process, s; `None` where the system does not tell.
+    /// User CPU time of the whole process, s; `None` where the system does not report it.
     pub user_cpu_seconds: Option<f64>,
     /// Time that the writer of results was at work, beside the steps or in turn with them, and with the
     /// pictures at the end, s.

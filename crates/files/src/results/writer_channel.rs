@@ -83,7 +83,7 @@ impl WriterChannel {
         let faults = Faults::default();
         let desk = Arc::new(Mutex::new(Some(Desk { writer, faults: faults.clone(), worked: Duration::ZERO })));
         let of_run = |place| Self { place, faults, waited: Duration::ZERO, frame_bytes: 0, spare: Frame::default() };
-        // Whoever comes first takes it: the thread, or the run where there is no thread.
+        // Anyone who comes first takes it: the thread, or the run where there is no thread.
         let take = |desk: &Mutex<Option<Desk>>| desk.lock().unwrap_or_else(PoisonError::into_inner).take();
         if beside {
             let queue = Arc::new(Queue::new());

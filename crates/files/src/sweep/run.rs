@@ -53,7 +53,7 @@ pub struct Running<'a> {
     pub force: bool,
     /// Runs at a time.
     pub jobs: usize,
-    /// User CPU time of the calling thread so far, s; `None` where the system does not tell.
+    /// User CPU time of the calling thread so far, s; `None` where the system does not report it.
     pub user_cpu_seconds: fn() -> Option<f64>,
     /// Whether the user wants it to stop.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),

@@ -126,7 +126,7 @@ impl Check {
     }
 }
 
-/// Runs all models of a case and judges its checks. With `keep`, a folder and whether older results in it are
+/// Runs all models of a case and checks its checks. With `keep`, a folder and whether older results in it are
 /// replaced, the results lie in `folder/CASE/MODEL` afterwards.
 ///
 /// # Errors

@@ -42,7 +42,7 @@ pub struct Bodies {
     skinner: Skinner,
     /// Initial places of all nodes, m.
     initial: Vec<[f64; 3]>,
-    /// What positions are told from, m: single precision is enough beside it.
+    /// What positions are distinguished from, m: single precision is enough beside it.
     pub(super) origin: [f64; 3],
     found: Mutex<Found>,
 }

@@ -46,7 +46,7 @@ impl Builder<'_, 3> {
         let own = SpaceSurface::of_triangles(surface, first);
         let (points, passes) = self.points_of_triangles(&own, &parts.nodes);
         let count = own.facets.len();
-        // Nothing of it gives way.
+        // Nothing of it yields.
         let rigid = Sided {
             of_mass: Vec::new(),
             shares: vec![1.0; points.len()],

@@ -93,7 +93,7 @@ impl Depths {
         }
     }
 
-    /// Judges the bodies as they are.
+    /// Checks the bodies as they are.
     fn look(&mut self, scene: &Scene<'_, 2>) {
         let positions = scene.sweep.new;
         let overlap_check = &mut self.overlap_check;

@@ -167,7 +167,7 @@ impl Chain {
 
 impl Segment {
     fn of(setup: Setup<'_>) -> Self {
-        // With springs that don't give way two points a pair were more conditions than the nodes can meet.
+        // With springs that don't yield two points a pair were more conditions than the nodes can meet.
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let law = (setup.law)();
         let (penalty, thickness, reach, depth) = (setup.penalty(), setup.contact.interface.thickness, law.reach(), setup.depth);

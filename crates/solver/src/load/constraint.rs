@@ -1,5 +1,5 @@
-//! Prescribed motion by direction: symmetry lines, fixed and driven nodes, nodes that are led around a point.
-//! After the free update the velocity is set along each direction; the impulse that this takes is the
+//! Prescribed motion by direction: symmetry lines, fixed and driven nodes, nodes that are rotated about a
+//! point. After the free update the velocity is set along each direction; the impulse that this takes is the
 //! reaction, and its work goes to the ledger.
 
 use super::curve::{Curves, Meaning, Speed};
@@ -102,7 +102,7 @@ impl<const D: usize> NodeConstraint<D> {
         direction
     }
 
-    /// The same of something that gives way to impulses by a symmetric matrix: the reactions act along the
+    /// The same of something that yields to impulses by a symmetric matrix: the reactions act along the
     /// held directions.
     #[must_use]
     pub fn apply_in(&self, mut velocity: [f64; D], mut mobility: Square<D>) -> [f64; D] {
@@ -501,7 +501,7 @@ where
     nodes
 }
 
-/// A mobility without what gives way along a direction.
+/// A mobility without what yields along a direction.
 fn without<const D: usize>(mobility: Square<D>, direction: [f64; D]) -> Square<D> {
     let response = applied(&mobility, direction);
     let along = dot(response, direction);

@@ -5,7 +5,7 @@
 //!
 //! v^{n+½} = [(1 − a) v^{n−½} + ½ (dt^{n−1} + dt^n) f / m] / (1 + a),
 //!
-//! so it only takes energy, whatever the rate and the step. A node then gives way to a force like one of mass
+//! so it only takes energy, whatever the rate and the step. A node then yields to a force like one of mass
 //! m (1 + a), which contact must know.
 
 use crate::mesh::Mesh;

@@ -5,7 +5,7 @@
 //!
 //! on the tributary length (in 3D: area) of each node, normals and sizes as they are at the start. With C
 //! the sum over a node's pieces of the surface, the force −C v̄ acts on the mean velocity of the update,
-//! v̄ = ½ (v^{n−½} + v^{n+½}): it only takes energy, whatever the step, and shortens none. A node gives way
+//! v̄ = ½ (v^{n−½} + v^{n+½}): it only takes energy, whatever the step, and shortens none. A node yields
 //! to an impulse J by (m + ½ Δt C)⁻¹ J with Δt = ½ (dt^{n−1} + dt^n).
 
 use crate::error::Fault;

@@ -1,4 +1,4 @@
-//! The velocity update of nodes: what pulls on a node (or on a group that moves as one), how it gives way,
+//! The velocity update of nodes: what pulls on a node (or on a group that moves as one), how it yields,
 //! and what the ledger get.
 //!
 //! Forces come from the assembly, contacts and loads; new velocities and sums go back to `step.rs`, and the

@@ -64,7 +64,7 @@ where
             *old = force;
         }
         let square = -powers.value() / (self.time_step_old * inertias.value());
-        // Of what is at rest, or gives way, nothing is learnt.
+        // Of what is at rest, or yields, nothing is learnt.
         if square.is_finite() && square > 0.0 {
             relaxation.frequency = square.sqrt();
         }

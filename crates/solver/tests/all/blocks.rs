@@ -154,7 +154,7 @@ fn corner_masses_are_positive_and_have_the_mass_and_its_centre() {
 #[test]
 fn corner_forces_do_the_work_that_the_energy_reports() {
     // −f·u = dU for any small motion u from a state of uneven stress; this is what the force part of the mean
-    // dilatation is for. The force is the mean over the motion: a law that gives way with the rate, or with
+    // dilatation is for. The force is the mean over the motion: a law that yields with the rate, or with
     // the heat of the step before, has another force after the smallest motion.
     every_pair(|element, law| {
         if is_damped(element) {

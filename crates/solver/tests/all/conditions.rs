@@ -208,7 +208,7 @@ fn displacements_and_accelerations_lead_nodes_where_they_say() {
 
 #[test]
 fn nodes_that_are_led_around_a_point_turn_exactly() {
-    // A ring whose inside is led around by three and a half turns: a rigid rotation once it has begun so.
+    // A ring whose inside is rotated by three and a half turns: a rigid rotation once it has begun so.
     let (speed, end): (f64, f64) = (700.0 * std::f64::consts::PI, 1e-2);
     let mut model = model(end);
     let ring = Shape::Ring(Ring {

@@ -1,4 +1,4 @@
-//! Contact in 3D with friction hangs on no numbering: corners of elements, nodes, elements and parts in
+//! Contact in 3D with friction depends on no numbering: corners of elements, nodes, elements and parts in
 //! another order, or the whole model turned, give the same motion.
 
 use crate::bodies::*;

@@ -112,7 +112,7 @@ fn boxes_of_every_solid_hit_each_other_and_keep_both_momenta_and_the_energy() {
                 is_sound(&simulation, 1e-2, &case);
                 assert!(history.largest("energy.contact") > 0.0 || history.largest("contact.force_z[hit]") != 0.0 || !named, "{case}");
                 // Between four balls of the blocks, 0.05 m wide, another one comes nearer by 29 % of that,
-                // with what the springs give way.
+                // with what the springs yield.
                 let deepest = simulation.summary().penetration_max;
                 assert!(history.last("energy.contact") == 0.0 && deepest < 0.02 + 0.29 * 0.05, "{case}: they part again, {deepest}");
                 assert!(friction.is_none() || history.last("energy.friction") > 0.0, "{case}");
@@ -173,7 +173,7 @@ fn bars_of_solids_meet_with_the_force_of_the_closed_form() {
 #[test]
 fn a_model_that_is_turned_as_a_whole_gives_turned_results() {
     // Nodes and elements of a turned model are numbered otherwise, and so which of two balls is the first:
-    // nothing hangs on that.
+    // nothing depends on that.
     for friction in [None, Some(FRICTION)] {
         let interface = Interface { friction, damping: 0.1, ..Interface::default() };
         let [straight, turned] = [0.0, 0.7].map(|angle| {

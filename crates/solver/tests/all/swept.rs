@@ -344,8 +344,8 @@ fn compare_body(old: &[Point], new: &[Point], node: [Point; 2], map: &Map, tally
         let pair = [node, [old[s], new[s]], [old[next], new[next]]];
         reported |= compare(&target, s as u32, pair, [&points_old, &points_new], map, tally);
     }
-    // Whoever has the body around at some time and had not at the beginning came in, however degenerate the
-    // way.
+    // Anyone who has the body around at some time and had not at the beginning came in, however degenerate
+    // the way.
     const TIMES: i128 = 12;
     let at = |time: i128, [begin, end]: [Point; 2]| [0, 1].map(|d| (TIMES - time) * begin[d] + time * end[d]);
     let around = |time: i128| {

@@ -271,7 +271,7 @@ fn reported(seed: u64) -> String {
     format!("{state}: {}", parts.chain(contacts).chain(obstacles).collect::<Vec<_>>().join(", "))
 }
 
-/// Memory in use, bytes; 0 where the system does not tell.
+/// Memory in use, bytes; 0 where the system does not report it.
 fn resident() -> u64 {
     let status = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
     status.split_whitespace().nth(1).and_then(|pages| pages.parse::<u64>().ok()).map_or(0, |pages| pages * 4096)

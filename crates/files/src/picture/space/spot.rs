@@ -1,7 +1,7 @@
 //! Where in a model in 3D something is: all bodies, shaded, with a mark; what veils the place is cut away.
 //!
-//! Cells and positions come from the simulation of a failed run; layout and legend are those of the plane's
-//! picture.
+//! Cells and positions come from the simulation of a failed run; layout and legend are those of the 2D
+//! picture picture.
 
 use super::drawing::{Colour, Style};
 use super::obstacle::Shape;

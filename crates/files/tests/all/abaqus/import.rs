@@ -121,8 +121,8 @@ fn a_deck_of_two_bars_gives_what_the_model_written_by_hand_gives() {
     let example = model(&here("../../examples/two-bars"));
     let (imported, folder) = imported("two-bars", &two_bars(&example), "m,kg,s").unwrap();
     assert!(!imported.report.has_ignored(), "{}", imported.report.text());
-    // Both number their nodes in their own ways: rows are told apart by y, which hardly changes, and in a row
-    // nodes keep their order.
+    // Both number their nodes in their own ways: rows are distinguished by y, which hardly changes, and in a
+    // row nodes keep their order.
     let row = |x: &[f64; 2]| (x[1] * 1e6).round() as i64;
     let [(steps, by_hand), (steps_imported, by_deck)] = [&example, &model(&folder)].map(|model| {
         let mut simulation = Simulation::new(model, &Options::default()).unwrap();

@@ -262,7 +262,7 @@ fn every_fault_of_a_solid_has_its_message() {
     let mut places = nodes();
     places[19][2] = f64::NAN;
     assert!(faults(&version_2(&places, &elements()))[0].message.starts_with("node 20 is at (1e0, 1e0, NaN) m: not a place"));
-    // Solids whose volumes are in no group look like plane bodies off the plane.
+    // Solids whose volumes are in no group look like 2D bodies off the plane.
     let surfaces: Vec<Element> = elements().into_iter().filter(|element| element.0 == 3).collect();
     let found = faults(&version_2(&nodes(), &surfaces));
     assert!(found[0].message.contains("off the plane z = 0") && found[0].help.contains("Physical Volume"), "{found:#?}");

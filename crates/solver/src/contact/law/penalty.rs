@@ -46,7 +46,7 @@ pub const KIND: ContactLawKind = ContactLawKind {
 
 /// How much stiffer it is at least between bodies, at twice the limit than below it.
 const STIFFENING: f64 = 100.0;
-/// How much stiffer it is there at obstacles, which do not give way: of 52 scenes in which bodies are pressed
+/// How much stiffer it is there at obstacles, which do not yield: of 52 scenes in which bodies are pressed
 /// against planes 5 did not end with 10, 7 with 0 and 3, and 9 with 100, which throws nodes back within a
 /// step.
 const AT_OBSTACLES: f64 = 10.0;

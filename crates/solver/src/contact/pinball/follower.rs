@@ -29,7 +29,7 @@ pub(super) trait Round<const D: usize>: TangentSpace<D> {
     /// So many times the last motion is searched ahead.
     const AHEAD: f64;
 
-    /// Length of a vector: in 2D as the platform's `hypot` rounds it, which its results hang on.
+    /// Length of a vector: in 2D as the platform's `hypot` rounds it, which its results depend on.
     fn length(vector: [f64; D]) -> f64;
     /// Length of surface that a disk stands for, or the side of the square of a ball's area, m.
     fn width(area: f64) -> f64;

@@ -124,7 +124,7 @@ pub(in crate::contact) fn place_on_triangle(x: Vector, triangle: [Vector; 3]) ->
     nearest_of_triangle(x, triangle).foot
 }
 
-/// Which corners of a triangle its place that is nearest to another place hangs on: one at a corner, two on
+/// Which corners of a triangle its place that is nearest to another place depends on: one at a corner, two on
 /// an edge.
 pub(in crate::contact) fn corners_below(x: Vector, triangle: [Vector; 3]) -> [bool; 3] {
     nearest_of_triangle(x, triangle).weights.map(|weight| weight > TIE)

@@ -387,8 +387,8 @@ impl Target {
     ///   neighbours whose side it changes), in for good or out again within the step, from a place on the
     ///   segment too. On it is outside, and f is zero or not by the very expression that gives
     ///   [`Target::project`] its sign.
-    /// - Round-off hides none along a chain: whoever is outside a closed chain before and inside it after is
-    ///   reported by some segment (by its winding number), if the signs of both gaps say so too. Of a dip
+    /// - Round-off hides none along a chain: anyone who is outside a closed chain before and inside it after
+    ///   is reported by some segment (by its winding number), if the signs of both gaps say so too. Of a dip
     ///   under a single segment it hides what is no deeper than the rounding of f.
     /// - Nothing else is reported: no way out, no graze (f touches zero), no path along the segment, no
     ///   motion together with it, no segment that shrinks to a point elsewhere. Exceptions, all of which

@@ -6,7 +6,7 @@
 
 /// Cost of looking at one class, in comparisons of boxes.
 const LOOK: f64 = 8.0;
-/// Exponents below the largest that are told apart; what is smaller than 2^-60 of the largest is one bin.
+/// Exponents below the largest that are distinguished; what is smaller than 2^-60 of the largest is one bin.
 const OCTAVES: usize = 60;
 /// Number of bins.
 pub(super) const BINS: usize = OCTAVES + 1;

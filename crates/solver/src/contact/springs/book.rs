@@ -6,7 +6,7 @@ use super::{Answer, TangentSpace, Tangential, sum_along};
 use crate::energy::Lost;
 use crate::tensor::Dim;
 
-/// The books of a spring, J/m.
+/// The energy balance of a spring, J/m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Books {
     /// Energy at the whole step n, in step with ½ Σ m v^{n-1/2}·v^{n+1/2}: ½ (V(g^{n−½}) + V(g^{n+½})) + ½ F

@@ -329,7 +329,7 @@ pub enum Tangential {
     Free,
     /// Coulomb friction.
     Friction(Friction),
-    /// A spring on the slip that never gives way; as stiff as that on the gap.
+    /// A spring on the slip that never yields; as stiff as that on the gap.
     Tied,
 }
 
@@ -368,7 +368,7 @@ where
     pub time_steps: [f64; 2],
     /// x^n, m.
     pub positions: &'a [[f64; D]],
-    /// How nodes move and give way.
+    /// How nodes move and yield.
     pub nodes: &'a M,
     /// Rigid bodies.
     pub bodies: &'a Bodies<D>,

@@ -203,7 +203,7 @@ where
             _ if (0..D - 1).any(gives) => (stick.tie_softness(), island.tie_from(i, rates)),
             _ => return,
         };
-        // Where nothing gives way the force is what it is.
+        // Where nothing yields the force is what it is.
         if matches!(tangential, Tangential::Friction(_)) && !(0..D - 1).all(gives) {
             give(island, i, |a| (!gives(a)).then_some(found[a]));
         }

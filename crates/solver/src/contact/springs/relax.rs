@@ -203,7 +203,7 @@ where
         }
     }
 
-    /// Makes the forces that there are those about which constraints give way; `false`: there are no
+    /// Makes the forces that there are those about which constraints yield; `false`: there are no
     /// constraints.
     fn centre(&mut self) -> bool {
         let mut any = false;

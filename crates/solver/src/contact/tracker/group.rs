@@ -14,7 +14,8 @@ use super::sleep::AWAKE;
 use crate::archive::{Archive, ArchiveResult, Persist, persist_all, persist_each};
 use crate::mesh::surface::NONE;
 
-/// A slave node and a body of the target surface. Half a cache line: whoever is awake is read in every step.
+/// A slave node and a body of the target surface. Half a cache line: anyone who is awake is read in every
+/// step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Group {
     /// Index of the node in its surface.

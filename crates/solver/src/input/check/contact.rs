@@ -40,7 +40,7 @@ impl Check<'_> {
         self.bodies_twice();
     }
 
-    /// Two surfaces: they must be there, differ, and one of them must be able to give way.
+    /// Two surfaces: they must be there, differ, and one of them must be able to yield.
     fn surfaces(&mut self, path: &str, between: &[String; 2]) {
         let mut found = [None, None];
         for (side, name) in between.iter().enumerate() {

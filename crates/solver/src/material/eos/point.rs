@@ -11,7 +11,7 @@
 //! Where p_new lies below −p_t, the limit in tension, it is −p_t, and E_new follows by the first line: what
 //! the matter takes up at the limit it gives back on the same way.
 //!
-//! Elastic energy of the deviator is no heat. The block books the work of the whole stress as stored, less
+//! Elastic energy of the deviator is no heat. The block enters the work of the whole stress as stored, less
 //! what was dissipated, and begins with E of the start, so the ledger close by construction; E itself is
 //! stored plus dissipated plus viscous energy, less the deviator's elastic part.
 

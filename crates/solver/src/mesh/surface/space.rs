@@ -540,7 +540,7 @@ mod tests {
                 turned.iter_mut().for_each(|cell| CellKind::Hexahedron.begin_with_lowest(cell));
             }
             prop_assert_eq!(exterior::<3>(hexes(&turned)).unwrap(), surface.facets.clone());
-            // Nodes inside are told from those outside.
+            // Nodes inside are distinguished from those outside.
             let mut sums = vec![0; 64];
             hexes(&cells).for_each(|cell| Dim::<3>::add_around(cell, &mut sums));
             prop_assert!((0..64).all(|node| (sums[node as usize] != 0) == surface.nodes.contains(&node)));

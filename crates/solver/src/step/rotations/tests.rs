@@ -363,7 +363,7 @@ fn half_a_frame_with_a_symmetry_does_what_the_whole_does() {
     let mut one = framed::<2>(&symmetric, &pieces(&half));
     push(&mut one, half[3], [0.1, 0.8]);
     // The half of a bar that is not there weighs nothing here, and its half of the inertia is missing: both
-    // halves of the middle node give way alike, so neither is seen.
+    // halves of the middle node yield alike, so neither is seen.
     for system in [&mut all, &mut one] {
         system.start().unwrap();
         (0..3000).for_each(|_| system.step().unwrap());

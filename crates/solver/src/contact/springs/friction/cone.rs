@@ -51,7 +51,7 @@ fn direction(along: [f64; 2], give: [f64; 2], limit: f64, mut least: f64) -> [f6
         let d = at(least);
         let square = d[0] * d[0] + d[1] * d[1];
         if !square.is_finite() {
-            // Nothing gives way along an axis: anything beyond nothing.
+            // Nothing yields along an axis: anything beyond nothing.
             least = Dim::<3>::size(&along) * f64::EPSILON;
             continue;
         }
@@ -78,7 +78,7 @@ pub fn slide(stick: &FrictionInput<3>, slip: [f64; 2], limit: f64) -> FrictionRe
     }
     let (give, axis) = axes(compliance);
     if stiffness.is_infinite() {
-        // The force that stops the slip; where nothing gives way none does.
+        // The force that stops the slip; where nothing yields none does.
         let rate = onto(axis, free);
         let trial = [0, 1].map(|k| if give[k] > 1e-14 * give[1] { -rate[k] / give[k] } else { 0.0 });
         let slides = Dim::<3>::size(&trial) > limit;
@@ -151,7 +151,7 @@ mod tests {
         FrictionInput { old, free, compliance: [[a, b], [b, c]], stiffness: k, time_steps: [0.9, 1.1] }
     }
 
-    /// Compliances from round to one that does not give way along an axis.
+    /// Compliances from round to one that does not yield along an axis.
     const COMPLIANCES: [[f64; 3]; 6] =
         [[0.7, 0.0, 0.7], [0.7, 0.2, 0.5], [2.0, 0.99, 0.5], [1.0, 1.0, 1.0], [0.0, 0.0, 0.8], [30.0, -0.1, 1e-3]];
 

@@ -1,7 +1,7 @@
 """Checks pages against docs/style.md: `style.py [--wrap] [PAGE...]`; without pages, all handwritten ones.
 
-It checks the width of lines and the words that docs/style.md lists as not used; docs/build.py calls it with
-every build. With --wrap it first wraps the text of the pages, but no tables, code, formulas, headings and HTML.
+It checks the width of lines and the words that docs/style.md lists as not used; without pages also those words
+in the texts of the program, such as its messages. docs/build.py calls it with every build. With --wrap it first wraps the text of the pages, but no tables, code, formulas, headings and HTML.
 """
 
 import re
@@ -31,6 +31,12 @@ ADDRESS = re.compile(r"\]\([^)\s]*\)|https?://\S+")
 # Lines that are not wrapped: tables, headings, HTML, quotations and pictures.
 KEPT = ("|", "#", "<", ">", "![")
 UNITS = "[kMGmµn]?(?:m|s|g|Pa|J|N|W|K|Hz)|%|mm|GB|MB|kB|MiB|GiB|KiB"
+# Texts of a program: strings of Rust, but not what stands in a comment.
+RUST = re.compile(r'//[^\n]*|b?r(#*)"(.*?)"\1|b?"((?:\\.|[^"\\])*)"|\'(?:\\.|[^\'\\])\'', re.DOTALL)
+# In a text a plane may be one of the geometry.
+GEOMETRY = {"of the plane", "in the plane"}
+# Strings that are names in files.
+NAMES = {"told"}
 # A line that began with one of these would be a list, a heading, a quotation or a table.
 OPENS_BLOCK = re.compile(r"([-*+>|]|#+|\d+[.)]|=+|-+)(?=[\s\0]|$)")
 
@@ -163,6 +169,22 @@ def check(names: list[str]) -> list[str]:
     return faults
 
 
+def check_texts() -> list[str]:
+    """The words that are not used, in the texts of the program, with file and line."""
+    faults = []
+    unused = {word: pattern for word, pattern in unused_words().items() if word not in GEOMETRY}
+    for path in sorted(ROOT.glob("crates/*/src/**/*.rs")):
+        if path.name == "tests.rs" or "tests" in path.parts:
+            continue
+        source = path.read_text(encoding="utf-8").split("#[cfg(test)]\nmod tests {")[0]
+        for found in RUST.finditer(source):
+            text = CODE.sub("``", found[2] or found[3] or "")
+            line = source.count("\n", 0, found.start()) + 1
+            hits = [word for word, pattern in unused.items() if pattern.search(text)] if text not in NAMES else []
+            faults += [f"{path.relative_to(ROOT)}:{line}: \"{word}\" is not used here: docs/style.md" for word in hits]
+    return faults
+
+
 def main() -> None:
     arguments = [argument for argument in sys.argv[1:] if argument != "--wrap"]
     names = [str(Path(argument).resolve().relative_to(ROOT)) for argument in arguments] or pages()
@@ -172,6 +194,8 @@ def main() -> None:
             own, rest = handwritten(str(path.relative_to(ROOT)), path.read_text(encoding="utf-8"))
             path.write_text(wrap(own) + rest, encoding="utf-8")
     faults = check(names)
+    if not arguments:
+        faults += check_texts()
     for fault in faults:
         print(f"error: {fault}", file=sys.stderr)
     print(f"{len(names)} pages; {len(faults)} faults of style")

@@ -15,15 +15,16 @@
 use super::Report;
 use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
+use super::kernel::FixedState;
 use super::strain::{Tensor, averages, circumference, deformation, initial_width, matrix};
 use super::strip::{Parts, StripBuffers};
 use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
-use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space, SymmetricTensor, product, scaled};
 use embate_lanes::{Batch, Indices, Lane, math};
 use std::f64::consts::TAU;
+use std::marker::PhantomData;
 
 /// Elements of a strip after their law has answered. Their forces, N/m in 2D, are added to those on
 /// the nodes of the chunk.
@@ -63,10 +64,10 @@ pub(super) struct Forces<'a, const D: usize> {
 }
 
 /// [`Forces`] by an element.
-pub(super) struct ForcesKernel<'a, E, const D: usize, const N: usize, const P: usize> {
+pub(super) struct ForcesKernel<'a, E, S, const D: usize, const N: usize, const P: usize> {
     pub(super) element: &'a E,
     pub(super) input: Forces<'a, D>,
-    pub(super) state: StressState,
+    pub(super) state: PhantomData<S>,
 }
 
 /// Running minima and sums of a task, one per lane position so that the result does not depend on the lane
@@ -126,7 +127,7 @@ struct Geometry<L, const D: usize, const N: usize, const P: usize> {
     volume: L,
 }
 
-impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> Parts for ForcesKernel<'_, E, D, N, P>
+impl<E: Element<D, N, P>, S: FixedState, const D: usize, const N: usize, const P: usize> Parts for ForcesKernel<'_, E, S, D, N, P>
 where
     Dim<D>: Space<D>,
 {
@@ -151,7 +152,7 @@ where
                 Family::Rate => volume,
                 Family::Hyperelastic => {
                     let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
-                    if self.state.of::<D>().is_axisymmetric { own * geometry.depth[p] } else { own }
+                    if S::STATE.of::<D>().is_axisymmetric { own * geometry.depth[p] } else { own }
                 }
             };
             dissipated += L::load(&response[1], at) * current;
@@ -246,7 +247,7 @@ where
     }
 }
 
-impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> ForcesKernel<'_, E, D, N, P>
+impl<E: Element<D, N, P>, S: FixedState, const D: usize, const N: usize, const P: usize> ForcesKernel<'_, E, S, D, N, P>
 where
     Dim<D>: Space<D>,
 {
@@ -265,13 +266,13 @@ where
         for p in 0..P {
             let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
             geometry.area += own;
-            if self.state.of::<D>().is_plane_stress {
+            if S::STATE.of::<D>().is_plane_stress {
                 geometry.depth[p] = L::load(&self.input.history[(batch * P + p) * self.input.history_width + self.input.thickness], at);
-            } else if self.state.of::<D>().is_axisymmetric {
+            } else if S::STATE.of::<D>().is_axisymmetric {
                 geometry.depth[p] = circumference(&x, &E::shape(E::POINTS[p]));
             }
             geometry.volume +=
-                if self.state.of::<D>().is_plane_stress || self.state.of::<D>().is_axisymmetric { own * geometry.depth[p] } else { own };
+                if S::STATE.of::<D>().is_plane_stress || S::STATE.of::<D>().is_axisymmetric { own * geometry.depth[p] } else { own };
         }
         geometry
     }
@@ -283,7 +284,7 @@ where
     fn map<L: Lane>(&self, batch: usize, at: usize, x: &[[L; D]; N]) -> Map<L, D, P> {
         let mut map = map::<E, L, D, N, P>(E::gradients(x), &E::warp(x));
         if E::WARPED && matches!(self.input.family, Family::Hyperelastic) {
-            let (width, jacobians) = (initial_width::<E, D, N, P>(self.state), E::gradients(x));
+            let (width, jacobians) = (initial_width::<E, D, N, P>(S::STATE), E::gradients(x));
             for p in 0..P {
                 let initial = &self.input.initial[(batch * P + p) * width..][..width];
                 let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
@@ -308,7 +309,7 @@ where
             Family::Rate => L::splat(E::WEIGHTS[p]),
             Family::Hyperelastic => L::load(&self.input.strip.weight[point], at),
         };
-        if self.state.of::<D>().is_plane_stress || self.state.of::<D>().is_axisymmetric {
+        if S::STATE.of::<D>().is_plane_stress || S::STATE.of::<D>().is_axisymmetric {
             weight = weight * depth[p];
         }
         (stress, weight)
@@ -321,7 +322,7 @@ where
         let (zero, third) = (L::splat(0.0), L::splat(1.0 / 3.0));
         let Geometry { map: Map { adjugates, warped, determinants }, depth, .. } = geometry;
         let mut mean = L::splat(-0.0);
-        if averages::<E, D, N, P>(self.state) {
+        if averages::<E, D, N, P>(S::STATE) {
             for p in 0..P {
                 let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, depth);
                 mean += stress.trace() * third * (determinants[p] * weight);
@@ -336,8 +337,8 @@ where
             let mut weighted = stress.times(-weight);
             let share = L::splat(E::WEIGHTS[p]);
             // In plane stress nothing is averaged, and the pressure of the bulk viscosity has the thickness.
-            let share = if self.state.of::<D>().is_axisymmetric { share * depth[p] } else { share };
-            if averages::<E, D, N, P>(self.state) {
+            let share = if S::STATE.of::<D>().is_axisymmetric { share * depth[p] } else { share };
+            if averages::<E, D, N, P>(S::STATE) {
                 let own = stress.trace() * third * weight;
                 weighted = weighted.plus_isotropic(own - mean * share);
             }
@@ -354,7 +355,7 @@ where
                     }
                 }
             }
-            if self.state.of::<D>().is_axisymmetric {
+            if S::STATE.of::<D>().is_axisymmetric {
                 // The weight has 2πx already; the hoop strain is u/x.
                 hoop[p] = weighted.zz() * determinants[p] * (L::splat(TAU) / depth[p]);
             }
@@ -363,7 +364,7 @@ where
             pulls.rest[i] = -held.pulls.rest[i];
         }
         let mut nodal = if E::WARPED { E::divergence_warped(&flux, &pulls) } else { E::divergence(&flux) };
-        if self.state.of::<D>().is_axisymmetric {
+        if S::STATE.of::<D>().is_axisymmetric {
             for p in 0..P {
                 let shape = E::shape(E::POINTS[p]);
                 for a in 0..N {
@@ -390,7 +391,7 @@ where
         [characteristic_length_squared, dilating_squared]: [[L; 2]; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let is_plane_stress = self.state.of::<D>().is_plane_stress;
+        let is_plane_stress = S::STATE.of::<D>().is_plane_stress;
         let element = &mut self.input.resistance[batch];
         let (old, live) = (L::load(&element.volume, at), L::load(&self.input.elements[batch].live, at));
         let (size, depth) = if is_plane_stress { (geometry.area, geometry.volume / geometry.area) } else { (geometry.volume, one) };
@@ -433,7 +434,7 @@ where
         [modulus, shear, mass]: [L; 3],
         [characteristic_length_squared, dilating_squared]: [[L; 2]; 2],
     ) -> Held<L, D, N> {
-        let is_plane_stress = self.state.of::<D>().is_plane_stress;
+        let is_plane_stress = S::STATE.of::<D>().is_plane_stress;
         let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
         let (changes, keep) = (&self.input.strip.hourglass_rates[own.clone()], &mut self.input.hourglass[own]);
         let mut hourglass_rates = [[L::splat(0.0); D]; PATTERNS];

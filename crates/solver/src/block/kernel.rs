@@ -37,6 +37,51 @@ pub(super) struct Facts {
     pub(super) state: StressState,
 }
 
+/// A stress state that a kernel is compiled for: asked at run time the two booleans cost a tenth of a 2D
+/// kernel.
+pub(super) trait FixedState {
+    /// The state.
+    const STATE: StressState;
+}
+
+/// Plane strain, and solids in 3D.
+struct Solid;
+struct PlaneStress;
+struct Axisymmetric;
+
+impl FixedState for Solid {
+    const STATE: StressState = StressState::SPACE;
+}
+
+impl FixedState for PlaneStress {
+    const STATE: StressState = StressState { is_plane_stress: true, ..StressState::SPACE };
+}
+
+impl FixedState for Axisymmetric {
+    const STATE: StressState = StressState { is_axisymmetric: true, ..StressState::SPACE };
+}
+
+/// Runs what a kernel does in its stress state, which is a type there; in 3D there is one.
+macro_rules! in_state {
+    ($state:expr, $D:ident, $S:ident => $run:expr) => {
+        if $D == 2 {
+            if $state.is_plane_stress {
+                type $S = PlaneStress;
+                $run
+            } else if $state.is_axisymmetric {
+                type $S = Axisymmetric;
+                $run
+            } else {
+                type $S = Solid;
+                $run
+            }
+        } else {
+            type $S = Solid;
+            $run
+        }
+    };
+}
+
 /// Geometry of one element: what an [`ElementKernel`] finds from the positions of its nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ElementGeometry<const D: usize> {
@@ -143,11 +188,11 @@ where
     }
 
     fn strain(&self, level: Level, input: Strain<'_, D>) {
-        level.run(ForEachBatch(StrainKernel::<E, D, N, P> { input, state: self.facts.state, kind: PhantomData }));
+        in_state!(self.facts.state, D, S => level.run(ForEachBatch(StrainKernel::<E, S, D, N, P> { input, kind: PhantomData })));
     }
 
     fn forces(&self, level: Level, input: Forces<'_, D>) {
-        level.run(ForEachBatch(ForcesKernel::<E, D, N, P> { element: &self.element, input, state: self.facts.state }));
+        in_state!(self.facts.state, D, S => level.run(ForEachBatch(ForcesKernel::<E, S, D, N, P> { element: &self.element, input, state: PhantomData })));
     }
 
     fn volumes(&self, strip: &StripBuffers<D>, volumes: &mut [Batch]) {

@@ -7,6 +7,7 @@
 //! mean dilatation (B-bar) the volumetric part of the strain is averaged over the element.
 
 use super::batch::Resistance;
+use super::kernel::FixedState;
 use super::strip::{Parts, StripBuffers};
 use crate::element::{Element, PATTERNS, map, map_at};
 use crate::material::Family;
@@ -144,13 +145,12 @@ pub(super) struct Strain<'a, const D: usize> {
 }
 
 /// [`Strain`] by an element.
-pub(super) struct StrainKernel<'a, E, const D: usize, const N: usize, const P: usize> {
+pub(super) struct StrainKernel<'a, E, S, const D: usize, const N: usize, const P: usize> {
     pub(super) input: Strain<'a, D>,
-    pub(super) state: StressState,
-    pub(super) kind: PhantomData<E>,
+    pub(super) kind: PhantomData<(E, S)>,
 }
 
-impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> Parts for StrainKernel<'_, E, D, N, P>
+impl<E: Element<D, N, P>, S: FixedState, const D: usize, const N: usize, const P: usize> Parts for StrainKernel<'_, E, S, D, N, P>
 where
     Dim<D>: Space<D>,
 {
@@ -187,7 +187,7 @@ where
     }
 }
 
-impl<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize> StrainKernel<'_, E, D, N, P>
+impl<E: Element<D, N, P>, S: FixedState, const D: usize, const N: usize, const P: usize> StrainKernel<'_, E, S, D, N, P>
 where
     Dim<D>: Space<D>,
 {
@@ -224,7 +224,7 @@ where
                 }
             }
             let ([adjugate, warped], determinant) = map_at::<E, L, D, N, P>(&middle, &warp);
-            let own = point_volume::<E, _, D, N, P>(self.state, determinant * L::splat(E::WEIGHTS[p]), &x_middle, p);
+            let own = point_volume::<E, _, D, N, P>(S::STATE, determinant * L::splat(E::WEIGHTS[p]), &x_middle, p);
             own.store(&mut self.input.strip.volume[batch * P + p], at);
             let mut natural = product(&increments[p], &adjugate);
             if E::WARPED {
@@ -240,11 +240,11 @@ where
                 self.hourglass_rates(batch, at, &E::hourglass_rates(x, &step, &gradient), &turns);
             }
             let mut strain = Dim::<D>::symmetric(&gradient);
-            if self.state.of::<D>().is_axisymmetric {
+            if S::STATE.of::<D>().is_axisymmetric {
                 let shape = E::shape(E::POINTS[p]);
                 strain = strain.plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
             }
-            if averages::<E, D, N, P>(self.state) {
+            if averages::<E, D, N, P>(S::STATE) {
                 traces[p] = strain.trace();
                 dilatation += traces[p] * own;
                 volume += own;
@@ -259,7 +259,7 @@ where
                 rotation.store(&mut self.input.strip.rotation[point * turn..(point + 1) * turn], at);
             }
         }
-        if averages::<E, D, N, P>(self.state) {
+        if averages::<E, D, N, P>(S::STATE) {
             dilatation = dilatation / volume;
             for p in 0..P {
                 let strain = &mut self.input.strip.strain[(batch * P + p) * components..][..components];
@@ -302,7 +302,7 @@ where
         let determinants = determinants::<E, L, D, N, P>(x, &E::gradients(x));
         for p in 0..P {
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
-            volume += point_volume::<E, _, D, N, P>(self.state, own, x, p);
+            volume += point_volume::<E, _, D, N, P>(S::STATE, own, x, p);
         }
         let initial = L::load(&self.input.volume_initial[batch], at);
         let ratio = volume / initial;
@@ -322,13 +322,13 @@ where
     fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {
         let jacobians = &E::gradients(x);
         let one = L::splat(1.0);
-        let width = initial_width::<E, D, N, P>(self.state);
+        let width = initial_width::<E, D, N, P>(S::STATE);
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let (mut volume, mut volume_initial) = (L::splat(-0.0), L::splat(-0.0));
         let determinants = determinants::<E, L, D, N, P>(x, jacobians);
         for p in 0..P {
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
-            volume += point_volume::<E, _, D, N, P>(self.state, own, x, p);
+            volume += point_volume::<E, _, D, N, P>(S::STATE, own, x, p);
             let own_initial = L::load(&self.input.initial[(batch * P + p) * width + D * D], at);
             own_initial.store(&mut self.input.strip.volume[batch * P + p], at);
             volume_initial += own_initial;
@@ -357,13 +357,13 @@ where
             let initial = &self.input.initial[point * width..(point + 1) * width];
             let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
             let mut stretch = one; // across the plane
-            if self.state.of::<D>().is_axisymmetric {
+            if S::STATE.of::<D>().is_axisymmetric {
                 stretch = radius(x, &E::shape(E::POINTS[p])) / L::load(&initial[D * D + 1], at);
             }
             let ratio_point = Dim::<D>::determinant(&f);
-            let ratio_point = if self.state.of::<D>().is_axisymmetric { ratio_point * stretch } else { ratio_point };
+            let ratio_point = if S::STATE.of::<D>().is_axisymmetric { ratio_point * stretch } else { ratio_point };
             let (mut ratio, mut scale, mut weight) = (ratio_point, one, L::splat(E::WEIGHTS[p]));
-            if averages::<E, D, N, P>(self.state) {
+            if averages::<E, D, N, P>(S::STATE) {
                 // F̄ = (J̄/J)^{1/3} F; the deviatoric Kirchhoff stress τ̄ V₀ then weighs J̄ V₀ = (J̄/J) w det
                 // J.
                 let change = ratio_mean / ratio_point;
@@ -372,7 +372,7 @@ where
                 (ratio, scale) = (ratio_mean, root * root);
             }
             let mut b = Dim::<D>::left_cauchy_green(&f, scale);
-            if self.state.of::<D>().is_axisymmetric {
+            if S::STATE.of::<D>().is_axisymmetric {
                 b = b.plus_zz(scale * (stretch * stretch - one));
             }
             b.store(&mut self.input.strip.strain[point * components..(point + 1) * components], at);

@@ -1,7 +1,7 @@
 //! Lists of vectors as kernels read and add to them, and places in them, checked once against their bound so
 //! that gathers and scatters need no check per place.
 //!
-//! Each vector in 3D lies in a room of four values, so that a register takes it at once; one of the plane
+//! Each vector in 3D lies in a room of four values, so that a register takes it at once; one in 2D
 //! takes two, and with another that belongs to it four.
 
 use crate::{BATCH, Batch};
@@ -140,7 +140,7 @@ impl<const D: usize> Moving<D> {
         out
     }
 
-    /// The first of all values: of the plane those of both vectors, in 3D those of the first or second
+    /// The first of all values: in 2D those of both vectors, in 3D those of the first or second
     /// ones.
     #[inline(always)]
     #[cfg(target_arch = "x86_64")]

@@ -19,7 +19,7 @@ pub struct F64x4(__m256d);
 #[repr(transparent)]
 pub struct F64x8(__m512d);
 
-/// The four values of a place: of the plane both vectors, in 3D the first or the second vector and one
+/// The four values of a place: in 2D both vectors, in 3D the first or the second vector and one
 /// value more.
 ///
 /// # Safety

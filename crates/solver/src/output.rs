@@ -88,7 +88,7 @@ impl Frame {
         self.coordinates.len() / self.dimension.max(1)
     }
 
-    /// Current position of a node in 3D, m; in the plane z is zero.
+    /// Current position of a node in 3D, m; in 2D z is zero.
     #[must_use]
     pub fn place(&self, node: usize) -> [f64; 3] {
         let own = &self.coordinates[node * self.dimension..][..self.dimension];

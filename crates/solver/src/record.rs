@@ -265,8 +265,7 @@ where
     let nodes = || system.mesh.along_curve().chain(system.mesh.user_nodes.len()..system.positions.len());
     let positions = nodes().flat_map(|node| system.positions[node]);
     let velocities = nodes().flat_map(|node| system.velocities[node]);
-    let rotating = if system.rotations.now.is_empty() { 0 } else { usize::MAX };
-    let rotations = nodes().take(rotating).flat_map(|node| system.rotations.now.numbers(node as u32));
+    let rotations = nodes().flat_map(|node| system.rotations.now.numbers(node as u32));
     for value in positions.chain(velocities).chain(rotations).chain(states) {
         hash.add(&value.to_le_bytes());
     }

@@ -6,6 +6,7 @@
 //! `step/rotations.rs`. The list is empty in models without such blocks.
 
 use crate::rigid::space::Attitude;
+use std::collections::BTreeSet;
 
 /// The nodes that rotate, and how far and fast.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,9 +25,10 @@ impl Rotations {
     /// No node rotates.
     pub const NONE: &'static Self = &Self { nodes: Vec::new(), angles: Vec::new(), attitudes: Vec::new(), spins: Vec::new() };
 
-    /// Nodes (ascending) of a model of `dimension` at rest in their first place.
+    /// Nodes of a model of `dimension` (in any order, any number of times) at rest in their first place.
     #[must_use]
-    pub fn at_rest(nodes: Vec<u32>, dimension: usize) -> Self {
+    pub fn at_rest(nodes: impl IntoIterator<Item = u32>, dimension: usize) -> Self {
+        let nodes: Vec<u32> = BTreeSet::from_iter(nodes).into_iter().collect();
         let count = nodes.len();
         let (angles, attitudes) = if dimension == 2 { (count, 0) } else { (0, count) };
         Self { nodes, angles: vec![0.0; angles], attitudes: vec![Attitude::default(); attitudes], spins: vec![[0.0; 3]; count] }

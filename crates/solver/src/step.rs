@@ -455,9 +455,7 @@ where
         let steps = [nodes.dt, time_step];
         self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
-        if !self.rotations.now.is_empty() {
-            self.of_bodies += &self.rotations.accelerate(steps[0], |node| self.damping.factor(node), &self.bodies);
-        }
+        self.of_bodies += &self.rotations.accelerate(steps[0], |node| self.damping.factor(node), &self.bodies);
         self.time_step = time_step;
         self.speed = self.largest_speed();
     }

@@ -1,5 +1,5 @@
-//! Stress states of 2D models: plane strain, plane stress, axisymmetric. Kernels of elements know them as two
-//! booleans; laws do not know them, but for the adapter of plane stress.
+//! Stress states of 2D models: plane strain, plane stress, axisymmetric. Kernels of elements
+//! are compiled for each; laws do not know them, but for the adapter of plane stress.
 //!
 //! Plane strain and plane stress count per metre of (initial) depth. An axisymmetric body has the radius x
 //! and the axis y, and all of the circumference 2πx is counted: forces in N, masses in kg, energies in J.

@@ -239,7 +239,7 @@ impl<'a> Nodes<'a> {
         }
     }
 
-    /// Where a node is, m; in the plane z is 0.
+    /// Where a node is, m; in 2D z is 0.
     pub(super) fn place(&self, node: u32) -> [f64; 3] {
         let [x, y, z] = self.positions[node as usize];
         [x, y, if self.dimension == 2 { 0.0 } else { z }]

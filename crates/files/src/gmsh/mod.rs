@@ -48,7 +48,7 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
 /// Makes a mesh from the bytes of a Gmsh mesh file (.msh 2.2 or 4.1, text or binary of either byte order): in
 /// 3D if a physical group holds volumes, else 2D.
 ///
-/// - Positions are those of the file times `scale` (m per unit of the file); in the plane z is 0 within 1e-9
+/// - Positions are those of the file times `scale` (m per unit of the file); in 2D z is 0 within 1e-9
 ///   of the mesh's size.
 /// - Physical groups become [`groups`](ImportedMesh::groups), ordered by dimension and tag: points, lines,
 ///   surfaces of triangles and quadrilaterals, volumes of tetrahedra, prisms and hexahedra. Their cells keep

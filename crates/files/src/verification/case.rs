@@ -149,7 +149,7 @@ pub enum Source {
     },
 }
 
-/// Nodes or elements by their position at the start, m; in the plane z is zero.
+/// Nodes or elements by their position at the start, m; in 2D z is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// All.

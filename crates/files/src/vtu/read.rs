@@ -262,7 +262,7 @@ impl VtuReader {
         self.tag(section, kind.name).filter(|tag| tag.components == kind.width() + usize::from(is_plane_vector(kind)))
     }
 
-    /// Components of a position that its fields tell of: 2 in 2D, 3 in 3D.
+    /// Components of a position that its fields have: 2 in 2D, 3 in 3D.
     pub(crate) fn dimension(&self, cells: &Cells) -> usize {
         let has_six = self.tag("CellData", "stress").is_some_and(|tag| tag.components == 6);
         if has_six || cells.kinds.iter().any(|kind| kind.dimension() == 3) { 3 } else { 2 }

@@ -152,7 +152,7 @@ where
                 Family::Rate => volume,
                 Family::Hyperelastic => {
                     let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
-                    if S::STATE.of::<D>().is_axisymmetric { own * geometry.depth[p] } else { own }
+                    if S::STATE.is_axisymmetric { own * geometry.depth[p] } else { own }
                 }
             };
             dissipated += L::load(&response[1], at) * current;
@@ -266,13 +266,12 @@ where
         for p in 0..P {
             let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
             geometry.area += own;
-            if S::STATE.of::<D>().is_plane_stress {
+            if S::STATE.is_plane_stress {
                 geometry.depth[p] = L::load(&self.input.history[(batch * P + p) * self.input.history_width + self.input.thickness], at);
-            } else if S::STATE.of::<D>().is_axisymmetric {
+            } else if S::STATE.is_axisymmetric {
                 geometry.depth[p] = circumference(&x, &E::shape(E::POINTS[p]));
             }
-            geometry.volume +=
-                if S::STATE.of::<D>().is_plane_stress || S::STATE.of::<D>().is_axisymmetric { own * geometry.depth[p] } else { own };
+            geometry.volume += if S::STATE.is_plane_stress || S::STATE.is_axisymmetric { own * geometry.depth[p] } else { own };
         }
         geometry
     }
@@ -309,7 +308,7 @@ where
             Family::Rate => L::splat(E::WEIGHTS[p]),
             Family::Hyperelastic => L::load(&self.input.strip.weight[point], at),
         };
-        if S::STATE.of::<D>().is_plane_stress || S::STATE.of::<D>().is_axisymmetric {
+        if S::STATE.is_plane_stress || S::STATE.is_axisymmetric {
             weight = weight * depth[p];
         }
         (stress, weight)
@@ -337,7 +336,7 @@ where
             let mut weighted = stress.times(-weight);
             let share = L::splat(E::WEIGHTS[p]);
             // In plane stress nothing is averaged, and the pressure of the bulk viscosity has the thickness.
-            let share = if S::STATE.of::<D>().is_axisymmetric { share * depth[p] } else { share };
+            let share = if S::STATE.is_axisymmetric { share * depth[p] } else { share };
             if averages::<E, D, N, P>(S::STATE) {
                 let own = stress.trace() * third * weight;
                 weighted = weighted.plus_isotropic(own - mean * share);
@@ -355,7 +354,7 @@ where
                     }
                 }
             }
-            if S::STATE.of::<D>().is_axisymmetric {
+            if S::STATE.is_axisymmetric {
                 // The weight has 2πx already; the hoop strain is u/x.
                 hoop[p] = weighted.zz() * determinants[p] * (L::splat(TAU) / depth[p]);
             }
@@ -364,7 +363,7 @@ where
             pulls.rest[i] = -held.pulls.rest[i];
         }
         let mut nodal = if E::WARPED { E::divergence_warped(&flux, &pulls) } else { E::divergence(&flux) };
-        if S::STATE.of::<D>().is_axisymmetric {
+        if S::STATE.is_axisymmetric {
             for p in 0..P {
                 let shape = E::shape(E::POINTS[p]);
                 for a in 0..N {
@@ -391,7 +390,7 @@ where
         [characteristic_length_squared, dilating_squared]: [[L; 2]; 2],
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let is_plane_stress = S::STATE.of::<D>().is_plane_stress;
+        let is_plane_stress = S::STATE.is_plane_stress;
         let element = &mut self.input.resistance[batch];
         let (old, live) = (L::load(&element.volume, at), L::load(&self.input.elements[batch].live, at));
         let (size, depth) = if is_plane_stress { (geometry.area, geometry.volume / geometry.area) } else { (geometry.volume, one) };
@@ -434,7 +433,7 @@ where
         [modulus, shear, mass]: [L; 3],
         [characteristic_length_squared, dilating_squared]: [[L; 2]; 2],
     ) -> Held<L, D, N> {
-        let is_plane_stress = S::STATE.of::<D>().is_plane_stress;
+        let is_plane_stress = S::STATE.is_plane_stress;
         let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
         let (changes, keep) = (&self.input.strip.hourglass_rates[own.clone()], &mut self.input.hourglass[own]);
         let mut hourglass_rates = [[L::splat(0.0); D]; PATTERNS];

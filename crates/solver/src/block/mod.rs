@@ -142,10 +142,8 @@ persist_all!(ElementState { stress, variables, energy_density });
 
 /// What a block reports at the start, at rest; its state is that of the first [`Block::advance`].
 pub fn evaluate_at_rest<const D: usize>(block: &mut dyn Block<D>, positions: &[[f64; D]], level: Level) -> Report {
-    let mut nodes: Vec<u32> = block.rotating_nodes().iter().map(|&(node, _)| node).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    let (velocities, rotations) = (vec![[0.0; D]; positions.len()], Rotations::at_rest(nodes, D));
+    let rotations = Rotations::at_rest(block.rotating_nodes().into_iter().map(|(node, _)| node), D);
+    let velocities = vec![[0.0; D]; positions.len()];
     let motion = Motion { rotations: &rotations, ..Motion::new(positions, &velocities, 0.0) };
     let (mut forces, mut moments) = (vec![[0.0; D]; block.slots().len()], vec![[0.0; 3]; block.moment_slots().len()]);
     block.advance(&motion, level, NodalForces { forces: &mut forces, moments: &mut moments }, &mut Team::alone())

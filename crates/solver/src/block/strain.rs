@@ -240,7 +240,7 @@ where
                 self.hourglass_rates(batch, at, &E::hourglass_rates(x, &step, &gradient), &turns);
             }
             let mut strain = Dim::<D>::symmetric(&gradient);
-            if S::STATE.of::<D>().is_axisymmetric {
+            if S::STATE.is_axisymmetric {
                 let shape = E::shape(E::POINTS[p]);
                 strain = strain.plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
             }
@@ -357,11 +357,11 @@ where
             let initial = &self.input.initial[point * width..(point + 1) * width];
             let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
             let mut stretch = one; // across the plane
-            if S::STATE.of::<D>().is_axisymmetric {
+            if S::STATE.is_axisymmetric {
                 stretch = radius(x, &E::shape(E::POINTS[p])) / L::load(&initial[D * D + 1], at);
             }
             let ratio_point = Dim::<D>::determinant(&f);
-            let ratio_point = if S::STATE.of::<D>().is_axisymmetric { ratio_point * stretch } else { ratio_point };
+            let ratio_point = if S::STATE.is_axisymmetric { ratio_point * stretch } else { ratio_point };
             let (mut ratio, mut scale, mut weight) = (ratio_point, one, L::splat(E::WEIGHTS[p]));
             if averages::<E, D, N, P>(S::STATE) {
                 // F̄ = (J̄/J)^{1/3} F; the deviatoric Kirchhoff stress τ̄ V₀ then weighs J̄ V₀ = (J̄/J) w det
@@ -372,7 +372,7 @@ where
                 (ratio, scale) = (ratio_mean, root * root);
             }
             let mut b = Dim::<D>::left_cauchy_green(&f, scale);
-            if S::STATE.of::<D>().is_axisymmetric {
+            if S::STATE.is_axisymmetric {
                 b = b.plus_zz(scale * (stretch * stretch - one));
             }
             b.store(&mut self.input.strip.strain[point * components..(point + 1) * components], at);

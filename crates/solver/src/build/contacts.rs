@@ -1,8 +1,12 @@
 //! Contacts and obstacles of a model, in 2D and 3D: made at the start, and given new surfaces after erosion.
 
-use super::{Builder, Builds, terms_of};
+use super::{Builder, Builds, search_by_name, terms_of};
+use crate::contact::formulation::{self, FormulationKind};
+use crate::contact::search::SearchKind;
 use crate::contact::{Contact, ContactKind};
 use crate::error::Fault;
+use crate::model;
+use crate::model::messages::UNKNOWN_NAME;
 use crate::tensor::Dim;
 use std::collections::BTreeMap;
 
@@ -68,6 +72,19 @@ where
             }
         }
     }
+}
+
+/// The search that a contact names.
+pub(super) fn search_of<const D: usize>(contact: &model::Contact) -> Result<SearchKind<D>, Vec<Fault>> {
+    let unknown = || format!("there is no search \"{}\"", contact.search);
+    search_by_name(&contact.search).ok_or_else(|| vec![Fault::new(&UNKNOWN_NAME, "search", unknown(), "see `embate list searches`")])
+}
+
+/// The formulation that a contact names.
+pub(super) fn kind_of(contact: &model::Contact) -> Result<&'static FormulationKind, Vec<Fault>> {
+    let unknown = || format!("there is no formulation \"{}\"", contact.formulation.name());
+    let fault = || vec![Fault::new(&UNKNOWN_NAME, "formulation", unknown(), "see `embate list formulations`")];
+    formulation::kind_of(contact).ok_or_else(fault)
 }
 
 /// A fault below a key.

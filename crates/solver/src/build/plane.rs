@@ -1,9 +1,10 @@
 //! What is built in 2D in a way of its own: the axis of an axisymmetric body, surfaces as chains of
 //! segments, and the contacts between them.
 
+use super::contacts::{kind_of, search_of};
 use super::node_elements::Under;
-use super::{Builder, law_of, search_by_name, source_of, terms_of, terms_of_ties};
-use crate::contact::formulation::{self, Setup, Side};
+use super::{Builder, law_of, source_of, terms_of, terms_of_ties};
+use crate::contact::formulation::{Setup, Side};
 use crate::contact::messages::ON_SYMMETRY;
 use crate::contact::outline::Outlines;
 use crate::contact::projection::node_segment::Target;
@@ -13,7 +14,6 @@ use crate::mesh::Mesh;
 use crate::mesh::messages::NEGATIVE_RADIUS;
 use crate::mesh::surface::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
-use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{self, Interface, Model, Partners, PenaltySource, Symmetry};
 use crate::vector::{dot, minus};
 use std::cell::RefCell;
@@ -87,14 +87,7 @@ impl Builder<'_, 2> {
         let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
         let sides: Vec<Side<'_>> = self.outlines_of(contact)?.into_iter().map(|outline| self.side(outline, &contact.interface)).collect();
         let mirrors = self.mirrors_of(contact, &sides[0].target.surface.nodes, &sides[0].nodes);
-        let Some(search) = search_by_name(&contact.search) else {
-            let message = format!("there is no search \"{}\"", contact.search);
-            return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
-        };
-        let Some(kind) = formulation::kind_of(contact) else {
-            let message = format!("there is no formulation \"{}\"", contact.formulation.name());
-            return Err(vec![Fault::new(&UNKNOWN_NAME, "formulation", message, "see `embate list formulations`")]);
-        };
+        let (search, kind) = (search_of::<2>(contact)?, kind_of(contact)?);
         let setup = Setup {
             contact,
             sides,

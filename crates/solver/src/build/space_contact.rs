@@ -1,11 +1,12 @@
 //! Contacts between surfaces in 3D: nodes against facets, made from the surfaces that a contact names and
 //! from the stiffness of the elements behind them.
 
+use super::contacts::{kind_of, search_of};
 use super::outline::{self, Outline};
 use super::space_start::Meeting;
-use super::{Builder, law_of, manner, search_by_name, source_of, stiffness_of, terms_of, terms_of_ties};
+use super::{Builder, law_of, manner, source_of, stiffness_of, terms_of, terms_of_ties};
 use crate::contact::checked::Checked;
-use crate::contact::formulation::{self, Passes};
+use crate::contact::formulation::Passes;
 use crate::contact::initial;
 use crate::contact::law::{self, Node};
 use crate::contact::messages::{ON_SYMMETRY, TIE};
@@ -16,12 +17,12 @@ use crate::contact::node_facet::{NodeFacet, PassInput, Slave};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::obstacle::space::{NodeSolid, Outside, Solid, Vector};
 use crate::contact::overlap::{Bodies, OverlapCheck, Walls};
-use crate::contact::search::{Search, registry};
+use crate::contact::search::registry;
 use crate::contact::{Formulation, Tributary};
 use crate::error::Fault;
 use crate::mesh::surface::SpaceSurface;
 use crate::mesh::surface::tributary::{self, Depth};
-use crate::model::messages::{NO_DIRECTION, NOT_IN_SPACE, UNKNOWN_NAME};
+use crate::model::messages::{NO_DIRECTION, NOT_IN_SPACE};
 use crate::model::{self, InitialPenetration, Interface, Obstacle, ObstacleShape, Partners, Penalty, PenaltySource};
 use crate::vector::{dot, minus, plus, times, unit};
 
@@ -199,10 +200,10 @@ impl Builder<'_, 3> {
         let made = NodeFacet::new(tracker, inputs, &contact.interface, reach, &self.mesh.positions).with_proof(proof);
         let Some((strength, input)) = tied else {
             let made = made.with_check(overlap_check);
-            let made = if with_edges { made.with_edges(Self::search_in_3d(contact)?) } else { made };
+            let made = if with_edges { made.with_edges((search_of(contact)?.make)()) } else { made };
             return Ok((self.with_images(Box::new(made), mirrors, contact), terms));
         };
-        let unborn = PendingTies { search: Self::search_in_3d(contact)?, input, thickness: contact.interface.thickness };
+        let unborn = PendingTies { search: (search_of(contact)?.make)(), input, thickness: contact.interface.thickness };
         let tie_terms = self.add_terms(terms_of_ties(&contact.interface));
         let mut made = TiedFacet::new(made, unborn, strength, tie_terms);
         if contact.interface.active[0] <= 0.0 && !self.rebuild {
@@ -257,23 +258,10 @@ impl Builder<'_, 3> {
 
     /// What follows the nodes of a contact, and its passes.
     pub(super) fn tracker_in_3d(&self, contact: &model::Contact) -> Result<(Tracker, Passes), Vec<Fault>> {
-        let search = Self::search_in_3d(contact)?;
-        let Some(kind) = formulation::kind_of(contact) else {
-            let message = format!("there is no formulation \"{}\"", contact.formulation.name());
-            return Err(vec![Fault::new(&UNKNOWN_NAME, "formulation", message, "see `embate list formulations`")]);
-        };
+        let (search, kind) = (search_of(contact)?, kind_of(contact)?);
         let passes = (kind.passes)(contact);
         let surfaces = self.surfaces_in_3d(contact)?;
-        Ok((Tracker::new(surfaces, passes, &self.body_of_node, search, &self.mesh.positions), passes))
-    }
-
-    /// The search that a contact names.
-    pub(super) fn search_in_3d(contact: &model::Contact) -> Result<Box<dyn Search<3>>, Vec<Fault>> {
-        let Some(found) = search_by_name::<3>(&contact.search) else {
-            let message = format!("there is no search \"{}\"", contact.search);
-            return Err(vec![Fault::new(&UNKNOWN_NAME, "search", message, "see `embate list searches`")]);
-        };
-        Ok((found.make)())
+        Ok((Tracker::new(surfaces, passes, &self.body_of_node, (search.make)(), &self.mesh.positions), passes))
     }
 
     /// The surfaces of a contact: two, or one that meets itself.

@@ -1,6 +1,7 @@
 //! Pinballs between surfaces in 3D: the surfaces that a contact names, the elements behind their facets
 //! and their stiffness.
 
+use super::contacts::search_of;
 use super::space_contact::Sided;
 use super::{Builder, law_of, terms_of};
 use crate::contact::checked::Checked;
@@ -14,7 +15,7 @@ impl Builder<'_, 3> {
     /// Faults have paths relative to the contact.
     pub(super) fn pinball_in_3d(&mut self, contact: &model::Contact) -> Result<(Box<dyn Formulation<3>>, usize), Vec<Fault>> {
         let terms = self.add_terms(terms_of(&contact.interface));
-        let (search, surfaces) = (Self::search_in_3d(contact)?, self.surfaces_in_3d(contact)?);
+        let (search, surfaces) = ((search_of(contact)?.make)(), self.surfaces_in_3d(contact)?);
         let Sided { nodes, .. } = self.sided(&surfaces[0], &contact.interface);
         let mirrors = self.mirrors_of(contact, &surfaces[0].nodes, &nodes);
         let layers = surfaces.iter().map(|surface| {

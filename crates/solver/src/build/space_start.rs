@@ -1,6 +1,7 @@
 //! Penetrations of solids at the start, pushed out before anything is strained.
 
 use super::Builder;
+use super::contacts::search_of;
 use super::space_contact::meets_edges;
 use super::start::{IGNORED, PUSHED, ROUNDS};
 use crate::contact::formulation;
@@ -18,7 +19,7 @@ impl<'m> Builder<'m, 3> {
     /// reported when contacts are made.
     pub(super) fn look<T>(&self, contact: &model::Contact, act: impl FnOnce(&Look<'_>) -> T) -> T {
         let tracker = || self.tracker_in_3d(contact).ok().map(|(tracker, _)| tracker);
-        let search = || -> Option<Box<dyn Search<3>>> { Self::search_in_3d(contact).ok() };
+        let search = || -> Option<Box<dyn Search<3>>> { search_of(contact).ok().map(|search| (search.make)()) };
         let with_edges = formulation::kind_of(contact).is_some_and(|kind| meets_edges(contact, (kind.passes)(contact)));
         act(&Look { tracker: &tracker, edges: if with_edges { Some(&search) } else { None }, thickness: contact.interface.thickness })
     }

@@ -28,11 +28,11 @@ use crate::load::force::Forces;
 use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::masses::PartMasses;
 use crate::material::messages::INITIAL_STATE;
+use crate::mesh::ElementGroup;
 use crate::mesh::surface::Surface;
 use crate::mesh::surface::tributary::Depth;
-use crate::mesh::{ElementGroup, Mesh};
 use crate::model::messages::UNKNOWN_NAME;
-use crate::model::{self, ContactLaw, Model, Penalty, PenaltySource};
+use crate::model::{self, ContactLaw, Penalty, PenaltySource};
 use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
 use crate::step::relaxation::Relaxation;
@@ -40,7 +40,6 @@ use crate::step::rotations::NodalRotations;
 use crate::step::{CHUNK, Governor, System};
 use crate::tensor::Dim;
 use embate_lanes::{Level, Team};
-use std::collections::BTreeMap;
 use std::mem::take;
 
 /// The bodies as they are given.
@@ -200,7 +199,6 @@ where
         // Without contacts there is nothing to remember of any node.
         let touched = if contacts.is_empty() { 0 } else { nodes };
         let traces = Traces::new(outside, &mesh.positions[..touched.min(mesh.positions.len())], Depth::of(model));
-        let spins = spins(model, &mesh, &blocks);
         let mut system = System {
             slots: vec![[0.0; D]; assembly.count],
             rigid: mesh.groups.iter().map(|group| model.parts[group.part].rigid.is_some()).chain(has_springs.then_some(false)).collect(),
@@ -252,7 +250,9 @@ where
             rotations: NodalRotations::default(),
         };
         system.find_free_nodes();
-        system.find_rotations(|node| [0.0, 0.0, spins.get(&node).copied().unwrap_or(0.0)]);
+        let spins: Vec<f64> = system.mesh.groups.iter().map(|group| model.parts[group.part].spin).collect();
+        // The block of springs is beyond those of the mesh, and has no rotations.
+        system.find_rotations(|block| [0.0, 0.0, spins.get(block).copied().unwrap_or(0.0)]);
         system
     }
 
@@ -348,19 +348,4 @@ fn reported<T: Default>(made: Result<T, Vec<Fault>>, faults: &mut Vec<Fault>) ->
         faults.extend(wrong);
         T::default()
     })
-}
-
-/// Spin at the start of the nodes that rotate, rad/s about z; of a node of several parts the mean by inertia.
-fn spins<const D: usize>(model: &Model, mesh: &Mesh<D>, blocks: &[Box<dyn Block<D>>]) -> BTreeMap<u32, f64>
-where
-    Dim<D>: Builds<D>,
-{
-    let mut sums = BTreeMap::<u32, [f64; 2]>::new();
-    for (group, block) in mesh.groups.iter().zip(blocks) {
-        for (node, inertia) in block.rotating_nodes() {
-            let [momentum, whole] = sums.entry(node).or_default();
-            (*momentum, *whole) = (*momentum + inertia * model.parts[group.part].spin, *whole + inertia);
-        }
-    }
-    sums.into_iter().map(|(node, [momentum, inertia])| (node, momentum / inertia)).collect()
 }

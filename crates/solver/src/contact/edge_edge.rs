@@ -14,7 +14,7 @@
 //! - where a crossing goes over a node to the next edge of the same line, the spring continues there with
 //!   what it knows; where the line bends inward, so that it is on neither edge, it continues along the first
 //!   one; where the next edge leaves in any other direction, but the normal stays about the same, the spring
-//!   goes on there as soon as it is well off the first one.
+//!   continues there as soon as it is well off the first one.
 //!
 //! A pair is inside only if it was seen to come in (on its way in the step, at any speed, as long as the
 //! edges still cross at its end), or at the start. Candidates come from the same global search, of the ends

@@ -5,7 +5,7 @@ use crate::archive::persist_all;
 /// Deepest that what is held may be in 3D, as a fraction of the local thickness: well below half of the
 /// half, for what lies between samples and looks.
 pub const DEEPEST: f64 = 1.0 / 6.0;
-/// The same in 2D, where springs tell depths in each step.
+/// The same in 2D, where springs give depths in each step.
 pub const DEEPEST_IN_PLANE: f64 = 0.2;
 /// Deepest that it may be in a single step in 2D: what comes in within a step, which may be thrown out
 /// in the next.

@@ -21,7 +21,7 @@
 
 use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
-use super::node_facet::groups::{Meeting, bend, bodies_of, halves, mean_edge};
+use super::node_facet::groups::{Group, Meeting, bend, bodies_of, halves, mean_edge};
 use super::node_facet::passage::{ALONG, Outcome, Passages};
 use super::node_facet::tracker::{ContactPoint, FACING, SAME_SIDE, Tracker};
 use super::projection::edge_edge::{crossing, distance};
@@ -46,27 +46,19 @@ const EARLY: f64 = 1.0 - 1e-9;
 const FLUSH: f64 = 1e-6;
 /// How well both ridges open where they go through each other.
 const BETWEEN: f64 = 0.25;
-/// Who is less deep than this fraction of a facet's size is on the surface, as far as rounding lets one tell.
+/// Who is less deep than this fraction of a facet's size is on the surface, as far as rounding can resolve.
 const ROUNDING: f64 = 1e-9;
 
-/// A slave node and a body of the target.
+/// What is known of a slave node and a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Group {
-    slave: u32,
-    node: u32,
-    body: u32,
-    /// Its candidates are `candidates[begin..end]`.
-    begin: u32,
-    end: u32,
-    /// Whether it is the node's own body.
-    own: bool,
+struct Known {
     /// Side on which it was inside after the last step; zero: it was not.
     side: Vector,
     /// Sleeps up to this travel, m.
     wake: f64,
 }
 
-persist_all!(Group { slave, node, body, begin, end, own, side, wake });
+persist_all!(Known { side, wake });
 
 /// Nodes of one surface against another one, or the same.
 #[derive(Default)]
@@ -74,7 +66,7 @@ struct Pass {
     slave: usize,
     target: usize,
     triangles: Vec<[u32; 3]>,
-    groups: Vec<Group>,
+    groups: Vec<Group<Known>>,
     candidates: Vec<u32>,
 }
 
@@ -171,7 +163,7 @@ impl MissedContactCheck {
             let farthest = self.margin.max(2.0 * fastest);
             let body = |node: u32| self.bodies.get(node as usize).copied().unwrap_or(u32::MAX);
             let old = std::mem::take(&mut pass.groups);
-            let mut old = old.iter().filter(|group| group.side != [0.0; 3]).peekable();
+            let mut old = old.iter().filter(|group| group.known.side != [0.0; 3]).peekable();
             pass.candidates.clear();
             let is_near = |node: u32, facet: u32| placed.distance(sweep.new[node as usize], facet).is_none_or(|found| found <= farthest);
             let meeting = Meeting { slaves, target, is_one: pass.slave == pass.target };
@@ -184,10 +176,10 @@ impl MissedContactCheck {
                 |[slave, node, there], facets| {
                     let begin = pass.candidates.len() as u32;
                     pass.candidates.extend(facets.map(|(facet, ())| facet));
-                    while old.next_if(|old| (old.slave, old.body) < (slave, there)).is_some() {}
-                    let side = old.next_if(|old| (old.slave, old.body) == (slave, there)).map_or([0.0; 3], |old| old.side);
+                    let side = Group::known_of(&mut old, (slave, there)).map_or([0.0; 3], |known| known.side);
                     let (end, own) = (pass.candidates.len() as u32, body(node) == there);
-                    pass.groups.push(Group { slave, node, body: there, begin, end, own, side, wake: AWAKE });
+                    let known = Known { side, wake: AWAKE };
+                    pass.groups.push(Group { slave, node, body: there, begin, end, own, known });
                 },
             );
         }
@@ -222,26 +214,26 @@ impl MissedContactCheck {
             (touch.slave, bodies.get(node as usize).copied().unwrap_or(u32::MAX))
         };
         for group in &mut pass.groups {
-            while touches.next_if(|touch| key(touch) < (group.slave, group.body)).is_some() {}
-            let touch = touches.next_if(|touch| key(touch) == (group.slave, group.body));
+            while touches.next_if(|touch| key(touch) < group.key()).is_some() {}
+            let touch = touches.next_if(|touch| key(touch) == group.key());
             let side = touch.map_or([0.0; 3], |touch| tracker.kept(touch).side);
-            let was = std::mem::replace(&mut group.side, side);
+            let was = std::mem::replace(&mut group.known.side, side);
             let was_inside = was != [0.0; 3];
             if side != [0.0; 3] {
                 // What is there at the start did not go in.
                 self.certificate.crossings_found += u64::from(!was_inside && self.has_begun);
-                group.wake = AWAKE;
+                group.known.wake = AWAKE;
                 continue;
             }
-            if group.wake > sweep.travel {
+            if group.known.wake > sweep.travel {
                 continue;
             }
             // Who continues with its face has not passed.
             if touch.is_some_and(|touch| dot(tracker.kept(touch).normal, touch.projection.normal) > 0.0) {
-                group.wake = AWAKE;
+                group.known.wake = AWAKE;
                 continue;
             }
-            let candidates = &pass.candidates[group.begin as usize..group.end as usize];
+            let candidates = &pass.candidates[group.candidates()];
             let own = if group.own { tracker.own_normal(pass.slave, group.slave, sweep.new) } else { [0.0; 3] };
             let (passages, clear) = sweep_through(group, candidates, &placed, own, sweep);
             let is_missed = is_missed(passages.fate(was), touch, sweep.new[group.node as usize], candidates, &placed);
@@ -251,7 +243,7 @@ impl MissedContactCheck {
                 nearest.is_some_and(|nearest| nearest.gap < -ROUNDING * placed.size(nearest.facet))
             };
             self.certificate.unverified += u64::from(is_missed || is_lost());
-            group.wake = if touch.is_some() { AWAKE } else { wake_at(clear, sweep.travel) };
+            group.known.wake = if touch.is_some() { AWAKE } else { wake_at(clear, sweep.travel) };
         }
         self.passes[number] = pass;
     }
@@ -314,13 +306,9 @@ impl MissedContactCheck {
         for pass in passes {
             persist_each!(archive; &mut pass.groups, &mut pass.candidates);
             let (slaves, facets) = (&surfaces[pass.slave].nodes, surfaces[pass.target].facets.len());
-            let is_known = |group: &Group| {
-                slaves.get(group.slave as usize) == Some(&group.node)
-                    && group.begin <= group.end
-                    && group.end as usize <= pass.candidates.len()
-            };
+            let is_there = |group: &Group<Known>| group.is_there(slaves, pass.candidates.len());
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
-            archive.check(are_there && pass.groups.iter().all(is_known), "a proof follows nodes or facets that are not there")?;
+            archive.check(are_there && pass.groups.iter().all(is_there), "a proof follows nodes or facets that are not there")?;
         }
         persist_each!(archive; wakes, searched, has_begun, certificate);
         if let Some(edges) = edges {
@@ -334,13 +322,8 @@ impl MissedContactCheck {
     /// counts, and who is inside. Pairs are searched again in the next step.
     pub(super) fn inherit(&mut self, old: &Self, surfaces: &[SpaceSurface]) {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
-            let slaves = &surfaces[pass.slave].nodes;
-            let known = before.groups.iter().filter(|group| group.side != [0.0; 3]).filter_map(|group| {
-                let slave = slaves.binary_search(&group.node).ok()? as u32;
-                Some(Group { slave, begin: 0, end: 0, ..*group })
-            });
-            pass.groups = known.collect();
-            pass.groups.sort_by_key(|group| (group.slave, group.body));
+            let inside = before.groups.iter().filter(|group| group.known.side != [0.0; 3]);
+            pass.groups = Group::moved(inside, &surfaces[pass.slave].nodes);
         }
         (self.certificate, self.has_begun) = (old.certificate, old.has_begun);
     }
@@ -369,7 +352,7 @@ fn is_missed(fate: Outcome, touch: Option<&ContactPoint>, x: Vector, candidates:
 }
 
 /// What a node did with the facets of a body in the step, and its distance from all of them at the end, m.
-fn sweep_through(group: &Group, candidates: &[u32], placed: &Placed<'_>, own: Vector, sweep: Sweep<'_, 3>) -> (Passages, f64) {
+fn sweep_through(group: &Group<Known>, candidates: &[u32], placed: &Placed<'_>, own: Vector, sweep: Sweep<'_, 3>) -> (Passages, f64) {
     let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
     let (own_way, mut passages, mut clear) = (way(group.node), Passages::default(), f64::INFINITY);
     for &facet in candidates {

@@ -376,7 +376,7 @@ pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENT
 /// into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
-/// Every element: those of the plane, bars too, then those in 3D.
+/// Every element: those in 2D, bars too, then those in 3D.
 #[must_use]
 pub fn registry() -> Vec<ElementKind> {
     ELEMENTS.iter().chain(BARS).chain(ELEMENTS_OF_SPACE).copied().collect()

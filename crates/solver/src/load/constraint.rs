@@ -48,11 +48,6 @@ impl<const D: usize> NodeConstraint<D> {
         self.directions.is_empty()
     }
 
-    /// The directions along which something is prescribed.
-    pub(crate) fn directions(&self) -> impl Iterator<Item = [f64; D]> {
-        self.directions.iter().map(|(direction, _)| *direction)
-    }
-
     /// Adds a direction, unless the earlier directions prescribe another velocity along it.
     fn add(&mut self, direction: [f64; D], velocity: &Speed, source: u32) -> Result<(), Contradiction> {
         let (mut rest, mut speed, mut largest) = (direction, velocity.clone(), velocity.size());

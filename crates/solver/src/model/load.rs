@@ -10,7 +10,7 @@ use super::{Drive, in_3d};
 pub struct Symmetry {
     /// Parts; empty: all.
     pub parts: Vec<String>,
-    /// A point of the line (in 3D: of the plane), m.
+    /// A point of the line (in 3D: of a plane), m.
     pub point: [f64; 3],
     /// Its normal; any length.
     pub normal: [f64; 3],

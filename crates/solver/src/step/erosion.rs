@@ -46,7 +46,7 @@ pub struct Eroded {
     pub part: String,
     /// Its number in the part.
     pub element: usize,
-    /// Mean of its nodes when it failed, m; in the plane z is zero.
+    /// Mean of its nodes when it failed, m; in 2D z is zero.
     pub at: [f64; 3],
     /// When it failed, s.
     pub time: f64,

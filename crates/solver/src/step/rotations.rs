@@ -11,7 +11,7 @@ use super::System;
 use super::nodes::Pull;
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::assembly::Assembly;
-use crate::block::Block;
+use crate::block::{Block, NO_NODE};
 use crate::dimension::Dimension;
 use crate::energy::Sums;
 use crate::load::constraint::NodeConstraint;
@@ -19,10 +19,10 @@ use crate::load::join::{Joins, back, turned};
 use crate::model::in_3d;
 use crate::reductions;
 use crate::rigid::{Bodies, RigidMotion};
-use crate::rotation::{Square, unit_matrix};
+use crate::rotation::{Square, transposed, unit_matrix};
 use crate::rotations::Rotations;
-use crate::tensor::{Dim, cross};
-use crate::vector::{dot, plus, times, unit};
+use crate::tensor::{Dim, cross, product};
+use crate::vector::{any_tangent, dot, plus, times};
 
 /// The nodes that rotate. Lists have an entry for each of them, in the order of [`Rotations::nodes`].
 #[derive(Clone, Debug, Default)]
@@ -36,19 +36,26 @@ pub(crate) struct NodalRotations {
     /// Moments of the elements, by the slots of the blocks.
     pub(crate) slots: Vec<[f64; 3]>,
     assembly: Assembly,
-    /// Directions that are held.
-    held: Vec<NodeConstraint<3>>,
     /// Rigid body of each; `u32::MAX`: none.
     bodies: Vec<u32>,
-    /// Nodes that rotate as one: places and rotations from the first one, which leads.
-    groups: Vec<Vec<(u32, Square<3>)>>,
-    /// Whether each is in a group.
-    is_joined: Vec<bool>,
+    /// Those that no body leads, alone or joined.
+    groups: Vec<Group>,
+}
+
+/// Nodes that rotate as one, or one alone.
+#[derive(Clone, Debug)]
+struct Group {
+    /// Place of each, and its rotation from the first one, which leads.
+    members: Vec<(usize, Square<3>)>,
+    /// Moment of inertia of all together.
+    inertia: f64,
+    /// What is held of any, seen from the leader; `None`: nothing.
+    held: Option<NodeConstraint<3>>,
 }
 
 impl Persist for NodalRotations {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { now, spins_old, inertia: _, slots: _, assembly: _, held: _, bodies: _, groups: _, is_joined: _ } = self;
+        let Self { now, spins_old, inertia: _, slots: _, assembly: _, bodies: _, groups: _ } = self;
         let Rotations { nodes: _, angles, attitudes, spins } = now;
         persist_each!(archive; &mut angles[..], &mut attitudes[..], &mut spins[..], &mut spins_old[..]);
         Ok(())
@@ -62,12 +69,24 @@ fn square<const D: usize>(turn: &Square<D>) -> Square<3> {
     whole
 }
 
+impl Group {
+    /// Σ R_iᵀ of what each member has, seen from the leader.
+    fn sum(&self, of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+        self.members.iter().fold([0.0; 3], |sum, &(place, turn)| plus(sum, back(turn, of(place))))
+    }
+
+    /// Gives all members the spin of the leader.
+    fn lead(&self, spin: [f64; 3], spins: &mut [[f64; 3]]) {
+        self.members.iter().for_each(|&(place, turn)| spins[place] = turned(turn, spin));
+    }
+}
+
 impl NodalRotations {
-    /// Of blocks, in which parts spin at the start as `spin` says of a node, rad/s. `normals` are those of
-    /// the symmetry planes that a node is on.
+    /// Of blocks; `spin` says how fast the elements of a block spin at the start, rad/s: a node of several
+    /// blocks has the mean by inertia. `normals` are those of the symmetry planes that a node is on.
     pub(super) fn new<const D: usize>(
         blocks: &[Box<dyn Block<D>>],
-        spin: impl Fn(u32) -> [f64; 3],
+        spin: impl Fn(usize) -> [f64; 3],
         normals: impl Fn(u32) -> Vec<[f64; D]>,
         joins: &Joins<D>,
         bodies: &mut Bodies<D>,
@@ -75,50 +94,48 @@ impl NodalRotations {
     where
         Dim<D>: Dimension<D>,
     {
-        let mut nodes: Vec<u32> = blocks.iter().flat_map(|block| block.rotating_nodes()).map(|(node, _)| node).collect();
-        if nodes.is_empty() {
+        let shares: Vec<(usize, u32, f64)> = (0..)
+            .zip(blocks)
+            .flat_map(|(k, block)| block.rotating_nodes().into_iter().map(move |(node, share)| (k, node, share)))
+            .collect();
+        if shares.is_empty() {
             return Self::default();
         }
-        nodes.sort_unstable();
-        nodes.dedup();
-        let count = nodes.len();
-        let mut now = Rotations::at_rest(nodes, D);
-        let place = |node: u32| now.place(node).map_or(u32::MAX, |place| place as u32);
+        let mut now = Rotations::at_rest(shares.iter().map(|&(_, node, _)| node), D);
+        let count = now.nodes.len();
         let mut inertia = vec![0.0; count];
-        for (node, share) in blocks.iter().flat_map(|block| block.rotating_nodes()) {
-            inertia[place(node) as usize] += share;
+        for &(block, node, share) in &shares {
+            let Some(place) = now.place(node) else { continue };
+            inertia[place] += share;
+            now.spins[place] = plus(now.spins[place], times(share, spin(block)));
         }
+        now.spins.iter_mut().zip(&inertia).for_each(|(spin, inertia)| *spin = spin.map(|momentum| momentum / inertia));
+        let place = |node: u32| now.place(node).map_or(NO_NODE, |place| place as u32);
         let places: Vec<Vec<u32>> = blocks.iter().map(|block| block.moment_slots().iter().map(|&node| place(node)).collect()).collect();
         let assembly = Assembly::new(count, &places.iter().map(|places| &places[..]).collect::<Vec<_>>());
-        let mut groups: Vec<Vec<(u32, Square<3>)>> = Vec::new();
-        let mut is_joined = vec![false; count];
-        for group in joins.groups() {
-            let members = group.members.iter().map(|member| (place(member.node), square(&member.turn)));
-            let members: Vec<(u32, Square<3>)> = members.filter(|(place, _)| *place != u32::MAX).collect();
-            // Seen from the first of them: its leader may have no rotation.
-            let Some(&(_, first)) = members.first() else { continue };
-            members.iter().for_each(|&(place, _)| is_joined[place as usize] = true);
-            groups.push(
-                members.iter().map(|&(place, turn)| (place, crate::tensor::product(&turn, &crate::rotation::transposed(&first)))).collect(),
-            );
+        let of_bodies: Vec<u32> = now.nodes.iter().map(|&node| bodies.of_node(node).map_or(u32::MAX, |body| body as u32)).collect();
+        for (&body, &inertia) in of_bodies.iter().zip(&inertia).filter(|(body, _)| **body != u32::MAX) {
+            bodies.add_inertia(body as usize, inertia);
         }
-        let held: Vec<NodeConstraint<3>> = now.nodes.iter().map(|&node| held_by(&normals(node))).collect();
-        let of_body = |(&node, &inertia): (&u32, &f64)| {
-            let body = bodies.of_node(node);
-            if let Some(body) = body {
-                bodies.add_inertia(body, inertia);
+        let alone = now.nodes.iter().zip(&of_bodies).filter(|&(&node, &body)| body == u32::MAX && joins.of_node(node).is_none());
+        let alone = alone.map(|(&node, _)| vec![(node, unit_matrix())]);
+        let joined = joins.groups().iter().map(|group| group.members.iter().map(|member| (member.node, square(&member.turn))).collect());
+        let group = |members: Vec<(u32, Square<3>)>| {
+            let members: Vec<(usize, Square<3>)> = members.into_iter().filter_map(|(node, turn)| Some((now.place(node)?, turn))).collect();
+            // Seen from the first of them: the leader of a join may have no rotation.
+            let back_to_first = transposed(&members.first()?.1);
+            let members: Vec<(usize, Square<3>)> =
+                members.into_iter().map(|(place, turn)| (place, product(&turn, &back_to_first))).collect();
+            let mut held = NodeConstraint::default();
+            for (place, turn) in &members {
+                held_by(&normals(now.nodes[*place])).for_each(|direction| held.rest(back(*turn, direction)));
             }
-            body.map_or(u32::MAX, |body| body as u32)
+            let whole = members.iter().map(|&(place, _)| inertia[place]).sum();
+            Some(Group { members, inertia: whole, held: Some(held).filter(|held| !held.is_empty()) })
         };
-        let of_bodies = now.nodes.iter().zip(&inertia).map(of_body).collect();
-        now.spins = now.nodes.iter().map(|&node| spin(node)).collect();
+        let groups = alone.chain(joined).filter_map(group).collect();
         let slots = vec![[0.0; 3]; assembly.count];
-        Self { spins_old: now.spins.clone(), now, inertia, slots, assembly, held, bodies: of_bodies, groups, is_joined }
-    }
-
-    /// The first nodes of groups, alone or not, that no rigid body leads.
-    fn is_own(&self, place: usize) -> bool {
-        self.bodies[place] == u32::MAX && !self.is_joined[place]
+        Self { spins_old: now.spins.clone(), now, inertia, slots, assembly, bodies: of_bodies, groups }
     }
 
     /// Moment of the elements on a node; `None`: it has no rotation.
@@ -138,25 +155,14 @@ impl NodalRotations {
     where
         Dim<D>: Dimension<D>,
     {
-        for place in 0..self.inertia.len() {
-            if self.is_own(place) {
-                self.now.spins[place] = self.held[place].apply(self.now.spins[place]);
-            }
-        }
-        for group in 0..self.groups.len() {
-            let whole: f64 = self.members(group).map(|(place, _)| self.inertia[place]).sum();
-            let sum = self
-                .members(group)
-                .fold([0.0; 3], |sum, (place, turn)| plus(sum, times(self.inertia[place] / whole, back(*turn, self.now.spins[place]))));
-            self.lead(group, self.held_in(group).apply(sum));
+        for group in &self.groups {
+            let mean = group.sum(|place| times(self.inertia[place] / group.inertia, self.now.spins[place]));
+            group.lead(group.held.as_ref().map_or(mean, |held| held.apply(mean)), &mut self.now.spins);
         }
         self.follow(bodies);
         self.spins_old.clone_from(&self.now.spins);
-        reductions::sum(
-            (0..self.inertia.len())
-                .filter(|&place| self.bodies[place] == u32::MAX)
-                .map(|place| 0.5 * self.inertia[place] * dot(self.now.spins[place], self.now.spins[place])),
-        )
+        let energy = |place: usize| 0.5 * self.inertia[place] * dot(self.now.spins[place], self.now.spins[place]);
+        reductions::sum((0..self.inertia.len()).filter(|&place| self.bodies[place] == u32::MAX).map(energy))
     }
 
     /// R^{n+1}.
@@ -183,47 +189,16 @@ impl NodalRotations {
     {
         let mut sums = Sums::default();
         std::mem::swap(&mut self.now.spins, &mut self.spins_old);
-        for place in 0..self.inertia.len() {
-            if self.is_own(place) {
-                let (old, slowing) = (self.spins_old[place], slowing(self.now.nodes[place] as usize));
-                let (moment, held) = (self.assembly.force(place, &self.slots), Some(&self.held[place]).filter(|held| !held.is_empty()));
-                let pull = Pull::<3>::of_elements(self.inertia[place], old, moment, slowing, held);
-                self.now.spins[place] = pull.advance(mean_step, &mut sums);
-            }
-        }
-        for group in 0..self.groups.len() {
-            let inertia = self.members(group).map(|(place, _)| self.inertia[place]).sum::<f64>();
-            let slowed = |place: usize| self.inertia[place] * slowing(self.now.nodes[place] as usize);
-            let moment = |place: usize| self.assembly.force(place, &self.slots);
-            let held = self.held_in(group);
-            let old = self.spins_old[self.groups[group][0].0 as usize];
-            let whole = self.members(group).fold([0.0; 3], |sum, (place, turn)| plus(sum, back(*turn, moment(place))));
-            let slowing = self.members(group).map(|(place, _)| slowed(place)).sum::<f64>() / inertia;
-            let pull = Pull::<3>::of_elements(inertia, old, whole, slowing, Some(&held).filter(|held| !held.is_empty()));
-            let spin = pull.advance(mean_step, &mut sums);
-            self.lead(group, spin);
+        for group in &self.groups {
+            let [leader, ..] = group.members[..] else { continue };
+            let moment = group.sum(|place| self.assembly.force(place, &self.slots));
+            let slowed = |&(place, _): &(usize, Square<3>)| self.inertia[place] * slowing(self.now.nodes[place] as usize);
+            let slowing = group.members.iter().map(slowed).sum::<f64>() / group.inertia;
+            let pull = Pull::<3>::of_elements(group.inertia, self.spins_old[leader.0], moment, slowing, group.held.as_ref());
+            group.lead(pull.advance(mean_step, &mut sums), &mut self.now.spins);
         }
         self.follow(bodies);
         sums
-    }
-
-    fn members(&self, group: usize) -> impl Iterator<Item = (usize, &Square<3>)> {
-        self.groups[group].iter().map(|(place, turn)| (*place as usize, turn))
-    }
-
-    /// What holds any member of a group, seen from its leader.
-    fn held_in(&self, group: usize) -> NodeConstraint<3> {
-        let mut held = NodeConstraint::default();
-        for (place, turn) in self.members(group) {
-            self.held[place].directions().for_each(|direction| held.rest(back(*turn, direction)));
-        }
-        held
-    }
-
-    fn lead(&mut self, group: usize, spin: [f64; 3]) {
-        for &(place, turn) in &self.groups[group] {
-            self.now.spins[place as usize] = turned(turn, spin);
-        }
     }
 
     /// Nodes of rigid bodies spin as these.
@@ -239,27 +214,22 @@ impl NodalRotations {
     }
 }
 
-/// Directions about which a node of symmetry planes can't rotate: those in the planes. In 2D all planes are
-/// normal to the plane of the model.
-fn held_by<const D: usize>(normals: &[[f64; D]]) -> NodeConstraint<3> {
-    let mut held = NodeConstraint::default();
-    for &normal in normals {
+/// Directions about which a node of symmetry planes with these normals can't rotate: those in the planes. In
+/// 2D all planes are normal to the plane of the model.
+fn held_by<const D: usize>(normals: &[[f64; D]]) -> impl Iterator<Item = [f64; 3]> {
+    normals.iter().flat_map(|&normal| {
         let n: [f64; 3] = in_3d(normal);
-        // The axis that is farthest from the normal.
-        let farthest = (0..3).min_by(|&a, &b| n[a].abs().total_cmp(&n[b].abs())).unwrap_or(0);
-        let Some(first) = unit(cross(n, unit_matrix::<3>()[farthest])) else { continue };
-        held.rest(first);
-        held.rest(cross(n, first));
-    }
-    held
+        let first = any_tangent(n);
+        [first, cross(n, first)]
+    })
 }
 
 impl<const D: usize> System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// Finds the nodes that rotate; `spin` says how fast at the start, rad/s.
-    pub(crate) fn find_rotations(&mut self, spin: impl Fn(u32) -> [f64; 3]) {
+    /// Finds the nodes that rotate; `spin` says how fast the elements of a block spin at the start, rad/s.
+    pub(crate) fn find_rotations(&mut self, spin: impl Fn(usize) -> [f64; 3]) {
         let normals = |node: u32| self.constraints.mirror_normals(node).collect();
         self.rotations = NodalRotations::new(&self.blocks, spin, normals, &self.joins, &mut self.bodies);
     }

@@ -6,8 +6,11 @@
 
 use super::super::projection::node_facet::Vector;
 use super::super::search::{Pair, Query, Search};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::vector::{length, minus};
+use std::iter::Peekable;
+use std::ops::Range;
 
 /// Those who meet: slave nodes, the target, and whether both are of one surface.
 #[derive(Clone, Copy)]
@@ -53,6 +56,66 @@ impl Meeting<'_> {
             }
         };
         search.by_and_by(query, pairs, &mut |pairs| pairs.chunk_by(|a, b| a.slave == b.slave).for_each(&mut look_around));
+    }
+}
+
+/// A slave node and a body of the target, and what is known of the two.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::contact) struct Group<T> {
+    /// Index of the node in its surface.
+    pub(in crate::contact) slave: u32,
+    pub(in crate::contact) node: u32,
+    pub(in crate::contact) body: u32,
+    /// Its candidates are those of its pass from `begin` to `end`.
+    pub(in crate::contact) begin: u32,
+    pub(in crate::contact) end: u32,
+    /// Whether it is the node's own body.
+    pub(in crate::contact) own: bool,
+    pub(in crate::contact) known: T,
+}
+
+impl<T: Persist> Persist for Group<T> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Self { slave, node, body, begin, end, own, known } = self;
+        persist_each!(archive; slave, node, body, begin, end, own, known);
+        Ok(())
+    }
+}
+
+impl<T: Copy> Group<T> {
+    /// By which groups of a pass ascend: slave and body.
+    pub(in crate::contact) fn key(&self) -> (u32, u32) {
+        (self.slave, self.body)
+    }
+
+    /// Where its candidates are among those of its pass.
+    pub(in crate::contact) fn candidates(&self) -> Range<usize> {
+        self.begin as usize..self.end as usize
+    }
+
+    /// Whether its node is one of the `slaves`, and its candidates are among so many.
+    pub(in crate::contact) fn is_there(&self, slaves: &[u32], candidates: usize) -> bool {
+        slaves.get(self.slave as usize) == Some(&self.node) && self.begin <= self.end && self.end as usize <= candidates
+    }
+
+    /// Those of other `slaves` that are the same nodes, without candidates, in their order.
+    pub(in crate::contact) fn moved<'g>(groups: impl Iterator<Item = &'g Self>, slaves: &[u32]) -> Vec<Self>
+    where
+        T: 'g,
+    {
+        let same = |group: &Self| Some(Self { slave: slaves.binary_search(&group.node).ok()? as u32, begin: 0, end: 0, ..*group });
+        let mut moved: Vec<Self> = groups.filter_map(same).collect();
+        moved.sort_by_key(Self::key);
+        moved
+    }
+
+    /// What ascending groups know of this slave and body, after all before them have been passed.
+    pub(in crate::contact) fn known_of<'g>(groups: &mut Peekable<impl Iterator<Item = &'g Self>>, key: (u32, u32)) -> Option<T>
+    where
+        T: 'g,
+    {
+        while groups.next_if(|group| group.key() < key).is_some() {}
+        groups.next_if(|group| group.key() == key).map(|group| group.known)
     }
 }
 

@@ -28,7 +28,7 @@ use super::super::search::{Pair, Query, Search};
 use super::super::tracker::sleep::{AWAKE, awake, wake_at};
 use super::super::tracker::{SAFE, SKIN, SearchReport};
 use super::far::Candidates;
-use super::groups::{Meeting, bend, bodies_of, halves, mean_edge};
+use super::groups::{Group, Meeting, bend, bodies_of, halves, mean_edge};
 use super::passage::{Passages, led};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::{NONE, SpaceSurface};
@@ -108,24 +108,15 @@ impl ContactHistory {
 
 persist_all!(ContactHistory { slip, facet, rest, offset, half, normal, carried, stored, side, is_led });
 
-/// A slave node and a body of the target.
+/// What is known of a slave node and a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Group {
-    /// Index of the node in its surface.
-    slave: u32,
-    node: u32,
-    body: u32,
-    /// Its candidates are `candidates[begin..end]`.
-    begin: u32,
-    end: u32,
-    /// Whether it is the node's own body.
-    own: bool,
+struct Known {
     /// Whether it touched in the last step. Else nothing is kept of it.
     touches: bool,
     memory: ContactHistory,
 }
 
-persist_all!(Group { slave, node, body, begin, end, own, touches, memory });
+persist_all!(Known { touches, memory });
 
 /// A slave node that is inside a body, or near it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,7 +141,7 @@ struct Pass {
     target: usize,
     /// Body of each facet of the target.
     bodies: Vec<u32>,
-    groups: Vec<Group>,
+    groups: Vec<Group<Known>>,
     candidates: Vec<u32>,
     /// What is known of the distances of candidates and groups; see `far.rs`.
     clear: Vec<f64>,
@@ -296,9 +287,10 @@ impl Tracker {
         closed.clear();
         for pass in &self.passes {
             // A node that edges stand for touches without a spring.
-            let is_closed = |group: &&Group| group.touches && group.memory.half() < open;
+            let is_closed = |group: &&Group<Known>| group.known.touches && group.known.memory.half() < open;
             let target = &self.surfaces[pass.target];
-            for Group { node, memory: ContactHistory { facet, rest, .. }, .. } in pass.groups.iter().filter(is_closed) {
+            for Group { node, known: Known { memory: ContactHistory { facet, rest, .. }, .. }, .. } in pass.groups.iter().filter(is_closed)
+            {
                 closed.extend(target.sharing(*facet, *rest).map(|facet| (pass.slave, *node, facet)));
             }
         }
@@ -326,12 +318,12 @@ impl Tracker {
     /// What is kept of a touch: nothing where slave and body did not touch in the last step.
     #[must_use]
     pub fn kept(&self, touch: &ContactPoint) -> &ContactHistory {
-        &self.passes[touch.pass as usize].groups[touch.group as usize].memory
+        &self.passes[touch.pass as usize].groups[touch.group as usize].known.memory
     }
 
     /// The same to change it.
     pub fn kept_mut(&mut self, touch: &ContactPoint) -> &mut ContactHistory {
-        &mut self.passes[touch.pass as usize].groups[touch.group as usize].memory
+        &mut self.passes[touch.pass as usize].groups[touch.group as usize].known.memory
     }
 
     /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and
@@ -411,10 +403,8 @@ impl Tracker {
                     pass.clear.push(clear);
                 }
                 let (end, own) = (pass.candidates.len() as u32, body(node) == there);
-                let group = Group { slave, node, body: there, begin, end, own, ..Group::default() };
-                while old.next_if(|old| (old.slave, old.body) < (slave, there)).is_some() {}
-                let known = old.next_if(|old| (old.slave, old.body) == (slave, there));
-                pass.groups.push(known.map_or(group, |known| Group { touches: known.touches, memory: known.memory, ..group }));
+                let known = Group::known_of(&mut old, (slave, there)).unwrap_or_default();
+                pass.groups.push(Group { slave, node, body: there, begin, end, own, known });
             });
             pass.wakes.clear();
             pass.wakes.resize(pass.groups.len(), AWAKE);
@@ -431,7 +421,7 @@ impl Tracker {
     fn look_at(&mut self, [number, index]: [usize; 2], sweep: Sweep<'_, 3>, [extra, way, asleep]: [f64; 3], clear: &mut [f64]) {
         let pass = &self.passes[number];
         let group = pass.groups[index];
-        let range = group.begin as usize..group.end as usize;
+        let range = group.candidates();
         let mut candidates = Candidates { facets: &pass.candidates[range.clone()], clear: &mut clear[range], travel: sweep.travel, way };
         let place = self.locate(pass, &group, &mut candidates, sweep, extra);
         let wake = match place {
@@ -444,27 +434,27 @@ impl Tracker {
         let pass = &mut self.passes[number];
         pass.wakes[index] = wake;
         let group = &mut pass.groups[index];
-        group.touches = false;
+        group.known.touches = false;
         if let Place::Touches(projection, side, is_led) = place {
-            group.touches = true;
-            (group.memory.side, group.memory.is_led) = (side, is_led);
+            group.known.touches = true;
+            (group.known.memory.side, group.known.memory.is_led) = (side, is_led);
             self.deepest = self.deepest.max(-projection.gap);
             let Group { slave, node, own, .. } = *group;
             self.touches.push(ContactPoint { pass: number as u32, slave, node, projection, own, group: index as u32 });
         } else {
-            group.memory = ContactHistory::default();
+            group.known.memory = ContactHistory::default();
         }
     }
 
     /// Whether a node touches: its projection, and the side from which it came in.
-    fn locate(&self, pass: &Pass, group: &Group, candidates: &mut Candidates<'_>, sweep: Sweep<'_, 3>, extra: f64) -> Place {
+    fn locate(&self, pass: &Pass, group: &Group<Known>, candidates: &mut Candidates<'_>, sweep: Sweep<'_, 3>, extra: f64) -> Place {
         let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
         let x = sweep.new[group.node as usize];
         let facing = if group.own { Some(self.own_normal(pass.slave, group.slave, sweep.new)) } else { None };
         let faces = |facet: u32| facing.is_none_or(|own| dot(own, placed.facet_normal(facet)) < FACING);
         let passages =
             |candidates: &Candidates<'_>| Passages::of(&placed, sweep, group.node, candidates.in_passage().filter(|&facet| faces(facet)));
-        let ContactHistory { facet: likely, side: before, is_led: was_led, .. } = group.memory;
+        let ContactHistory { facet: likely, side: before, is_led: was_led, .. } = group.known.memory;
         let was_inside = before != [0.0; 3];
         let side = if was_inside { before } else { passages(candidates).fate(before).side };
         let came = side != [0.0; 3];
@@ -481,7 +471,7 @@ impl Tracker {
             return Place::Touches(led, along, true);
         }
         // Who continues with its face needs no second look.
-        let continues = |found: &Projection| group.touches && dot(group.memory.normal, found.normal) > SAME_FACE;
+        let continues = |found: &Projection| group.known.touches && dot(group.known.memory.normal, found.normal) > SAME_FACE;
         if !group.own && !found.as_ref().is_some_and(continues) {
             let own = self.own_normal(pass.slave, group.slave, sweep.new);
             if found.is_none_or(|found| dot(own, found.normal) >= FACING) {
@@ -498,7 +488,7 @@ impl Tracker {
         let Some(found) = found else { return Place::Away };
         if found.gap < 0.0 {
             // In its own body only who was seen to come in, or was just before it.
-            let known = came || (group.touches && dot(group.memory.normal, found.normal) > SAME_SIDE);
+            let known = came || (group.known.touches && dot(group.known.memory.normal, found.normal) > SAME_SIDE);
             return match known {
                 false if group.own => Place::Away,
                 false if -found.gap > self.radius - self.skin => Place::Lost,
@@ -516,7 +506,7 @@ impl Tracker {
     fn is_held(
         &self,
         pass: &Pass,
-        group: &Group,
+        group: &Group<Known>,
         side: Vector,
         sweep: Sweep<'_, 3>,
         (over, beyond): &(Projection, Vector),
@@ -528,7 +518,7 @@ impl Tracker {
         if way > (BAND * placed.size(over.facet)).min(self.band) || -over.gap > self.radius - self.skin {
             return false;
         }
-        let held = dot(side, over.normal) > SAME_FACE || (group.touches && dot(group.memory.normal, over.normal) > SAME_FACE);
+        let held = dot(side, over.normal) > SAME_FACE || (group.known.touches && dot(group.known.memory.normal, over.normal) > SAME_FACE);
         let from_the_front = || {
             let [a, b, c] = before.triangle(over.facet, over.triangle);
             let height = dot(minus(sweep.old[group.node as usize], a), cross(minus(b, a), minus(c, a)));
@@ -538,12 +528,12 @@ impl Tracker {
     }
 
     /// Whether the surface of a slave goes from it back over the face that it is beyond by a way.
-    fn goes_back(&self, pass: &Pass, group: &Group, beyond: Vector, positions: &[Vector]) -> bool {
+    fn goes_back(&self, pass: &Pass, group: &Group<Known>, beyond: Vector, positions: &[Vector]) -> bool {
         let slaves = &self.surfaces[pass.slave];
         let x = positions[group.node as usize];
         slaves.around(group.slave as usize).iter().flat_map(|&facet| slaves.facets[facet as usize]).any(|other| {
             let along = minus(positions[other as usize], x);
-            // More than the rim's own direction, as far as rounding lets one tell.
+            // More than the rim's own direction, as far as rounding can resolve.
             dot(along, beyond) < -0.05 * length(along) * length(beyond)
         })
     }
@@ -562,12 +552,11 @@ impl Tracker {
             let (groups, candidates) = (pass.groups.len(), pass.candidates.len());
             archive.check(pass.wakes.len() == groups && pass.clear.len() == candidates, "a contact knows distances of others")?;
             let (slaves, target, facets) = (&self.surfaces[pass.slave].nodes, &self.surfaces[pass.target].nodes, pass.bodies.len());
-            let is_known = |group: &Group| {
-                slaves.get(group.slave as usize) == Some(&group.node)
-                    && group.begin <= group.end
-                    && group.end as usize <= pass.candidates.len()
-                    && (group.memory.facet == NONE || (group.memory.facet as usize) < facets)
-                    && group.memory.rest.iter().all(|&node| node == NONE || target.binary_search(&node).is_ok())
+            let is_known = |group: &Group<Known>| {
+                let memory = &group.known.memory;
+                group.is_there(slaves, pass.candidates.len())
+                    && (memory.facet == NONE || (memory.facet as usize) < facets)
+                    && memory.rest.iter().all(|&node| node == NONE || target.binary_search(&node).is_ok())
             };
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
@@ -580,14 +569,10 @@ impl Tracker {
     /// still there.
     pub(super) fn inherit(&mut self, old: &Self) {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
-            let slaves = &self.surfaces[pass.slave].nodes;
-            let known = before.groups.iter().filter(|group| group.touches).filter_map(|group| {
-                let slave = slaves.binary_search(&group.node).ok()? as u32;
-                let memory = ContactHistory { facet: NONE, rest: [NONE; 2], ..group.memory };
-                Some(Group { slave, begin: 0, end: 0, memory, ..*group })
-            });
-            pass.groups = known.collect();
-            pass.groups.sort_by_key(|group| (group.slave, group.body));
+            let touching = before.groups.iter().filter(|group| group.known.touches);
+            pass.groups = Group::moved(touching, &self.surfaces[pass.slave].nodes);
+            // Facets have other numbers now.
+            pass.groups.iter_mut().for_each(|group| (group.known.memory.facet, group.known.memory.rest) = (NONE, [NONE; 2]));
             pass.wakes = vec![AWAKE; pass.groups.len()];
         }
         self.is_new = old.is_new;

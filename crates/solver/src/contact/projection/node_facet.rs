@@ -518,7 +518,7 @@ impl Placed<'_> {
         Some(Projection { facet, feature: Feature::Face, triangle: k, weights: self.spread(facet, k, shares), foot, gap, normal })
     }
 
-    /// Whether the foot on the plane of a triangle is on it as far as rounding lets one tell: by the same
+    /// Whether the foot on the plane of a triangle is on it as far as rounding can resolve: by the same
     /// fraction of a facet as in 2D.
     fn is_over(&self, over: &Projection) -> bool {
         let [a, b, c, d] = over.weights;
@@ -565,13 +565,13 @@ impl Placed<'_> {
             if !normals.into_iter().all(|normal| Self::is_before(x, foot, normal, size)) {
                 return None;
             }
-            // Who is over a facet as far as rounding lets one tell sees its normal, as in 2D.
+            // Who is over a facet as far as rounding can resolve sees its normal, as in 2D.
             if let Some(over) = self.over(x, facet, triangle).filter(|over| self.is_over(over)) {
                 return Some(over);
             }
         }
         if border == Border::Cut {
-            // At the border: over it, as far as rounding lets one tell, it is the facet's.
+            // At the border: over it, as far as rounding can resolve, it is the facet's.
             let over = self.over(x, facet, triangle)?;
             let beside = minus(over.foot, foot);
             return (dot(beside, beside).sqrt() <= BORDER * size).then_some(over);

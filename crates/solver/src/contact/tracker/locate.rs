@@ -16,7 +16,7 @@ use crate::mesh::surface::NONE;
 use crate::vector::{bound_of, minus};
 use embate_lanes::{BATCH, Level};
 
-/// A node nearer than this fraction of the skin is on the surface, as far as rounding lets one tell.
+/// A node nearer than this fraction of the skin is on the surface, as far as rounding can resolve.
 const ROUNDING: f64 = 4e-9;
 /// A node that touches a face stays with it until it is farther away than this fraction of the skin (a
 /// millionth of a segment): surfaces that a multiplier holds at zero distance must not be passed from face to

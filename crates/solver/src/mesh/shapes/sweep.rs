@@ -354,7 +354,7 @@ impl Sweep {
     }
 }
 
-/// A mesh in 3D that came from one of the plane.
+/// A mesh in 3D that came from one in 2D.
 #[derive(Default)]
 pub(in crate::mesh) struct SweptMesh {
     pub(in crate::mesh) mesh: ImportedMesh,

@@ -382,13 +382,17 @@ fn half_a_frame_with_a_symmetry_does_what_the_whole_does() {
 
 #[test]
 fn in_3d_a_symmetry_leaves_the_spin_about_its_normal_alone() {
-    let held = held_by::<3>(&[[0.0, 0.6, 0.8]]);
-    let spin = held.apply([1.0, 2.0, 3.0]);
+    fn held<const D: usize>(normals: &[[f64; D]]) -> NodeConstraint<3> {
+        let mut held = NodeConstraint::default();
+        held_by(normals).for_each(|direction| held.rest(direction));
+        held
+    }
+    let spin = held(&[[0.0, 0.6, 0.8]]).apply([1.0, 2.0, 3.0]);
     let along = 0.6 * 2.0 + 0.8 * 3.0;
     assert!((0..3).all(|d| (spin[d] - along * [0.0, 0.6, 0.8][d]).abs() < 1e-15), "{spin:?}");
-    assert_eq!(held_by::<3>(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).apply([1.0, 2.0, 3.0]).map(|x| x.abs() < 1e-15), [true; 3]);
-    assert_eq!(held_by::<2>(&[[0.0, 1.0]]).apply([0.0, 0.0, 3.0]), [0.0; 3]);
-    assert!(held_by::<3>(&[]).is_empty());
+    assert_eq!(held(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]).apply([1.0, 2.0, 3.0]).map(|x| x.abs() < 1e-15), [true; 3]);
+    assert_eq!(held(&[[0.0, 1.0]]).apply([0.0, 0.0, 3.0]), [0.0; 3]);
+    assert!(held::<3>(&[]).is_empty());
 }
 
 #[test]

@@ -13,7 +13,7 @@ static SHORT: LazyLock<String> = LazyLock::new(|| match commit() {
 /// What `embate --version` reports: also what it was compiled for, which reports of faults should say.
 static LONG: LazyLock<String> = LazyLock::new(|| format!("{}\n{}", *SHORT, env!("EMBATE_TARGET")));
 
-/// The commit; `None`: it was built from sources that don't tell.
+/// The commit; `None`: it was built from sources that don't say it.
 pub(crate) fn commit() -> Option<&'static str> {
     Some(env!("EMBATE_COMMIT")).filter(|commit| !commit.is_empty())
 }

@@ -61,7 +61,7 @@ impl Indices {
 pub struct Moving<const D: usize> {
     /// Of the plane both vectors, in 3D the first.
     first: Vec<Batch>,
-    /// Of space the second vectors.
+    /// In 3D the second vectors.
     second: Vec<Batch>,
     count: usize,
 }

@@ -12,7 +12,7 @@ use embate_files::results::{Checkpoints, Recorder, Report, ResultFolder};
 use embate_files::threads::Threads;
 use embate_solver::error::Error;
 use embate_solver::model::ImportedMesh;
-use embate_solver::output::{Frame, Shown};
+use embate_solver::output::{Cells, Frame, Shown};
 use embate_solver::simulation::{self, Control, Observer, ObserverError, Options, Progress, State};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -66,6 +66,10 @@ impl Observer for Ears<'_> {
 
     fn show(&mut self, shown: &dyn Shown) -> Result<(), ObserverError> {
         self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.show(shown))
+    }
+
+    fn cells(&mut self, cells: Cells) -> Result<(), ObserverError> {
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.cells(cells))
     }
 
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {

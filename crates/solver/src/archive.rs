@@ -344,7 +344,7 @@ mod tests {
             for flip in [1, 0x80, 0xff] {
                 let mut damaged = sections[0].clone();
                 damaged.bytes[at] ^= flip;
-                // Whether a number is another one is for check sums to tell.
+                // That a number is another one, only check sums find.
                 let _ = read(&[damaged]);
             }
         }

@@ -51,11 +51,17 @@ use std::collections::BTreeMap;
 /// Below so many elements threads cost more than they bring.
 const SERIAL: usize = 4096;
 
-/// Builds the system; with it come all warnings of the model.
+/// Builds the system of a model at time zero, on a mesh that stands for the model's (`None`: its own); with
+/// it come all warnings of the model.
 ///
 /// # Errors
 /// All faults of the model.
-pub fn system<const D: usize>(model: &Model, level: Level, threads: usize) -> Result<(System<D>, Vec<Warning>), Vec<Fault>>
+pub fn system<const D: usize>(
+    model: &Model,
+    mesh: Option<Mesh<D>>,
+    level: Level,
+    threads: usize,
+) -> Result<(System<D>, Vec<Warning>), Vec<Fault>>
 where
     Dim<D>: Builds<D>,
 {
@@ -64,7 +70,8 @@ where
         return Err(faults);
     }
     let mut warnings = model.warnings();
-    let (system, of_mesh) = system_of(model, Mesh::new(model)?, level, threads)?;
+    let mesh = mesh.map_or_else(|| Mesh::new(model), Ok)?;
+    let (system, of_mesh) = system_of(model, mesh, level, threads)?;
     warnings.extend(of_mesh);
     Ok((system, warnings))
 }

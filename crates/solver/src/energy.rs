@@ -264,7 +264,7 @@ impl Ledger {
         Self { kinetic_start: kinetic, largest: kinetic.max(round_off), ..Self::default() }
     }
 
-    /// Books a step.
+    /// Adds a step.
     pub fn enter(&mut self, entry: &Entry) {
         // The impulse's part before the whole step went with v^{n-1/2}, the part after it with v^{n+1/2}.
         let lost = &entry.lost;
@@ -299,7 +299,7 @@ impl Ledger {
         self.drift = self.drift.max((self.stores.total() - self.external - start).abs());
     }
 
-    /// Books a change of velocities at the end of a step as external work, J/m: by what ½ Σ m|v^{n+1/2}|²
+    /// Adds a change of velocities at the end of a step as external work, J/m: by what ½ Σ m|v^{n+1/2}|²
     /// changes, and by what the kinetic energy at the whole step does; `ahead` is what loads do more in the
     /// half step that follows, because they act on other velocities.
     pub(crate) fn throw(&mut self, half: f64, whole: f64, ahead: f64) {

@@ -1,6 +1,7 @@
 //! Output data of a run: the cells once, a frame per output time, a row of the history, the summary at the
 //! end. Values only, no formats; they go to the writers of `embate-files`.
 
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::contact::tracker::Certificate;
 use crate::error::Notice;
 pub use crate::field::kind::{FIELDS, FIELDS_IN_SPACE, FieldKind, Location, Needs, field_kind, fields_of};
@@ -10,7 +11,7 @@ pub use crate::step::erosion::Eroded;
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// The cells of all parts; does not change during a run.
+/// The cells of all parts; they don't change during a run, unless it is meshed again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cells {
     /// Node indices of all cells, one after the other.
@@ -36,10 +37,25 @@ impl Cells {
     pub fn is_empty(&self) -> bool {
         self.kinds.is_empty()
     }
+    /// Memory that it needs.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        4 * (self.nodes.len() + self.offsets.len() + self.parts.len()) + size_of_val(&self.kinds[..])
+    }
     /// Node indices of cell `index`.
     #[must_use]
     pub fn cell(&self, index: usize) -> &[u32] {
         &self.nodes[self.offsets[index] as usize..self.offsets[index + 1] as usize]
+    }
+}
+
+impl Persist for Cells {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Self { nodes, offsets, kinds, parts, part_names } = self;
+        persist_each!(archive; nodes, offsets, kinds, parts, part_names);
+        let are_in_order = offsets.is_sorted() && offsets.last().is_none_or(|&last| last as usize <= nodes.len());
+        let is_sound = are_in_order && [kinds.len(), parts.len()] == [offsets.len().saturating_sub(1); 2];
+        archive.check(is_sound, "cells have nodes that are not there")
     }
 }
 

@@ -1,7 +1,8 @@
 //! Lists of any length, one for each key, in one array (compressed rows): slots of a node, elements at it,
 //! edges from it. Counted, then put into their places, so that building costs what there is.
 //!
-//! Mesh, blocks, assembly and contact make them from connectivities; whoever walks around a node reads them.
+//! Mesh, blocks, assembly and contact make them from connectivities; what visits the neighbours of a node
+//! reads them.
 
 /// A list of items for each key below a count.
 #[derive(Clone, Debug, PartialEq)]

@@ -111,6 +111,14 @@ pub trait Observer {
         shown.fill(&mut frame);
         self.frame(frame)
     }
+    /// From here on frames are of these cells: what was meshed again has others than
+    /// [`Simulation::cells`] returned before.
+    ///
+    /// # Errors
+    /// As [`Observer::frame`].
+    fn cells(&mut self, _cells: Cells) -> Result<(), ObserverError> {
+        Ok(())
+    }
     /// A row of the history, one value per column of [`Simulation::history_columns`].
     ///
     /// # Errors
@@ -251,9 +259,11 @@ impl Simulation {
     /// # Errors
     /// Those of [`Simulation::new`]; [`Error::State`] where the state is of another model.
     pub fn resumed(model: &Model, options: &Options, sections: &[Section]) -> Result<Self, Error> {
-        let mut simulation = Self::new(model, options)?;
-        either!(mut simulation, run => run.take_over(sections))?;
-        Ok(simulation)
+        Ok(Self(if model.dimension() == 3 {
+            Either::Space(Box::new(Run::resumed(model, options, sections)?))
+        } else {
+            Either::Plane(Box::new(Run::resumed(model, options, sections)?))
+        }))
     }
 
     /// Components of a position: 2 in 2D, 3 in 3D.

@@ -8,7 +8,7 @@
 use axum::body::Bytes;
 use embate_files::results::{History, ThinnedRows};
 use embate_files::view::{Bodies, FrameRequest, Series};
-use embate_solver::output::Shown;
+use embate_solver::output::{Cells, Shown};
 use embate_solver::simulation::Progress;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -77,6 +77,8 @@ pub(crate) struct Shared {
     /// Whether any viewer has seen one.
     pub(crate) is_seen: bool,
     pub(crate) frames: BTreeMap<FrameRequest, Newest>,
+    /// Cells of the frames that come, where they are others than those of the bodies.
+    cells: Option<Cells>,
     /// What each viewer wants.
     viewers: BTreeMap<u64, FrameRequest>,
     next_viewer: u64,
@@ -91,7 +93,7 @@ pub(crate) struct Shared {
 /// A run that is watched while it continues.
 #[derive(Debug)]
 pub struct Live {
-    bodies: Arc<Bodies>,
+    bodies: Mutex<Arc<Bodies>>,
     columns: Vec<String>,
     of_whole_bodies: bool,
     begin: Instant,
@@ -119,7 +121,7 @@ impl Live {
         }
         let (changes, _) = watch::channel(0);
         Arc::new(Self {
-            bodies,
+            bodies: Mutex::new(bodies),
             columns,
             of_whole_bodies,
             begin: Instant::now(),
@@ -134,8 +136,13 @@ impl Live {
     }
 
     /// Its bodies.
-    pub(crate) fn bodies(&self) -> &Arc<Bodies> {
-        &self.bodies
+    pub(crate) fn bodies(&self) -> Arc<Bodies> {
+        self.bodies.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// From here on frames are of these cells.
+    pub(crate) fn set_cells(&self, cells: Cells) {
+        self.shared().cells = Some(cells);
     }
 
     /// Changes what is shared, and reports the sockets and the run.
@@ -305,12 +312,18 @@ impl Live {
         if wishes.is_empty() {
             return;
         }
-        let topology = self.bodies.without(&embate_files::view::gone(shown));
+        let cells = self.shared().cells.take();
+        let mut bodies = self.bodies();
+        if let Some(cells) = cells {
+            bodies = Arc::new(bodies.with_cells(cells, shown));
+            *self.bodies.lock().unwrap_or_else(PoisonError::into_inner) = bodies.clone();
+        }
+        let topology = bodies.without(&embate_files::view::gone(shown));
         let outlines = embate_files::view::outlines(shown);
         let made: Vec<(FrameRequest, Bytes)> = wishes
             .into_iter()
             .map(|frame_request| {
-                let container = embate_files::view::frame(&self.bodies, &topology, shown, &outlines, &frame_request);
+                let container = embate_files::view::frame(&bodies, &topology, shown, &outlines, &frame_request);
                 let bytes = container.with("frame", -1).with("step", shown.step()).bytes();
                 (frame_request, Bytes::from(bytes))
             })

@@ -269,7 +269,7 @@ async fn probe(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, us
 async fn topology(State(shown): State<Arc<Shown>>, Path((_, run, number)): Path<(String, usize, usize)>) -> Answer {
     beside(move || {
         let bodies = match shown.live(run) {
-            Some(live) => live.bodies().clone(),
+            Some(live) => live.bodies(),
             None => shown.run(run)?.bodies().clone(),
         };
         let topology = bodies.numbered(number).ok_or(Refusal::nothing("no frame has named this topology"))?;

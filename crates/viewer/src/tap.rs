@@ -6,7 +6,7 @@
 
 use crate::live::{Live, Order};
 use embate_solver::hashes::Hashes;
-use embate_solver::output::{Frame, Shown};
+use embate_solver::output::{Cells, Frame, Shown};
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress, State};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -80,6 +80,11 @@ impl Observer for Tap<'_> {
     fn show(&mut self, shown: &dyn Shown) -> Result<(), ObserverError> {
         self.pass(shown);
         self.recorder.show(shown)
+    }
+
+    fn cells(&mut self, cells: Cells) -> Result<(), ObserverError> {
+        self.live.set_cells(cells.clone());
+        self.recorder.cells(cells)
     }
 
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {

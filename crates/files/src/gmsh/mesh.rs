@@ -29,7 +29,7 @@ pub(super) fn mesh(contents: &Contents, reader: &Reader, scale: f64) -> Result<I
         return Err(faults.into_list(source));
     }
     let mut used = vec![false; contents.nodes.len()];
-    // Of space, if there is a volume.
+    // In 3D, if there is a volume.
     let dimension = groups.iter().map(|group| group.dimension).max().unwrap_or(2).max(2);
     for cell in resolved.iter().flatten().filter(|cell| cell.file.kind.dimension == dimension) {
         cell.nodes().iter().for_each(|&node| used[node as usize] = true);

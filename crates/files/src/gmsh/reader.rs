@@ -179,7 +179,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The four bytes that tell the byte order of a binary file.
+    /// The four bytes that show the byte order of a binary file.
     pub(super) fn byte_order_mark(&mut self) -> Result<[u8; 4], Fault> {
         self.take("the number one that shows the byte order")
     }

@@ -138,7 +138,7 @@ impl Axis {
         }
         let unit = unit(&self.si, self.values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs())));
         let value = self.values[item] * unit.factor;
-        // Three digits tell the values of most lists apart; the table has them all.
+        // Three digits distinguish the values of most lists; the table has all digits.
         let step = if value == 0.0 { 1.0 } else { 10f64.powi(value.abs().log10().floor() as i32 - 2) };
         let text = number((value / step).round() * step, step);
         let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

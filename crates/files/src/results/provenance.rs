@@ -29,12 +29,12 @@ pub struct Provenance {
     set: Vec<String>,
     /// What the model was.
     pub keys: Identity,
-    /// How it is shown; those of earlier versions did not tell.
+    /// How it is shown; earlier versions did not write it.
     #[serde(default)]
     pub appearance: Appearance,
 }
 
-/// How a model wants to be shown, and what its field files don't tell of it.
+/// How a model wants to be shown, and what its field files don't have.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Appearance {
     /// In words; may be empty.

@@ -233,6 +233,12 @@ impl Observer for Recorder<'_> {
         self.frame(frame)
     }
 
+    fn cells(&mut self, cells: Cells) -> Result<(), ObserverError> {
+        let job = Job { cells: Some(cells), ..self.job() };
+        self.writer_channel.give(job);
+        Ok(self.writer_channel.fault()?)
+    }
+
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {
         if row.len() != self.width {
             return Err(ResultsError::RowLength { found: row.len(), expected: self.width }.into());

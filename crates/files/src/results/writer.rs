@@ -29,11 +29,14 @@ use std::time::{Duration, Instant};
 /// small frame.
 const COLLECTION_PAUSE: Duration = Duration::from_millis(500);
 
-/// What the writer has to do: the rows since the last job, one after the other, and then a frame.
+/// What the writer has to do: the rows since the last job, one after the other, then other cells, and then a
+/// frame.
 #[derive(Debug, Default)]
 pub(super) struct Job {
     pub(super) rows: Vec<f64>,
     pub(super) hashes: Vec<Hashes>,
+    /// Cells of all frames from here on, where they are others than before.
+    pub(super) cells: Option<Cells>,
     pub(super) frame: Option<Frame>,
     /// To be kept once all before it is written.
     pub(super) state: Option<Arc<State>>,
@@ -45,14 +48,16 @@ impl Job {
     /// Memory that it needs until it is done.
     pub(super) fn bytes(&self) -> usize {
         let state: usize = self.state.iter().flat_map(|state| &state.sections).map(|section| section.bytes.len()).sum();
-        8 * self.rows.len() + self.frame.as_ref().map_or(0, bytes) + state
+        let cells = self.cells.as_ref().map_or(0, Cells::bytes);
+        8 * self.rows.len() + cells + self.frame.as_ref().map_or(0, bytes) + state
     }
 }
 
 /// Memory of a frame.
 pub(super) fn bytes(frame: &Frame) -> usize {
     let values: usize = frame.fields.iter().map(|field| field.values.len()).sum();
-    16 * frame.positions::<2>().len() + 8 * values + 16 * frame.outlines.iter().map(|outline| outline.points.len()).sum::<usize>()
+    let points: usize = frame.outlines.iter().map(|outline| outline.points.len()).sum();
+    8 * (frame.coordinates.len() + values) + size_of::<[f64; 3]>() * points
 }
 
 /// The files of a run that grow while it continues.
@@ -228,6 +233,10 @@ impl Writer {
         }
         if let Some(log) = &mut self.hashes {
             rows = rows.and(job.hashes.iter().try_for_each(|hashes| log.line(|text| hashes::append_line(text, hashes))));
+        }
+        if let Some(cells) = &job.cells {
+            self.frames.writer = VtuWriter::new(cells, &self.threads);
+            self.film.iter_mut().for_each(|film| film.set_cells(cells.clone()));
         }
         let Some(shown) = job.frame.as_ref().map(|frame| frame as &dyn Shown).or(shown) else { return rows };
         if self.frames.write(shown, &self.include, &self.folder, &self.threads)? {

@@ -10,7 +10,7 @@ use crate::results::{Recorder, Report, ResultFolder, ResultsError};
 use crate::verification::messages::QUANTITY;
 use embate_solver::error::Error;
 use embate_solver::model::Model;
-use embate_solver::output::Frame;
+use embate_solver::output::{Cells, Frame};
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
 use std::path::Path;
 use thiserror::Error as ThisError;
@@ -145,6 +145,11 @@ impl Observer for Gathering<'_> {
     fn frame(&mut self, frame: Frame) -> Result<(), ObserverError> {
         self.samples.note_frame(&frame);
         self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.frame(frame))
+    }
+
+    fn cells(&mut self, _: Cells) -> Result<(), ObserverError> {
+        // Quantities are looked up by the cells of the start.
+        Err("a case of verification can't be meshed again".into())
     }
 
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {

@@ -92,6 +92,13 @@ impl Bodies {
         Self { cells, dimension, skinner, initial, origin, found: Mutex::default() }
     }
 
+    /// The bodies of the same run after it was meshed again, with numbers of topologies that it has not had.
+    #[must_use]
+    pub fn with_cells(&self, cells: Cells, shown: &dyn Shown) -> Self {
+        let next = self.found.lock().unwrap_or_else(PoisonError::into_inner).next;
+        Self { origin: self.origin, found: Mutex::new(Found { next, ..Found::default() }), ..Self::new(cells, shown) }
+    }
+
     /// The topology without these cells (ascending).
     pub fn without(&self, gone: &[u32]) -> Arc<Topology> {
         let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
@@ -241,6 +248,23 @@ mod tests {
         let places: Vec<[f64; 2]> = (0..9).map(|k| [f64::from(k), 1.0]).collect();
         let bodies = Bodies::new(cells, &Frame::of(&places));
         assert_eq!(bodies.without(&[]).facets.len(), 2);
+    }
+
+    #[test]
+    fn bodies_that_are_meshed_again_have_topologies_with_new_numbers_from_the_same_origin() {
+        let before = bodies();
+        assert_eq!((before.without(&[]).id, before.without(&[0]).id), (0, 1));
+        let cells = Cells {
+            nodes: vec![0, 1, 2],
+            offsets: vec![0, 3],
+            kinds: vec![CellKind::Triangle],
+            parts: vec![0],
+            part_names: vec!["strip".into()],
+        };
+        let now = before.with_cells(cells, &Frame::of(&[[10.0, 0.0], [11.0, 0.0], [10.0, 1.0]]));
+        let whole = now.without(&[]);
+        assert_eq!((whole.id, whole.facets.len(), now.origin), (2, 1, before.origin));
+        assert!(now.numbered(1).is_none() && now.numbered(2).is_some());
     }
 
     #[test]

@@ -270,6 +270,42 @@ fn the_last_state_is_not_written_twice() {
     assert_eq!(names(&path.join("fields")).len(), 2);
 }
 
+/// Three triangles in a fan.
+fn other_cells() -> Cells {
+    Cells {
+        nodes: vec![0, 1, 2, 0, 2, 3, 0, 3, 4],
+        offsets: vec![0, 3, 6, 9],
+        kinds: vec![CellKind::Triangle; 3],
+        parts: vec![0, 0, 1],
+        part_names: vec!["left".into(), "right".into()],
+    }
+}
+
+#[test]
+fn after_a_body_is_meshed_again_files_have_the_new_cells() {
+    let made = [1, 2].map(|threads| {
+        let path = fresh(&format!("meshed-again-{threads}"));
+        let folder = ResultFolder::create(&path, false).unwrap();
+        let mut recorder = Recorder::new(folder, &model(), columns(), cells(), threads, continue_run()).unwrap();
+        recorder.frame(frame(0)).unwrap();
+        recorder.cells(other_cells()).unwrap();
+        let mut last = frame(5);
+        last.fields.iter_mut().filter(|field| field.kind.location == Location::Cell).for_each(|field| {
+            field.values = vec![0.25; 3 * field.kind.width()];
+        });
+        recorder.frame(last).unwrap();
+        let outcome = recorder.finish(None, &summary(10), || None);
+        assert!(outcome.unwritten.is_none() && outcome.report.warnings.is_empty(), "{:?}", outcome.report.warnings);
+        let count = |name: &str| {
+            let text = String::from_utf8_lossy(&fs::read(path.join(name)).unwrap()).into_owned();
+            text.split("NumberOfCells=\"").nth(1).unwrap().split('"').next().unwrap().to_string()
+        };
+        assert_eq!(["fields/frame-00000.vtu", "fields/frame-00001.vtu"].map(count), ["2", "3"]);
+        ["fields/frame-00001.vtu", "animation.gif", "final.png"].map(|name| fs::read(path.join(name)).unwrap())
+    });
+    assert!(made[0] == made[1], "beside the run as in turn with it");
+}
+
 #[test]
 fn a_lost_folder_is_reported_with_its_path() {
     let folder = ResultFolder::create(&fresh("lost"), false).unwrap();

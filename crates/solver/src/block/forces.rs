@@ -374,8 +374,8 @@ where
         nodal
     }
 
-    /// Pressure of the bulk viscosity, and the square of the stable step without it over that with it; books
-    /// its work.
+    /// Pressure of the bulk viscosity, and the square of the stable step without it over that with it; adds
+    /// its work to the ledger.
     ///
     /// Of a sheet in plane stress the pressure acts in 2D alone, and what it takes is −p t dA: so it
     /// follows the rate of the area, not of the volume, and comes as p t with the mean thickness t.

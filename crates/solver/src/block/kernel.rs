@@ -61,10 +61,11 @@ impl FixedState for Axisymmetric {
     const STATE: StressState = StressState { is_axisymmetric: true, ..StressState::SPACE };
 }
 
-/// Runs what a kernel does in its stress state, which is a type there; in 3D there is one.
+/// Runs what a kernel does in its stress state, which is a type there; in 3D there is one. The condition is
+/// constant, so that nothing is compiled for the others.
 macro_rules! in_state {
     ($state:expr, $D:ident, $S:ident => $run:expr) => {
-        if $D == 2 {
+        if const { $D == 2 } {
             if $state.is_plane_stress {
                 type $S = PlaneStress;
                 $run

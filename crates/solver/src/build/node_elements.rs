@@ -1,5 +1,5 @@
 //! Which element lies behind an edge: found through the elements at its nodes, when a surface asks. Elements
-//! come from the mesh; stiffnesses of contacts and what is behind boundaries are made from the answers.
+//! come from the mesh; stiffnesses of contacts and the elements behind boundaries come from the answers.
 
 use super::{Builder, Builds};
 use crate::mesh::Mesh;
@@ -62,7 +62,7 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: Builds<D>,
 {
-    /// What is behind a piece of the outside.
+    /// The element behind a piece of the outside.
     pub(super) fn under(&self, facet: Facet<D>) -> Option<Under> {
         let (group, element) = self.node_elements.get_or_init(|| NodeElements::of(&self.mesh)).behind(facet, &self.mesh)?;
         let (cell, positions) = (self.mesh.groups[group].cell(element), &self.mesh.positions);

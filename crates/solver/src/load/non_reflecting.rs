@@ -17,7 +17,7 @@ use crate::model::Model;
 use crate::rotation::{Rotate, Square};
 use crate::tensor::Dim;
 
-/// What is behind a piece of a surface.
+/// The medium behind a piece of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Behind {
     /// Density, kg/m³.
@@ -37,8 +37,8 @@ impl<const D: usize> NonReflecting<D>
 where
     Dim<D>: CellGeometry<D> + Rotate<D>,
 {
-    /// `behind` says what is behind a piece of a surface, `is_mirror` which pieces lie on a symmetry line or
-    /// plane: they are no boundary.
+    /// `behind` gives the medium behind a piece of a surface, `is_mirror` which pieces lie on a symmetry line
+    /// or plane: they are no boundary.
     ///
     /// # Errors
     /// Names of nothing, or of what is no surface.

@@ -228,7 +228,7 @@ pub fn variables() -> Vec<&'static Variable> {
     variable::union(VARIABLES_OF_LAWS)
 }
 
-/// Kinds of messages that laws alone tell.
+/// Kinds of messages that only laws report.
 pub(crate) fn messages() -> impl Iterator<Item = &'static Message> {
     OF_LAWS.iter().flat_map(|of_law| of_law.iter().copied())
 }

@@ -21,9 +21,10 @@
 
 /// Which kind of cell an element is. Kinds are in the order of their dimensions, then of their numbers of
 /// nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CellKind {
     /// A single node; no element, but a cell of mesh files.
+    #[default]
     Point,
     /// Two nodes: a bar, or a piece of the outside in 2D.
     Line,

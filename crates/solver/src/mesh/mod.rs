@@ -11,6 +11,7 @@ pub(crate) mod messages;
 pub mod surface;
 mod dimension;
 mod order;
+mod persist;
 
 pub use dimension::{Meshed, signed_volume};
 
@@ -64,7 +65,7 @@ pub struct PartMesh {
 }
 
 /// The elements of one part that are the same kind of cell: what a block is made of.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElementGroup {
     /// Index of the part.
     pub part: usize,
@@ -151,6 +152,8 @@ where
     /// The user's number of each node of the model's mesh files, of each file in its order; `u32::MAX`: no
     /// part has it.
     pub imported: Vec<Vec<u32>>,
+    /// How many times its cells have been replaced by others; 0: they are those of the model.
+    pub revision: u32,
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are
     /// numbered first.
     outlines: Vec<bool>,

@@ -63,7 +63,7 @@ pub struct Moment {
     /// Energy drift so far, fraction.
     pub drift: f64,
     /// The row of the history, by [`crate::simulation::Simulation::history_columns`]; empty where the step
-    /// failed before its books were closed.
+    /// failed before its energy balance was closed.
     pub row: Vec<f64>,
     /// Of the failure location.
     pub vitals: Vitals,

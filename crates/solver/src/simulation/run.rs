@@ -11,7 +11,7 @@ use crate::contact::{ContactKind, search};
 use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
 use crate::field::snapshot::LiveSnapshot;
 use crate::hashes::{self, Hashes, Hashing};
-use crate::mesh::PartMesh;
+use crate::mesh::{Mesh, PartMesh};
 use crate::model::{self, Cadence, Model};
 use crate::monitor::RunMonitor;
 use crate::output::{Cells, Field, Frame, Shown, fields_of};
@@ -54,6 +54,8 @@ where
     pub(super) hash_steps: Option<u64>,
     pub(super) hashing: Hashing,
     pub(super) output_cursor: Option<OutputCursor>,
+    /// Revision of the mesh whose cells observers know.
+    pub(super) known_cells: u32,
     pub(super) memory: Memory,
     /// Looks at every step of a run that goes to its failure once more.
     pub(crate) tracer: Option<Box<dyn AfterStep<D>>>,
@@ -74,6 +76,14 @@ where
     /// # Errors
     /// [`Error::Model`] with all faults; the errors of a step, if the very first forces fail.
     pub(crate) fn new(model: &Model, options: &Options) -> Result<Self, Error> {
+        Self::on(model, None, options)
+    }
+
+    /// The same on a mesh that stands for the model's.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub(crate) fn on(model: &Model, mesh: Option<Mesh<D>>, options: &Options) -> Result<Self, Error> {
         let level = match &options.simd {
             None => Level::best(),
             Some(name) => Level::named(name).ok_or_else(|| {
@@ -87,7 +97,7 @@ where
             })?,
         };
         let threads = options.thread_count();
-        let (system, model_warnings) = build::system::<D>(model, level, threads).map_err(Error::Model)?;
+        let (system, model_warnings) = build::system(model, mesh, level, threads).map_err(Error::Model)?;
         let recorded = Recorded::new(model, &system).map_err(Error::Model)?;
         let pool = if system.team.threads() > 1 { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
         let mut simulation = Self {
@@ -105,6 +115,7 @@ where
             hash_steps: model.output.hash_steps,
             hashing: Hashing::default(),
             output_cursor: None,
+            known_cells: system.mesh.revision,
             memory: Memory::default(),
             tracer: None,
             search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
@@ -286,6 +297,7 @@ where
                 self.memory.take(state);
             }
             if observer.wants_glance() {
+                self.report_cells(observer)?;
                 observer.glance(&self.recorded.snapshot(&self.system));
             }
             let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
@@ -381,8 +393,18 @@ where
         }
     }
 
+    /// Gives the cells to an observer, if they are others than those that it knows.
+    fn report_cells(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+        let revision = self.system.mesh.revision;
+        if std::mem::replace(&mut self.known_cells, revision) == revision {
+            return Ok(());
+        }
+        observer.cells(self.cells()).map_err(output)
+    }
+
     /// Gives the state now to an observer.
-    fn show(&self, observer: &mut dyn Observer) -> Result<(), Error> {
+    fn show(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+        self.report_cells(observer)?;
         observer.show(&self.recorded.snapshot(&self.system)).map_err(output)
     }
 

@@ -1,11 +1,13 @@
 //! The state of a run: handed out as bytes, and taken over by a simulation that is made again of the same
 //! model.
 
-use super::Runs;
 use super::output_cursor::OutputCursor;
 use super::run::Run;
+use super::{Options, Runs};
 use crate::archive::{Archive, ArchiveResult, Persist, Section, persist_each};
 use crate::error::Error;
+use crate::mesh::Mesh;
+use crate::model::Model;
 use crate::tensor::Dim;
 
 /// All that a simulation of the same model needs to continue as if nothing had happened.
@@ -27,7 +29,7 @@ where
         #[rustfmt::skip]
         let Self {
             recorded: _, threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, hash_steps: _, hashing: _, search_names: _, pool: _,
-            memory: _, tracer: _,
+            known_cells: _, memory: _, tracer: _,
             system, momentum, shortest, monitor, output_cursor,
         } = self;
         archive.section("run")?;
@@ -61,19 +63,26 @@ where
     /// # Errors
     /// None that a state which is there can have; what is written is checked as what is read.
     pub(crate) fn state(&mut self) -> Result<State, Error> {
+        let mut sections = self.system.mesh.section()?;
         let mut archive = Archive::new();
         self.persist(&mut archive)?;
-        Ok(State { step: self.steps(), time: self.time(), sections: archive.finish()? })
+        sections.extend(archive.finish()?);
+        Ok(State { step: self.steps(), time: self.time(), sections })
     }
 
-    /// Takes over the state of another one of the same model.
+    /// A run of a model in the state of another one of the same model.
     ///
     /// # Errors
-    /// [`Error::State`] where the state is of another model.
-    pub(crate) fn take_over(&mut self, sections: &[Section]) -> Result<(), Error> {
+    /// Those of [`Run::new`]; [`Error::State`] where the state is of another model.
+    pub(crate) fn resumed(model: &Model, options: &Options, sections: &[Section]) -> Result<Self, Error> {
+        let (mesh, sections) = Mesh::of_state(sections)?;
+        let mut run = Self::on(model, mesh, options)?;
         let mut archive = Archive::of(sections);
-        self.persist(&mut archive)?;
+        run.persist(&mut archive)?;
         archive.finish()?;
-        Ok(())
+        Ok(run)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,8 +1,8 @@
-//! Changes between two steps, by whoever drives the simulation: other velocities, and forces besides those of
-//! the model.
+//! Changes between two steps, by the program that drives the simulation: other velocities, and forces besides
+//! those of the model.
 //!
 //! At the end of step n velocities are known at n − ½ and n + ½. A change Δv at n is added to both: what is
-//! shown at n is what was asked for, as if the steps until then had led to it. The books get the change of
+//! shown at n is what was asked for, as if the steps until then had led to it. The ledger gets the change of
 //! kinetic energy as work from outside, so that they close as without it (what friction and damping take in
 //! the half step that follows is entered by the velocities before). Nodes are named by the user's numbers,
 //! those of frames.

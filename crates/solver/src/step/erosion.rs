@@ -70,8 +70,8 @@ where
         self.gone.get(block).is_some_and(|&gone| gone)
     }
 
-    /// Books the contact springs that surfaces took with them, if they changed in this step; `stored`: what
-    /// springs of the new ones store, J/m.
+    /// Records the energy of the contact springs that surfaces took with them, if they changed in this step;
+    /// `stored`: what springs of the new ones store, J/m.
     pub(crate) fn close_springs(&mut self, stored: impl FnOnce() -> f64) {
         if let Some(before) = self.springs.take() {
             self.energy += before - stored();

@@ -315,7 +315,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 250, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// A rigid body darts about, by up to a metre a step, around, into and through a plate: who sees misses
-    /// nothing, and whoever goes in, by a look at all pairs, is held on the side where it came in; who is
+    /// nothing, and a node that goes in, by a look at all pairs, is held on the side where it came in; who is
     /// blind is reported for each.
     #[test]
     fn a_rigid_body_that_darts_through_a_plate_is_held_wherever_it_goes_in(

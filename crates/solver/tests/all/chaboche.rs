@@ -115,8 +115,8 @@ fn the_flow_rule_holds_and_no_energy_is_lost_in_any_direction() {
         }
     }
     assert!(flowed > 1000);
-    // Work is found in dissipation, elastic energy and backstresses; one step with a large turn may tell zero
-    // instead of less.
+    // Work is found in dissipation, elastic energy and backstresses; one step with a large rotation may show
+    // zero instead of less.
     let mut stored = body.elastic_energy();
     for (alpha, modulus) in body.state.1.0.into_iter().zip(moduli) {
         stored += 0.75 * alpha.contract(alpha) / modulus;

@@ -228,7 +228,7 @@ fn a_run_in_pieces_reports_what_a_whole_one_reports() {
         }
         assert!(turn < 10_000);
     }
-    // Nothing is left to tell, or what is due at the end.
+    // Nothing is left to report, or what is due at the end.
     other.run(&mut pieces).unwrap();
     assert!(whole == pieces, "{} rows and {}, {} numbers of frames and {}", whole.0.len(), pieces.0.len(), whole.1.len(), pieces.1.len());
     let (one, other) = (one.summary(), other.summary());

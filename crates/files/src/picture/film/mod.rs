@@ -23,7 +23,7 @@ use show::Show;
 use std::path::Path;
 use std::sync::Arc;
 pub(super) use stored::gone;
-use stored::{Space, Stored, on_skin};
+use stored::{Space, Stored, on_skin, persist_past};
 
 /// Stored frames may use this much memory.
 const BYTES_MAX: usize = 256 << 20;
@@ -55,6 +55,8 @@ pub struct Film {
     line_reader: LineReader,
     /// Of a film in 3D.
     space: Option<Space>,
+    /// Whether no frame of the present cells was added yet, and others before.
+    has_new_cells: bool,
     stored: Vec<Stored>,
     /// Every `stride`-th frame is kept; and the last.
     stride: usize,
@@ -67,7 +69,20 @@ const SECTION: &str = "film";
 
 impl Persist for Film {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { cells: _, settings: _, bytes_max: _, space: _, scalars, missing, origin, line_reader, stored, stride, added } = self;
+        let Self {
+            cells: _,
+            settings: _,
+            bytes_max: _,
+            space: _,
+            has_new_cells: _,
+            scalars,
+            missing,
+            origin,
+            line_reader,
+            stored,
+            stride,
+            added,
+        } = self;
         // Another choice of colours makes another film.
         let own: Vec<String> = scalars.iter().map(Scalar::label).collect();
         let mut labels = own.clone();
@@ -77,6 +92,7 @@ impl Persist for Film {
         origin.persist(archive)?;
         line_reader.far.persist(archive)?;
         stored.persist(archive)?;
+        persist_past(stored, archive)?;
         stride.persist(archive)?;
         added.persist(archive)
     }
@@ -94,6 +110,7 @@ impl Film {
             origin: None,
             line_reader: LineReader::default(),
             space: None,
+            has_new_cells: false,
             stored: Vec::new(),
             stride: 1,
             added: 0,
@@ -109,7 +126,8 @@ impl Film {
         let mut archive = Archive::of(kept);
         let is_read = archive.section(SECTION).and_then(|()| film.persist(&mut archive)).is_ok() && archive.finish().is_ok();
         let sizes = [frame.nodes(), film.cells.len()];
-        if is_read && film.stored.iter().all(|stored| stored.gone.iter().all(|&cell| (cell as usize) < sizes[1])) {
+        let are_there = |stored: &Stored| stored.past.is_some() || stored.gone.iter().all(|&cell| (cell as usize) < sizes[1]);
+        if is_read && film.stored.iter().all(are_there) {
             film.enter_space(frame);
             film.put_skins_on();
             if film.is_sound(sizes) {
@@ -117,6 +135,14 @@ impl Film {
             }
         }
         Self::new(film.cells, film.settings)
+    }
+
+    /// Frames that are added from here on are of these cells.
+    pub(crate) fn set_cells(&mut self, cells: Cells) {
+        let old = std::mem::replace(&mut self.cells, cells);
+        let past = Arc::new(if self.is_in_3d() { Cells::default() } else { old });
+        self.stored.iter_mut().filter(|stored| stored.past.is_none()).for_each(|stored| stored.past = Some(past.clone()));
+        self.has_new_cells = true;
     }
 
     /// All that it has so far.
@@ -128,7 +154,8 @@ impl Film {
 
     /// Prepares for frames in 3D, if this is one.
     fn enter_space(&mut self, frame: &Frame) {
-        if frame.dimension == 3 && self.space.is_none() {
+        let has_new_cells = std::mem::take(&mut self.has_new_cells);
+        if frame.dimension == 3 && (has_new_cells || self.space.is_none()) {
             let mut space = Space::new(&self.cells, frame);
             space.shapes = self.line_reader.surfaces(frame).iter().map(Shape::of).collect();
             self.space = Some(space);
@@ -138,7 +165,7 @@ impl Film {
     /// Gives stored frames in 3D the skins that they had.
     fn put_skins_on(&mut self) {
         let Some(space) = &mut self.space else { return };
-        for stored in &mut self.stored {
+        for stored in self.stored.iter_mut().filter(|stored| stored.past.is_none()) {
             stored.skin = Some(space.skin(&self.cells, &stored.gone));
         }
     }
@@ -150,9 +177,16 @@ impl Film {
     /// Whether all frames are of so many nodes and cells.
     fn is_sound(&self, [nodes, cells]: [usize; 2]) -> bool {
         let is_sound = |frame: &Stored| {
-            let [numbers, nodes, cells] = match &frame.skin {
-                None => [2 * nodes, nodes, cells],
-                Some(skin) => [3 * skin.nodes.len(), skin.nodes.len(), skin.facets.len() + skin.bars.len()],
+            let [numbers, nodes, cells] = match (&frame.skin, &frame.past) {
+                (None, None) => [2 * nodes, nodes, cells],
+                (None, Some(cells)) => {
+                    let nodes = frame.places::<2>().len();
+                    if cells.nodes.iter().any(|&node| node as usize >= nodes) {
+                        return false;
+                    }
+                    [2 * nodes, nodes, cells.len()]
+                }
+                (Some(skin), _) => [3 * skin.nodes.len(), skin.nodes.len(), skin.facets.len() + skin.bars.len()],
             };
             let sizes = self.scalars.iter().map(|scalar| if scalar.at_nodes() { nodes } else { cells });
             frame.positions.len() == numbers && frame.values.iter().map(Vec::len).eq(sizes) && frame.number < self.added
@@ -204,12 +238,16 @@ impl Film {
         }
     }
 
-    /// Memory of the stored frames, and of the skins that they share.
+    /// Memory of the stored frames, and of the skins and cells that they share.
     fn bytes(&self) -> usize {
         let skin = |k: usize| self.stored[k].skin.as_ref();
         let is_own = |k: &usize| k.checked_sub(1).and_then(skin).zip(skin(*k)).is_none_or(|(a, b)| !Arc::ptr_eq(a, b));
         let skins: usize = (0..self.stored.len()).filter(is_own).filter_map(|k| Some(skin(k)?.bytes())).sum();
-        skins + self.stored.iter().map(Stored::bytes).sum::<usize>()
+        let past = self.stored.iter().filter_map(|stored| stored.past.as_ref());
+        let mut cells: Vec<_> = past.map(|cells| (Arc::as_ptr(cells), cells.bytes())).collect();
+        cells.dedup();
+        let cells: usize = cells.iter().map(|(_, bytes)| bytes).sum();
+        skins + cells + self.stored.iter().map(Stored::bytes).sum::<usize>()
     }
 
     /// Values of a frame; not a number in elements of rigid parts.
@@ -386,6 +424,82 @@ mod tests {
         assert!((0..last.values[0].len()).map(|k| value(last, k)).all(|(value, cell)| value == cell as f32 + 3.0 && cell != 3));
         let empty = Film::recalled(block([2, 2, 2]), settings(), &kept, &frame(2));
         assert!(empty.stored.is_empty(), "that was another film");
+    }
+
+    /// A film whose cells are replaced twice, made in one go, and stopped and continued after each frame: the
+    /// same pictures.
+    fn continues_with_other_cells(cells: [Cells; 3], frames: [&Frame; 3]) {
+        let settings = || FilmSettings { field: "von_mises".into(), width: 300, height: 200, ..FilmSettings::default() };
+        let mut film = Film::new(cells[0].clone(), settings());
+        let mut stopped = film.clone();
+        for (k, (cells, frame)) in cells.iter().zip(frames).enumerate() {
+            for film in [&mut film, &mut stopped].into_iter().filter(|_| k > 0) {
+                film.set_cells(cells.clone());
+            }
+            for time in 0..2 {
+                let frame = Frame { time: (2 * k + time) as f64, ..frame.clone() };
+                film.add(&frame);
+                stopped.add(&frame);
+                let kept = stopped.kept();
+                stopped = Film::recalled(cells.clone(), settings(), &kept, &frame);
+                assert_eq!(stopped.stored.len(), 2 * k + time + 1, "nothing is lost");
+            }
+        }
+        assert_eq!(film.bytes(), stopped.bytes(), "what frames share is there once");
+        let folder = tempfile::tempdir().unwrap();
+        let made = [(&film, "film"), (&stopped, "stopped")].map(|(film, name)| {
+            let folder = folder.path().join(name);
+            std::fs::create_dir(&folder).unwrap();
+            film.finish(&folder, &Threads::new(1)).unwrap();
+            ["animation.gif", "final.png"].map(|file| std::fs::read(folder.join(file)).unwrap())
+        });
+        assert!(made[0] == made[1] && made[0][0].len() > 1000);
+        // Damage that no check sum finds.
+        let mut kept = stopped.kept();
+        for at in (0..kept[0].bytes.len()).step_by(13) {
+            kept[0].bytes[at] ^= 0x10;
+            let film = Film::recalled(cells[2].clone(), settings(), &kept, frames[2]);
+            assert!(film.stored.len() <= 6);
+            kept[0].bytes[at] ^= 0x10;
+        }
+    }
+
+    fn of_values(cells: &Cells, frame: Frame) -> Frame {
+        let values = (0..cells.len()).map(|cell| cell as f64).collect();
+        Frame { fields: vec![Field { kind: field_kind("von_mises").unwrap(), values }], ..frame }
+    }
+
+    #[test]
+    fn a_film_of_3d_whose_cells_are_replaced_continues_from_what_was_kept() {
+        let sizes = [[2, 2, 2], [3, 3, 2], [4, 2, 5]];
+        let cells = sizes.map(block);
+        let frames = [0, 1, 2].map(|k| {
+            let [nx, ny, nz] = sizes[k].map(|n| n + 1);
+            let place = |node: u32| [f64::from(node % nx) / f64::from(nx - 1), f64::from(node / nx % ny), f64::from(node / (nx * ny))];
+            of_values(&cells[k], Frame::of(&(0..nx * ny * nz).map(place).collect::<Vec<_>>()))
+        });
+        continues_with_other_cells(cells, frames.each_ref());
+    }
+
+    #[test]
+    fn a_film_of_2d_whose_cells_are_replaced_continues_from_what_was_kept() {
+        let sizes = [[2, 2], [3, 4], [6, 5]];
+        let cells = sizes.map(|[nx, ny]: [u32; 2]| {
+            let mut cells = Cells { offsets: vec![0], part_names: vec!["plate".into()], ..Cells::default() };
+            for first in (0..ny).flat_map(|j| (0..nx).map(move |i| i + (nx + 1) * j)) {
+                cells.nodes.extend([first, first + 1, first + nx + 2, first + nx + 1]);
+                cells.offsets.push(cells.nodes.len() as u32);
+                cells.kinds.push(embate_solver::output::CellKind::Quadrilateral);
+                cells.parts.push(0);
+            }
+            cells
+        });
+        let frames = [0, 1, 2].map(|k| {
+            let [nx, ny] = sizes[k].map(|n| n + 1);
+            let place = |node: u32| [f64::from(node % nx) / f64::from(nx - 1), f64::from(node / nx) / f64::from(ny - 1)];
+            of_values(&cells[k], Frame::of(&(0..nx * ny).map(place).collect::<Vec<_>>()))
+        });
+        continues_with_other_cells(cells, frames.each_ref());
     }
 
     #[test]

@@ -147,7 +147,7 @@ impl Film {
         extent(frame.places::<D>().iter(), 0.0).map(|corner| std::array::from_fn(|k| corner[k] + origin[k]))
     }
 
-    /// `t = 3.10 ms` for each stored frame, with the decimals that tell them apart.
+    /// `t = 3.10 ms` for each stored frame, with as many decimals as distinguish them.
     pub(super) fn notes(&self) -> Vec<String> {
         let last = self.stored.iter().map(|frame| frame.time.abs()).filter(|t| t.is_finite()).fold(0.0, f64::max);
         let unit = unit("s", last);

@@ -48,8 +48,9 @@ impl Film {
         };
         match (stage, &frame.skin) {
             (Stage::Plane(scene), _) => {
-                // The cells of a frame, where some are gone.
-                let left = (!frame.gone.is_empty()).then(|| Mesh::without(&self.cells, &frame.gone));
+                // The cells of a frame, where some are gone or they are others.
+                let is_own = frame.past.is_some() || !frame.gone.is_empty();
+                let left = is_own.then(|| Mesh::without(frame.past.as_deref().unwrap_or(&self.cells), &frame.gone));
                 let [x, y, _] = self.origin();
                 let moment = scene::Moment { positions: frame.places(), origin: [x, y], obstacles: &frame.obstacles, values, note };
                 scene.draw(left.as_ref().unwrap_or(mesh), &moment, canvas);

@@ -21,6 +21,8 @@ pub(super) struct Stored {
     pub(super) surfaces: Vec<Vec<[f64; 3]>>,
     /// In 3D: what is seen of the cells.
     pub(super) skin: Option<Arc<Skin>>,
+    /// Its cells, where they are no more those of the film: in 3D none, the skin is enough.
+    pub(super) past: Option<Arc<Cells>>,
     /// One list per scalar: of nodes or cells, in 3D of the skin's nodes, or facets and bars.
     pub(super) values: Vec<Vec<f32>>,
 }
@@ -42,8 +44,8 @@ impl Stored {
 
 impl Persist for Stored {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        // The skin follows from the cells that are gone.
-        let Self { number, time, positions, gone, obstacles, surfaces, skin: _, values } = self;
+        // The skin follows from the cells that are gone; the film has cells and skins of the past.
+        let Self { number, time, positions, gone, obstacles, surfaces, skin: _, past: _, values } = self;
         number.persist(archive)?;
         time.persist(archive)?;
         positions.persist(archive)?;
@@ -55,6 +57,39 @@ impl Persist for Stored {
         surfaces.persist(archive)?;
         values.persist(archive)
     }
+}
+
+/// Cells or skins of the frames of a film that are no more those of its present cells: each as often as it
+/// serves frames that follow each other, and once.
+pub(super) fn persist_past(stored: &mut [Stored], archive: &mut Archive<'_>) -> ArchiveResult {
+    let mut last: Option<Stored> = None;
+    for frame in stored {
+        let mut is_past = frame.past.is_some();
+        is_past.persist(archive)?;
+        if !is_past {
+            continue;
+        }
+        let is_same = |last: &Stored| {
+            let same_cells = last.past.as_ref().zip(frame.past.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b));
+            same_cells && last.skin.as_ref().zip(frame.skin.as_ref()).is_none_or(|(a, b)| Arc::ptr_eq(a, b))
+        };
+        let mut is_shared = last.as_ref().is_some_and(is_same);
+        is_shared.persist(archive)?;
+        if is_shared {
+            archive.check(last.is_some(), "a frame has cells of none before it")?;
+            (frame.past, frame.skin) = last.as_ref().map(|last| (last.past.clone(), last.skin.clone())).unwrap_or_default();
+        } else {
+            let mut cells = frame.past.as_deref().cloned().unwrap_or_default();
+            let mut skin = frame.skin.as_deref().cloned();
+            cells.persist(archive)?;
+            skin.persist(archive)?;
+            if archive.reads() {
+                (frame.past, frame.skin) = (Some(Arc::new(cells)), skin.map(Arc::new));
+            }
+        }
+        last = Some(Stored { past: frame.past.clone(), skin: frame.skin.clone(), ..Stored::default() });
+    }
+    Ok(())
 }
 
 /// Cells that were eroded, ascending.

@@ -247,7 +247,7 @@ impl Samples {
         }
     }
 
-    /// Mean of the samples of a pixel before what is behind.
+    /// Mean of the samples of a pixel in front of the background.
     fn mean(&self, obstacles: Option<&Self>, [x, y]: [usize; 2], behind: Rgb) -> Rgb {
         let mut sums = [0.0f32; 3];
         for row in FINE * y..FINE * (y + 1) {

@@ -4,6 +4,7 @@
 
 use super::sides::{NONE, Sides, corners, is_sound, sides_of};
 use crate::outline::{cross, dot};
+use embate_solver::archive::{Archive, ArchiveResult, Persist};
 use embate_solver::output::{CellKind, Cells};
 
 /// A triangle, which repeats its last corner, or a quadrilateral; outward by the right-hand rule.
@@ -159,6 +160,11 @@ impl Skin {
         for corner in facets.iter_mut().flat_map(|facet| &mut facet.corners).chain(bars.iter_mut().flat_map(|bar| &mut bar.nodes)) {
             *corner = own[*corner as usize];
         }
+        Self::with(nodes, facets, bars)
+    }
+
+    /// Facets and bars of places in `nodes`.
+    fn with(nodes: Vec<u32>, facets: Vec<Facet>, bars: Vec<Bar>) -> Self {
         let edges = edges(&facets);
         let (starts, around) = around(&facets, nodes.len());
         Self { nodes, facets, bars, edges, starts, around }
@@ -175,6 +181,27 @@ impl Skin {
     /// The facets that have a node.
     pub(super) fn around(&self, node: u32) -> &[u32] {
         &self.around[self.starts[node as usize] as usize..self.starts[node as usize + 1] as usize]
+    }
+}
+
+impl Persist for Skin {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        // Edges and what is around a node follow from the facets.
+        let Self { nodes, facets, bars, edges: _, starts: _, around: _ } = self;
+        let mut corners: Vec<_> = facets.iter().map(|facet| (facet.corners, [facet.part, facet.cell])).collect();
+        let mut ends: Vec<_> = bars.iter().map(|bar| (bar.nodes, [bar.part, bar.cell])).collect();
+        nodes.persist(archive)?;
+        corners.persist(archive)?;
+        ends.persist(archive)?;
+        let is_there = |&place: &u32| (place as usize) < nodes.len();
+        let is_sound = corners.iter().flat_map(|(corners, _)| corners).chain(ends.iter().flat_map(|(ends, _)| ends)).all(is_there);
+        archive.check(is_sound, "a skin has nodes that are not there")?;
+        if archive.reads() {
+            let facets = corners.into_iter().map(|(corners, [part, cell])| Facet { corners, part, cell }).collect();
+            let bars = ends.into_iter().map(|(nodes, [part, cell])| Bar { nodes, part, cell }).collect();
+            *self = Self::with(std::mem::take(nodes), facets, bars);
+        }
+        Ok(())
     }
 }
 

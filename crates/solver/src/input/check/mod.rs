@@ -1,8 +1,8 @@
 //! Everything that can be reported about a model before it is meshed: numbers, names, references,
 //! contradictions.
 //!
-//! Data comes from [`Model`], whoever made it; ranges come from [`sections`] and the registries, so that they
-//! stand in one place. All faults are returned at once, each with the path of its key. Parts are in
+//! Data comes from [`Model`], however it was made; ranges come from [`sections`] and the registries, so that
+//! they stand in one place. All faults are returned at once, each with the path of its key. Parts are in
 //! `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`. What is no
 //! fault and should be known all the same is in `warnings.rs`.
 

@@ -405,7 +405,7 @@ fn made_of(kind: CellKind) -> String {
 const BYTES_PER_ELEMENT: f64 = 600.0;
 
 impl Model {
-    /// Number of elements of a part; about, where a shape can't tell it.
+    /// Number of elements of a part; an estimate, where a shape doesn't know it.
     #[must_use]
     pub fn element_count(&self, part: &Part) -> u128 {
         let Shape::Group { mesh, group } = &part.shape else { return part.count().map_or(0, |count| count.elements as u128) };

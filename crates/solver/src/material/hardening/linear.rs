@@ -2,7 +2,7 @@
 //!
 //! H is the plastic modulus dσ_y/dε_p, not the tangent modulus E_t = E H / (E + H). With H < 0 the flow
 //! stress falls to zero, at ε_p = σ_y0 / |H|, and stays there: a flow stress below zero would give energy to
-//! whoever strains the material. What is left bears pressure, and no shear.
+//! what strains the material. What is left bears pressure, and no shear.
 
 use super::super::{DENSITY, LawKind, POISSON, Parameters, YOUNG};
 use super::{Flow, Hardening, RATE_EXPONENT, RATE_REFERENCE, YIELD};

@@ -14,6 +14,7 @@ pub use space::{SpaceSurface, SurfaceEdge};
 
 use super::Meshed;
 use super::cell::Cell;
+use crate::archive::Persist;
 use crate::error::Fault;
 use crate::mesh::messages::NOT_A_SURFACE;
 use std::collections::BTreeMap;
@@ -30,7 +31,7 @@ pub type Facet<const D: usize> = <super::Dim<D> as Meshed<D>>::Facet;
 pub type Surface<const D: usize> = <super::Dim<D> as Meshed<D>>::Surface;
 
 /// What all pieces of an outside have: their nodes.
-pub trait Corners: Copy + Debug + Ord + Send + Sync + 'static {
+pub trait Corners: Copy + Debug + Default + Ord + Persist + Send + Sync + 'static {
     /// Its nodes, each once.
     fn corners(&self) -> &[u32];
 

@@ -44,7 +44,7 @@ pub struct SpaceSurface {
 
 impl SpaceSurface {
     /// The same with the symmetry planes at which it ends: `normals_of` gives the unit normals of the planes
-    /// that both nodes of an edge lie on, `positions` (m) tell on which side the body is.
+    /// that both nodes of an edge lie on, `positions` (m) show on which side the body is.
     #[must_use]
     pub fn with_mirrors<I: IntoIterator<Item = [f64; 3]>>(self, normals_of: impl Fn([u32; 2]) -> I, positions: &[[f64; 3]]) -> Self {
         let at = |node: u32| positions[node as usize];

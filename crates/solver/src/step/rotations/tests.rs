@@ -185,7 +185,7 @@ fn framed<const D: usize>(model: &Model, lines: &[[[f64; D]; 2]]) -> System<D>
 where
     Dim<D>: Beam<D>,
 {
-    let (mut system, _) = build::system::<D>(model, Level::best(), 1).unwrap();
+    let (mut system, _) = build::system::<D>(model, None, Level::best(), 1).unwrap();
     system.blocks.push(Box::new(Frame::new(&system.mesh.positions, lines)));
     system.rigid.push(false);
     system.reports.push(Report::NOTHING);
@@ -489,7 +489,8 @@ fn damping_of_mass_slows_spins_as_it_slows_velocities() {
 
 #[test]
 fn a_model_without_such_elements_has_no_rotations() {
-    let system =
-        build::system::<2>(&model(vec![bars("frame", Truss { lines: vec![BENT.to_vec()], elements: 1 })]), Level::best(), 1).unwrap().0;
+    let system = build::system::<2>(&model(vec![bars("frame", Truss { lines: vec![BENT.to_vec()], elements: 1 })]), None, Level::best(), 1)
+        .unwrap()
+        .0;
     assert!(system.rotations.now.is_empty() && system.rotations.slots.is_empty() && system.rotations.momenta().next().is_none());
 }

@@ -1,4 +1,4 @@
-// Requests to the server: never more than two at a time, the more urgent first. Tells when the server does
+// Requests to the server: never more than two at a time, the more urgent first. Reports when the server does
 // not answer, and tries until it does. Frames, histories and everything else of the page come through here.
 
 import type { ServerError } from "../types";

@@ -1,5 +1,5 @@
 // Contact forces as arrows from their nodes. The length goes with the square root of the force; the largest
-// force so far is an eighth of the picture's height. In space what lies behind bodies shines through faintly.
+// force so far is an eighth of the picture's height. In 3D what lies behind bodies shines through faintly.
 
 import { type BufferGeometry, GreaterDepth, type RawShaderMaterial, Vector4 } from "three";
 import type { Frame } from "../types";

@@ -1,0 +1,98 @@
+//! The mesh of a run whose cells are not those of its model any more, in an archive. The model gives all
+//! other meshes.
+
+use super::cell::CellKind;
+use super::surface::Corners;
+use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh};
+use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, Section, persist_all, persist_each};
+
+/// The section of the state that has it.
+const SECTION: &str = "mesh";
+
+impl Persist for CellKind {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let mut number = Self::ALL.iter().position(|kind| kind == self).unwrap_or_default();
+        number.persist(archive)?;
+        *self = *Self::ALL.get(number).ok_or_else(|| ArchiveError::new("unknown kind of cell"))?;
+        Ok(())
+    }
+}
+
+persist_all!(PartMesh { name, nodes });
+
+impl Persist for ElementGroup {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        // The state of erosion has the elements that are gone.
+        let Self { part, kind, connectivity, user_elements, eroded: _ } = self;
+        persist_each!(archive; part, kind, connectivity, user_elements);
+        Ok(())
+    }
+}
+
+impl<const D: usize> Persist for Mesh<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Self { positions, parts, groups, user_nodes, imported, revision, outlines, sides, points } = self;
+        let mut coordinates = std::mem::take(positions).into_flattened();
+        coordinates.persist(archive)?;
+        *positions = coordinates.as_chunks().0.to_vec();
+        persist_each!(archive; parts, groups, user_nodes, imported, revision, outlines, sides, points);
+        archive.check(self.is_sound(), "the mesh refers to nodes or parts that are not there")
+    }
+}
+
+impl<const D: usize> Mesh<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    /// The mesh as a section of a state; nothing where it is that of the model.
+    pub(crate) fn section(&mut self) -> Result<Vec<Section>, ArchiveError> {
+        if self.revision == 0 {
+            return Ok(Vec::new());
+        }
+        let mut archive = Archive::new();
+        archive.section(SECTION)?;
+        self.persist(&mut archive)?;
+        archive.finish()
+    }
+
+    /// The mesh that a state begins with, unless it is that of the model, and the sections after it.
+    pub(crate) fn of_state(sections: &[Section]) -> Result<(Option<Self>, &[Section]), ArchiveError> {
+        let Some((first, rest)) = sections.split_first().filter(|(first, _)| first.name == SECTION) else {
+            return Ok((None, sections));
+        };
+        let (mut archive, mut mesh) = (Archive::of(std::slice::from_ref(first)), Self::default());
+        archive.section(SECTION)?;
+        mesh.persist(&mut archive)?;
+        archive.finish()?;
+        Ok((Some(mesh), rest))
+    }
+
+    /// Whether all indices are those of something that is there, and each number of the user is given once.
+    fn is_sound(&self) -> bool {
+        let (nodes, parts) = (self.positions.len(), self.parts.len());
+        let are_nodes = |all: &[u32]| all.iter().all(|&node| (node as usize) < nodes);
+        let of_group = |group: &ElementGroup| {
+            group.part < parts && group.connectivity.len() == group.kind.nodes() * group.elements() && are_nodes(&group.connectivity)
+        };
+        let is_numbered = |part: usize| is_permutation(self.groups_of(part).flat_map(|group| &group.user_elements), self.elements_of(part));
+        self.parts.iter().all(|part| are_nodes(&part.nodes))
+            && self.groups.iter().all(of_group)
+            && (0..parts).all(is_numbered)
+            && is_permutation(&self.user_nodes, nodes)
+            && self.imported.iter().flatten().all(|&node| node == u32::MAX || (node as usize) < nodes)
+            && self.outlines.len() == nodes
+            && self.sides.values().flatten().all(|facet| are_nodes(facet.corners()))
+            && self.points.values().all(|points| are_nodes(points))
+    }
+}
+
+/// Whether numbers are those from 0 to below `count`, each once.
+fn is_permutation<'a>(numbers: impl IntoIterator<Item = &'a u32>, count: usize) -> bool {
+    let mut is_there = vec![false; count];
+    let is_new = |&number: &u32| is_there.get_mut(number as usize).is_some_and(|is_there| !std::mem::replace(is_there, true));
+    let found = numbers.into_iter().map(is_new).try_fold(0, |found, is_new| is_new.then_some(found + 1));
+    found == Some(count)
+}

@@ -1,6 +1,7 @@
-"""Checks that comments in sources are no wider than pages: `comments.py [--wrap] [FILE...]`; without files, all.
+"""Checks comments in sources as pages are, for their width and words: `comments.py [--wrap] [FILE...]`; without
+files, all.
 
-Comments that fill their lines (Rust, TypeScript, JavaScript) are read as the text of a page. With --wrap those
+Comments that fill their lines (Rust, TypeScript, JavaScript) are read as the text of a page, without code in them. With --wrap those
 that are too wide are wrapped first; code, tables and drawings in them stay as they are.
 """
 
@@ -43,12 +44,26 @@ def wrap(text: str) -> str:
     return "\n".join(made)
 
 
+def unused(name: str, text: str, words: dict[str, re.Pattern[str]]) -> list[str]:
+    """Those of the words that comments of a source have, with file and line."""
+    faults, first = [], 1
+    for prefix, lines in runs(text.split("\n")):
+        if prefix is not None:
+            plain = style.CODE.sub("``", "\n".join(line[len(prefix) :] for line in lines))
+            for word, pattern in words.items():
+                at = [first + plain.count("\n", 0, hit.start()) for hit in pattern.finditer(plain)]
+                faults += [f"{name}:{number}: \"{word}\" is not used here: docs/style.md" for number in at]
+        first += len(lines)
+    return faults
+
+
 def main(arguments: list[str]) -> int:
     names = [name for name in arguments if not name.startswith("--")]
     if not names:
         listed = subprocess.run(["git", "ls-files"], cwd=style.ROOT, check=True, stdout=subprocess.PIPE, text=True)
         names = [name for name in listed.stdout.splitlines() if name.endswith(SUFFIXES) and "/bundle/" not in name]
-    wide = 0
+    faults = []
+    words = {word: pattern for word, pattern in style.unused_words().items() if word not in style.GEOMETRY}
     for name in names:
         path = style.ROOT / name
         text = path.read_text(encoding="utf-8")
@@ -61,10 +76,12 @@ def main(arguments: list[str]) -> int:
             comment = COMMENT.match(line)
             # What can't be broken, such as an address, is as wide as it is.
             if comment and len(line) > style.WIDTH and " " in (comment[2] or "").strip():
-                print(f"error: {name}:{number}: wider than {style.WIDTH} columns; docs/comments.py --wrap {name}")
-                wide += 1
-    print(f"{len(names)} sources; {wide} comments that are too wide")
-    return 1 if wide else 0
+                faults.append(f"{name}:{number}: wider than {style.WIDTH} columns; docs/comments.py --wrap {name}")
+        faults += unused(name, text, words)
+    for fault in faults:
+        print(f"error: {fault}")
+    print(f"{len(names)} sources; {len(faults)} faults of comments")
+    return 1 if faults else 0
 
 
 if __name__ == "__main__":

@@ -123,7 +123,7 @@ pub(crate) fn record<'a>(
         && !matches!(error, Error::Output(_) | Error::State(_))
         && !interrupt.is_pressed()
     {
-        of(&display).say("the run failed; going once more to its last steps, to see how it came (Ctrl-C: not)");
+        of(&display).say("the run failed; its last steps are repeated to find the cause (Ctrl-C skips this)");
         reported_late = look_into(&recording, simulation, error, &interrupt, &mut recorder);
     }
     let outcome = recorder.finish(ran.as_ref().err().map(Error::with_code), &simulation.summary(), cpu::user_seconds);

@@ -10,7 +10,7 @@
 //! Where √(⟨−F⟩² + T²) / area exceeds the strength the tie is gone for good; pressing does not break it. What
 //! was stored in pulling and in slip is lost, and reported to the ledger. Nodes that are free, and those
 //! whose ties are gone, are in ordinary contact with the same surface. What differs between 2D and 3D is
-//! [`Bindable`].
+//! the trait `Bindable`.
 
 use super::checked::Checked;
 use super::formulation::{FormulationKind, Setup, Surfaces, one_pass};

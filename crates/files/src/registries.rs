@@ -86,7 +86,10 @@ pub fn registries() -> Vec<Registry> {
         entry
     });
     let searches = contact::search::registry::<2>().into_iter().map(|search| Entry::new(search.name, search.doc, search.source));
-    let formulations = contact::formulation::FORMULATIONS.iter().map(|kind| Entry::new(kind.name, kind.doc, kind.source));
+    let formulations = contact::formulation::FORMULATIONS.iter().map(|kind| {
+        let dimensions: Vec<String> = kind.dimensions().iter().map(|dimension| format!("{dimension}D")).collect();
+        Entry::new(kind.name, &format!("{} ({})", kind.doc, dimensions.join(", ")), kind.source)
+    });
     let laws = contact::law::LAWS.iter().map(|law| Entry::new(law.name, law.doc, law.source).with(law.parameters, "optional"));
     let fields = output::FIELDS.iter().map(|kind| Entry { rows: vec![field(kind)], ..Entry::new(kind.name, kind.doc, "") });
     let registry = |name, doc, title, keys, entries| Registry { name, doc, title, keys, entries };

@@ -16,11 +16,10 @@ mod obstacles;
 mod outline;
 pub(crate) mod plane;
 mod space;
-mod space_contact;
-mod space_pinball;
-mod space_start;
+mod space_obstacles;
 mod stages;
 mod start;
+mod surfaces;
 mod triangles;
 
 use crate::contact::initial::is_ignored;

@@ -1,10 +1,12 @@
 //! Contacts and obstacles of a model, in 2D and 3D: made at the start, and given new surfaces after erosion.
 
-use super::{Builder, Builds, search_by_name, terms_of};
-use crate::contact::formulation::{self, FormulationKind};
+use super::{Builder, Builds, law_of, search_by_name, terms_of, terms_of_ties};
+use crate::contact::formulation::{self, FormulationKind, Setup, Side, Surfaces};
 use crate::contact::search::SearchKind;
-use crate::contact::{Contact, ContactKind};
+use crate::contact::{Contact, ContactKind, Formulation};
 use crate::error::Fault;
+use crate::mesh::surface::Sided;
+use crate::mesh::surface::tributary::Depth;
 use crate::model;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::tensor::Dim;
@@ -26,7 +28,7 @@ where
         let mut contacts = Vec::new();
         let mut tied = BTreeMap::new();
         for (i, contact) in self.model.contacts.iter().enumerate() {
-            match <Dim<D>>::formulation(self, contact, outlines) {
+            match self.formulation(contact, outlines) {
                 Ok((formulation, terms)) => {
                     let made = Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active);
                     if let Some(ties) = made.ties() {
@@ -38,6 +40,38 @@ where
             }
         }
         contacts
+    }
+
+    /// What makes the springs of a contact, and the number of the terms that they follow. Faults have paths
+    /// relative to the contact.
+    fn formulation(
+        &mut self,
+        contact: &model::Contact,
+        outlines: &<Dim<D> as Builds<D>>::Outlines,
+    ) -> Result<(Box<dyn Formulation<D>>, usize), Vec<Fault>> {
+        let (kind, search) = (kind_of(contact)?, search_of::<D>(contact)?);
+        let Some(make) = <Dim<D>>::maker(kind) else { return Err(kind.refusal(D).into_iter().collect()) };
+        let terms = self.add_terms(terms_of(&contact.interface));
+        let tie_terms = if contact.tied.is_some() { self.add_terms(terms_of_ties(&contact.interface)) } else { terms };
+        let surfaces = self.surfaces_of(contact)?;
+        let sides: Vec<Side<'_, D>> = surfaces.into_iter().map(|surface| self.side(surface, &contact.interface)).collect();
+        let mirrors = self.mirrors_of(contact, sides[0].surface.target.nodes(), &sides[0].nodes);
+        let overlap_check = <Dim<D>>::overlap_check(self, contact, &sides, outlines).map_err(|fault| vec![fault])?;
+        let setup = Setup {
+            contact,
+            sides,
+            passes: (kind.passes)(contact),
+            bodies: &self.body_of_node,
+            positions: &self.mesh.positions,
+            depth: Depth::of(self.model),
+            law: &|| law_of(&contact.interface),
+            tie_terms,
+            search: &|| (search.make)(),
+            overlap_check,
+            rebuild: self.rebuild,
+        };
+        let made = make(setup).map_err(|fault| vec![fault])?;
+        Ok((self.with_images(made, mirrors, contact), terms))
     }
 
     fn obstacles(&mut self, outlines: &<Dim<D> as Builds<D>>::Outlines) -> Vec<Contact<D>> {
@@ -60,7 +94,7 @@ where
         let outlines = <Dim<D>>::outlines(self);
         let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());
         for (model, contact) in self.model.contacts.iter().zip(between) {
-            match <Dim<D>>::formulation(self, model, &outlines) {
+            match self.formulation(model, &outlines) {
                 Ok((formulation, _)) => contact.renew(formulation),
                 Err(_) => contact.end(),
             }

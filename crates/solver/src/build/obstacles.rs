@@ -1,17 +1,17 @@
 //! Obstacles: their rigid bodies, their shapes, and the nodes that meet them.
 
-use super::plane::Outlined;
 use super::{Builder, manner, search_by_name, stiffness_of, terms_of};
 use crate::contact::depths::Depths;
-use crate::contact::formulation::Side;
+use crate::contact::formulation::{ContactSurface, Side};
 use crate::contact::messages::OBSTACLE;
-use crate::contact::node_segment::{NodeSegment, Slave};
+use crate::contact::node_segment::NodeSegment;
 use crate::contact::obstacle::behind::Thick;
 use crate::contact::obstacle::circle::{Circle, RoundSegments};
 use crate::contact::obstacle::plane::Plane;
 use crate::contact::obstacle::{Both, Manner, NodeObstacle, OutlineShape, Shape};
 use crate::contact::outline::{Outlines, Sides};
 use crate::contact::projection::node_segment::Target;
+use crate::contact::slaves::Slave;
 use crate::contact::tracker::{SKIN, Tracker};
 use crate::contact::{self, Formulation, Tributary, Vector, initial, law, length};
 use crate::error::Fault;
@@ -25,7 +25,7 @@ use std::f64::consts::TAU;
 
 /// The outside of the bodies that an obstacle stops.
 struct Met<'a> {
-    outline: Outlined,
+    outline: ContactSurface<2>,
     /// What each of its nodes stands for.
     own: Vec<Tributary>,
     /// Mean over the nodes.
@@ -44,7 +44,7 @@ impl Met<'_> {
     fn point(&self, obstacle: &Obstacle) -> Slave {
         let own = self.mean;
         let here = law::Node { own, other: own.stiffness, share: 1.0 };
-        Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0, of_mass: 0.0 }
+        Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, of_mass: 0.0 }
     }
 
     /// Whether a body is one of those that it meets.
@@ -74,13 +74,13 @@ impl Builder<'_, 2> {
     }
 
     /// The outside of the parts that an obstacle stops.
-    pub(super) fn outline_met(&self, obstacle: &Obstacle) -> Result<Outlined, Fault> {
-        let outline = self.outlined(|leave_out| self.mesh.outside_without(&obstacle.parts, leave_out), "the outside of these parts");
+    pub(super) fn outline_met(&self, obstacle: &Obstacle) -> Result<ContactSurface<2>, Fault> {
+        let outline = self.surface(|leave_out| self.mesh.outside_without(&obstacle.parts, leave_out), "the outside of these parts");
         outline.map_err(|fault| Fault { path: ".parts".into(), ..fault })
     }
 
     fn met<'a>(&self, obstacle: &Obstacle, reach: f64, outlines: &'a Outlines) -> Result<Met<'a>, Fault> {
-        let Side { target, lids, nodes: own, .. } = self.side(self.outline_met(obstacle)?, &obstacle.interface);
+        let Side { surface: ContactSurface { target, lids }, nodes: own, .. } = self.side(self.outline_met(obstacle)?, &obstacle.interface);
         let count = own.len().max(1) as f64;
         let mean = |of: fn(&Tributary) -> f64| own.iter().map(of).fold(0.0, |sum, it| sum + it) / count;
         let mean = Tributary { area: mean(|it| it.area), length: mean(|it| it.length), stiffness: mean(|it| it.stiffness), of_mass: 0.0 };
@@ -88,7 +88,7 @@ impl Builder<'_, 2> {
         let mut bodies: Vec<u32> = target.surface.nodes.iter().map(|&node| self.body_of_node[node as usize]).collect();
         bodies.sort_unstable();
         bodies.dedup();
-        Ok(Met { outline: Outlined { target, lids }, own, mean, longest, reach, bodies, outlines })
+        Ok(Met { outline: ContactSurface { target, lids }, own, mean, longest, reach, bodies, outlines })
     }
 
     /// The body of an obstacle, and what makes springs at it.
@@ -184,7 +184,7 @@ impl Builder<'_, 2> {
         let passes = if lines.iter().sum::<f64>() <= lines.len() as f64 * met.mean.length { 2 } else { 1 };
         let slave = |own: Tributary, share: f64| {
             let here = law::Node { own, other: own.stiffness, share };
-            Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: own.area / passes as f64, slip: 0.0, of_mass: 0.0 }
+            Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: own.area / passes as f64, of_mass: 0.0 }
         };
         let of_parts = met.outline.target.surface.nodes.iter().zip(&met.own).map(|(&node, &own)| slave(own, self.constraints.share(node)));
         let of_corners = contact::tributaries(&surface, &vec![met.mean.stiffness; lines.len()], &self.positions, Depth::of(self.model));
@@ -205,7 +205,7 @@ impl Builder<'_, 2> {
     }
 
     /// Follows the outside of the parts and a surface of the obstacle.
-    pub(super) fn tracker(&self, parts: Outlined, obstacle: Target, passes: &[(usize, usize)], positions: &[Vector]) -> Tracker {
+    pub(super) fn tracker(&self, parts: ContactSurface<2>, obstacle: Target, passes: &[(usize, usize)], positions: &[Vector]) -> Tracker {
         let search = (search_by_name("").expect("the registry of searches is not empty").make)();
         Tracker::new(vec![parts.target, obstacle], passes, search, positions).with_bodies(&self.body_of_node, &[parts.lids, Vec::new()])
     }
@@ -247,7 +247,7 @@ impl Builder<'_, 2> {
     ) -> NodeObstacle {
         let slave = |(&node, &own): (&u32, &Tributary)| {
             let here = law::Node { own, other: own.stiffness, share: self.constraints.share(node) };
-            let slave = Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, slip: 0.0, of_mass: 0.0 };
+            let slave = Slave { stiffness: stiffness_of(&obstacle.interface, here, 1), area: own.area, of_mass: 0.0 };
             (!left_out(node)).then_some((node, slave))
         };
         let nodes = met.outline.target.surface.nodes.iter().zip(&met.own).filter_map(slave).collect();

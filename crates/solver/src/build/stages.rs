@@ -110,7 +110,7 @@ where
     /// Penetrations at the start are resolved, in the mesh, or faults.
     pub(super) fn start(&mut self) -> Result<Start<D>, Vec<Fault>> {
         let outside = self.outside(self.touches());
-        let penetrations = <Dim<D>>::resolve_initial_penetration(self);
+        let penetrations = self.resolve_initial_penetration();
         self.sound(Start { outside, penetrations })
     }
 

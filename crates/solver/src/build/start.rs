@@ -1,107 +1,121 @@
 //! Penetrations at the start, found before anything is strained: refused, ignored, or pushed out.
 
-use super::obstacles::{chain, circle, distinct, plane, points_only};
-use super::plane::Outlined;
-use super::{Builder, search_by_name};
-use crate::contact::formulation::{self, Passes};
-use crate::contact::initial::{self, Inside, Movable, Penetration};
-use crate::contact::obstacle::{ContactHistory, Shape, Way};
-use crate::contact::projection::node_segment::Target;
-use crate::contact::search::Search;
-use crate::contact::tracker::Tracker;
-use crate::contact::{Vector, length};
+mod plane;
+mod space;
+
+use super::contacts::search_of;
+use super::{Builder, Builds};
+use crate::contact::formulation::{self, Surfaces};
+use crate::contact::initial::{self, Look, Movable, Penetration};
+use crate::contact::node_facet::make::meets_edges;
 use crate::error::Fault;
-use crate::mesh::surface::Surface;
-use crate::model::{InitialPenetration, Interface, Obstacle, ObstacleShape};
-use crate::vector::{first, unit};
+use crate::model::{self, InitialPenetration};
+use crate::tensor::Dim;
 
 /// Rounds over all contacts and obstacles: what is pushed out of one may come into another.
-pub(super) const ROUNDS: usize = 20;
+const ROUNDS: usize = 20;
 
-/// A contact, or an obstacle made of nodes and segments, with what decides whether it penetrates.
-struct Meeting {
-    /// Index of the contact; `None`: of an obstacle.
-    contact: Option<usize>,
-    tracker: Tracker,
-    /// Distance that its surfaces keep, m.
-    thickness: f64,
-    /// Nodes of the obstacle, m.
-    points: Vec<Vector>,
+/// What nodes are pushed out of.
+pub enum Meeting<const D: usize>
+where
+    Dim<D>: Builds<D>,
+{
+    /// Other surfaces: those of a contact, or of an obstacle that is made of facets.
+    Surfaces {
+        /// Number of the contact; `None`: of an obstacle.
+        contact: Option<usize>,
+        /// Finds what is inside.
+        look: Look<D>,
+        /// Nodes of the obstacle, which follow those of the model, m.
+        points: Vec<[f64; D]>,
+    },
+    /// An obstacle with a shape.
+    Shape {
+        /// Nodes that it may press.
+        nodes: Vec<u32>,
+        /// Where they are with respect to it.
+        distance: Distance<D>,
+    },
 }
 
-impl Builder<'_, 2> {
-    /// Penetrations at the start: faults, or lines for the overview. Those that shall be pushed out are, in
-    /// the mesh.
-    pub(crate) fn resolve_initial_penetration(&mut self) -> Vec<String> {
+/// Gap (m) and normal of a point at an obstacle; `None` where the obstacle is not.
+pub(super) type Distance<const D: usize> = Box<dyn Fn([f64; D]) -> Option<(f64, [f64; D])>>;
+
+/// What is inside an obstacle at the start, and how it is pushed out.
+pub(super) type AtStart<const D: usize> = (Vec<Penetration<D>>, Vec<Meeting<D>>);
+
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: Builds<D>,
+{
+    /// Notes penetrations at the start as faults, or gives lines for the overview; those that shall be pushed
+    /// out are, in the mesh.
+    pub(super) fn resolve_initial_penetration(&mut self) -> Vec<String> {
         let tolerance = crate::mesh::tolerance(&self.mesh.positions);
-        let mut lines = Vec::new();
-        let mut pushed = Vec::new();
-        for (i, contact) in self.model.contacts.iter().enumerate() {
-            let Interface { initial_penetration, thickness, active, .. } = contact.interface;
+        let (model, mut lines, mut meetings) = (self.model, Vec::new(), Vec::new());
+        for (i, contact) in model.contacts.iter().enumerate() {
             // Ties hold what is there; who begins later can't know. Wrong surfaces are reported when contacts
             // are made.
-            if contact.tied.is_some() || active[0] > 0.0 {
+            if contact.tied.is_some() || contact.interface.active[0] > 0.0 {
                 continue;
             }
-            let (Ok(outlines), Some(search), Some(kind)) =
-                (self.outlines_of(contact), search_by_name(&contact.search), formulation::kind_of(contact))
-            else {
-                continue;
-            };
-            let mut tracker = self.tracker_at_start(outlines, (kind.passes)(contact), (search.make)());
-            let found = initial::penetrations(&mut tracker, thickness, &self.mesh.positions, tolerance);
-            match initial_penetration {
+            let Some(mut look) = self.look(contact) else { continue };
+            let found = look.penetrations(&self.mesh.positions, tolerance);
+            match contact.interface.initial_penetration {
                 InitialPenetration::Error => self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found)),
                 InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, IGNORED)),
                 InitialPenetration::PushOut => {
                     lines.extend(initial::lines(&contact.name, &found, PUSHED));
-                    pushed.push(Meeting { contact: Some(i), tracker, thickness, points: Vec::new() });
+                    meetings.push(Meeting::Surfaces { contact: Some(i), look, points: Vec::new() });
                 }
             }
         }
-        let mut pushing = Vec::new();
-        for obstacle in self.model.obstacles.iter().filter(|it| it.interface.active[0] <= 0.0) {
+        for obstacle in model.obstacles.iter().filter(|it| it.interface.active[0] <= 0.0) {
             // Faults are reported when all springs are known: nothing can be seen better.
             let what = match obstacle.interface.initial_penetration {
                 InitialPenetration::Error => continue,
                 InitialPenetration::Ignore => IGNORED,
                 InitialPenetration::PushOut => PUSHED,
             };
-            // Wrong parts and shapes are reported when obstacles are made.
-            let Ok(outline) = self.outline_met(obstacle) else { continue };
-            let Some(behind) = behind(obstacle, &outline.target.surface, &self.mesh.positions) else { continue };
-            let nodes = self.nodes_met(obstacle, &outline.target.surface);
-            lines.extend(initial::lines(&obstacle.name, &penetrations(&nodes, &self.mesh.positions, &behind, tolerance), what));
-            if what == PUSHED {
-                pushed.extend(self.meeting(obstacle, outline));
-                pushing.push((nodes, behind));
-            }
+            let (found, met) = <Dim<D>>::obstacle_at_start(self, obstacle, tolerance);
+            lines.extend(initial::lines(&obstacle.name, &found, what));
+            meetings.extend(met.into_iter().filter(|_| what == PUSHED));
         }
-        if !pushed.is_empty() || !pushing.is_empty() {
-            self.push_out(&mut pushed, &pushing, tolerance);
+        // In 2D nodes go out of shapes first.
+        if D == 2 {
+            meetings.sort_by_key(|meeting| matches!(meeting, Meeting::Surfaces { .. }));
         }
-        self.positions.clone_from(&self.mesh.positions);
+        self.push_out(&mut meetings, tolerance);
+        lines.extend(<Dim<D>>::left_at_start(self, tolerance));
         lines
     }
 
-    fn tracker_at_start(&self, outlines: Vec<Outlined>, passes: Passes, search: Box<dyn Search<2>>) -> Tracker {
-        let (targets, lids): (Vec<_>, Vec<_>) = outlines.into_iter().map(|Outlined { target, lids }| (target, lids)).unzip();
-        Tracker::new(targets, passes, search, &self.mesh.positions).with_bodies(&self.body_of_node, &lids)
+    /// The first look of a contact at its surfaces; `None`: they are wrong.
+    fn look(&self, contact: &model::Contact) -> Option<Look<D>> {
+        let (surfaces, search, kind) = (self.surfaces_of(contact).ok()?, search_of::<D>(contact).ok()?, formulation::kind_of(contact)?);
+        <Dim<D>>::maker(kind)?;
+        let passes = (kind.passes)(contact);
+        let tracker = <Dim<D>>::tracker(surfaces, passes, (search.make)(), &self.body_of_node, &self.mesh.positions);
+        Some(Look::new(tracker, meets_edges(contact, passes).then_some(search.make), contact.interface.thickness))
     }
 
-    fn push_out(&mut self, meetings: &mut [Meeting], obstacles: &[(Vec<u32>, Behind)], tolerance: f64) {
-        let mut is_moved = false;
+    /// Pushes nodes out of each other's bodies and out of obstacles, in the mesh. What is left behind
+    /// obstacles is reported when all springs are known.
+    fn push_out(&mut self, meetings: &mut [Meeting<D>], tolerance: f64) {
+        let (count, mut is_moved) = (self.mesh.positions.len(), false);
         for _ in 0..ROUNDS {
             let mut moves = false;
-            let (count, constraints) = (self.mesh.positions.len(), &self.constraints);
-            let mut movable = Movable { positions: &mut self.mesh.positions, count, constraints, tolerance };
-            for (nodes, behind) in obstacles {
-                moves |= movable.push_off(nodes, behind);
-            }
+            let mut movable = Movable { positions: &mut self.mesh.positions, count, constraints: &self.constraints, tolerance };
             for meeting in &mut *meetings {
-                movable.positions.extend(&meeting.points);
-                moves |= movable.push_out(&mut meeting.tracker, meeting.thickness);
-                movable.positions.truncate(count);
+                moves |= match meeting {
+                    Meeting::Surfaces { look, points, .. } => {
+                        movable.positions.extend(&*points);
+                        let moves = movable.push_out(look);
+                        movable.positions.truncate(count);
+                        moves
+                    }
+                    Meeting::Shape { nodes, distance } => movable.push_off(nodes, &*distance),
+                };
             }
             is_moved |= moves;
             if !moves {
@@ -109,91 +123,25 @@ impl Builder<'_, 2> {
             }
         }
         for meeting in meetings {
-            // What is left behind obstacles is reported when all springs are known.
-            let Some(i) = meeting.contact else { continue };
-            let left = initial::penetrations(&mut meeting.tracker, meeting.thickness, &self.mesh.positions, tolerance);
-            let faults = initial::faults(&format!("contact[{i}]"), &self.model.contacts[i].name, &left);
-            self.faults.extend(faults.into_iter().map(|fault| Fault {
-                message: format!("{} and can't be pushed out", fault.message),
-                help: "move the bodies apart".into(),
-                ..fault
-            }));
+            let Meeting::Surfaces { contact: Some(i), look, .. } = meeting else { continue };
+            let left = look.penetrations(&self.mesh.positions, tolerance);
+            let faults = initial::faults(&format!("contact[{i}]"), &self.model.contacts[*i].name, &left);
+            self.faults.extend(faults.into_iter().map(stuck));
         }
-        if is_moved && self.faults.is_empty() {
-            self.faults.extend(self.mesh.faults_of_elements());
+        if is_moved {
+            self.positions.clone_from(&self.mesh.positions);
+            if self.faults.is_empty() {
+                self.faults.extend(self.mesh.faults_of_elements());
+            }
         }
-    }
-
-    /// Nodes of a surface that an obstacle may have springs for.
-    fn nodes_met(&self, obstacle: &Obstacle, surface: &Surface<2>) -> Vec<u32> {
-        let along = if let ObstacleShape::Plane { normal, .. } = obstacle.shape { unit(first(normal)) } else { None };
-        let is_met = |node: &u32| along.is_none_or(|normal| !self.is_held_along(*node, normal));
-        surface.nodes.iter().copied().filter(is_met).collect()
-    }
-
-    /// An obstacle that may come in between nodes of the parts.
-    fn meeting(&self, obstacle: &Obstacle, outline: Outlined) -> Option<Meeting> {
-        let thickness = obstacle.interface.thickness;
-        let (points, closed, radius) = match &obstacle.shape {
-            ObstacleShape::Circle { centre, radius, hollow: false } => (vec![first(*centre)], None, *radius),
-            ObstacleShape::Polyline { points } => {
-                let (own, closed) = distinct(points);
-                (own.to_vec(), Some(closed), 0.0)
-            }
-            ObstacleShape::Plane { point, normal, length } => {
-                let ends = plane(first(*point), first(*normal), *length, thickness, 0.0).ok()?.ends()?.into_iter();
-                (ends.filter(|&x| !self.is_beyond_mirrors(x, &obstacle.parts)).collect(), None, 0.0)
-            }
-            ObstacleShape::Circle { hollow: true, .. }
-            | ObstacleShape::Sphere { .. }
-            | ObstacleShape::Cylinder { .. }
-            | ObstacleShape::Triangles(_) => return None,
-        };
-        let first = self.mesh.positions.len() as u32;
-        let nodes: Vec<u32> = (first..first + points.len() as u32).collect();
-        let passes: &[(usize, usize)] = if closed.is_some() { &[(0, 1), (1, 0)] } else { &[(1, 0)] };
-        let own = closed
-            .map_or_else(|| points_only(nodes.clone()), |closed| Target { surface: chain(nodes.clone(), closed), mirrors: Vec::new() });
-        let positions: Vec<Vector> = self.mesh.positions.iter().chain(&points).copied().collect();
-        let tracker = self.tracker(outline, own, passes, &positions);
-        Some(Meeting { contact: None, tracker, thickness: thickness + radius, points })
     }
 }
 
 /// What is done, in words.
 pub(super) const IGNORED: &str = "this counts as zero";
-pub(super) const PUSHED: &str = "it was pushed out";
+const PUSHED: &str = "it was pushed out";
 
-/// Gap (m) and normal of a point at an obstacle; `None` where the obstacle is not.
-type Behind = Box<dyn Fn(Vector) -> Option<(f64, Vector)>>;
-
-/// What says whether nodes are behind an obstacle, as it will see them; of a polyline nodes and segments say
-/// it.
-fn behind(obstacle: &Obstacle, surface: &Surface<2>, positions: &[Vector]) -> Option<Behind> {
-    let thickness = obstacle.interface.thickness;
-    let shape: Box<dyn Shape> = match &obstacle.shape {
-        ObstacleShape::Plane { point, normal, length: wide } => {
-            let lengths: f64 = surface.segments.iter().map(|&segment| length(segment, positions)).sum();
-            Box::new(plane(first(*point), first(*normal), *wide, thickness, lengths / surface.nodes.len().max(1) as f64).ok()?)
-        }
-        ObstacleShape::Sphere { .. } | ObstacleShape::Cylinder { .. } | ObstacleShape::Triangles(_) => return None,
-        ObstacleShape::Circle { centre, radius, hollow } => Box::new(circle(first(*centre), *radius, *hollow, thickness).ok()?),
-        ObstacleShape::Polyline { points } => {
-            let (own, closed) = distinct(points);
-            let surface = chain((0..own.len() as u32).collect(), closed);
-            let all: Vec<u32> = (0..surface.segments.len() as u32).collect();
-            let (target, points) = (Target { surface, mirrors: Vec::new() }, points.clone());
-            return Some(Box::new(move |x| target.nearest(x, &all, &points).map(|nearest| (nearest.gap - thickness, nearest.normal))));
-        }
-    };
-    Some(Box::new(move |x| shape.meet(Way { from: x, to: x }, &mut ContactHistory::default())))
-}
-
-fn penetrations(nodes: &[u32], positions: &[Vector], behind: &Behind, tolerance: f64) -> Vec<Penetration<2>> {
-    let of = |&node: &u32| {
-        let place = positions[node as usize];
-        let (gap, _) = behind(place)?;
-        (gap < -tolerance).then_some(Penetration { what: Inside::Node, place, depth: -gap })
-    };
-    nodes.iter().filter_map(of).collect()
+/// The fault of what stays inside.
+pub(super) fn stuck(fault: Fault) -> Fault {
+    Fault { message: format!("{} and can't be pushed out", fault.message), help: "move the bodies apart".into(), ..fault }
 }

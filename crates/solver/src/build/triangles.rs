@@ -7,20 +7,20 @@
 //! stick out press back, each with as much as a node of the parts has. Surfaces as fine as the parts meet
 //! them half in each pass.
 
-use super::space_contact::{Sided, moduli, with_thickness};
-use super::space_start::stuck;
+use super::start::{IGNORED, stuck};
 use super::{Builder, manner, search_by_name};
-use crate::contact::edge_edge::EdgeTouch;
-use crate::contact::initial::space::Look;
-use crate::contact::initial::{self, Inside, Penetration};
-use crate::contact::node_facet::tracker::{ContactPoint, Tracker};
-use crate::contact::node_facet::{NodeFacet, PassInput, edges_at_start};
+use crate::contact::formulation::Side;
+use crate::contact::initial::{self, Inside, Look, Penetration};
+use crate::contact::law::penalty::penalty_of;
+use crate::contact::node_facet::NodeFacet;
+use crate::contact::node_facet::make::{with_moduli, with_thickness};
+use crate::contact::node_facet::tracker::Tracker;
 use crate::contact::obstacle::{Manner, OutlineShape};
 use crate::contact::overlap::{Bodies, OverlapCheck};
-use crate::contact::projection::edge_edge::point;
 use crate::contact::projection::node_facet::Placed;
 use crate::contact::search::Search;
-use crate::contact::{Formulation, Sweep, Tributary};
+use crate::contact::slaves::PassInput;
+use crate::contact::{Formulation, Tributary};
 use crate::error::Fault;
 use crate::mesh::surface::SpaceSurface;
 use crate::model::{InitialPenetration, Obstacle, ObstacleShape, TriangleSurface};
@@ -41,26 +41,22 @@ impl Builder<'_, 3> {
         outside: SpaceSurface,
     ) -> Result<(usize, Box<dyn Formulation<3>>), Fault> {
         let interface = &obstacle.interface;
-        let parts = self.sided(&outside, interface);
         let (body, first) = self.body_of_triangles(obstacle, surface);
+        let parts = self.side(outside.into(), interface);
         let own = SpaceSurface::of_triangles(surface, first);
         let (points, passes) = self.points_of_triangles(&own, &parts.nodes);
         let count = own.facets.len();
         // Nothing of it yields.
-        let rigid = Sided {
-            of_mass: Vec::new(),
-            shares: vec![1.0; points.len()],
-            nodes: points,
-            moduli: vec![f64::INFINITY; count],
-            facets: vec![f64::INFINITY; count],
-        };
+        let rigid = Side { shares: vec![1.0; points.len()], nodes: points, softest: vec![f64::INFINITY; count], ..Side::default() };
         let Manner { reach, factor, ignores_start } = manner(interface, 0.0);
         let of_obstacle = |input: PassInput| PassInput { at_obstacle: Some(factor), ..input };
-        let inputs = [parts.against(&rigid, interface, passes), rigid.against(&parts, interface, passes)].map(of_obstacle).into();
+        let penalty = penalty_of(interface);
+        let inputs = [parts.against(&rigid, penalty, passes), rigid.against(&parts, penalty, passes)].map(of_obstacle).into();
+        let outside = parts.surface.target;
         let overlap_check = self.check_of_triangles(&outside, &own, ignores_start)?;
         let surfaces = vec![outside, own];
         let inputs = with_thickness(inputs, &overlap_check, &surfaces, PASSES);
-        let overlap_check = moduli(overlap_check, &surfaces, PASSES, &inputs);
+        let overlap_check = with_moduli(overlap_check, &surfaces, PASSES, &inputs);
         let tracker = Tracker::new(surfaces, PASSES, &self.body_of_node, search(), &self.positions).measured_by(0, &self.positions);
         let made = NodeFacet::new(tracker, inputs, interface, reach, &self.positions).with_edges(search());
         Ok((body, Box::new(made.with_check(overlap_check))))
@@ -146,9 +142,10 @@ impl Builder<'_, 3> {
             let outside = self.mesh.outside_without(&obstacle.parts, |facet| self.constraints.is_mirror(facet));
             // Wrong parts are reported when obstacles are made; who begins later can't know.
             let (Ok(outside), true) = (outside, obstacle.interface.active[0] <= 0.0) else { continue };
-            let found = self.penetrations_of_triangles(surface, outside, obstacle.interface.thickness, tolerance);
+            let look = self.look_at_triangles(surface, outside, obstacle.interface.thickness);
+            let found = self.penetrations_of_triangles(surface, look, tolerance);
             match obstacle.interface.initial_penetration {
-                InitialPenetration::Ignore => lines.extend(initial::lines(&obstacle.name, &found, super::start::IGNORED)),
+                InitialPenetration::Ignore => lines.extend(initial::lines(&obstacle.name, &found, IGNORED)),
                 InitialPenetration::Error => self.faults.extend(initial::faults(&format!("obstacle[{i}]"), &obstacle.name, &found)),
                 // What is left: the rest was pushed out.
                 InitialPenetration::PushOut => {
@@ -159,50 +156,26 @@ impl Builder<'_, 3> {
         lines
     }
 
-    /// Does something with the first look of an obstacle of triangles at the outside of the parts; points of
-    /// the obstacle follow the nodes of the model.
-    pub(super) fn look_at_triangles<T>(
-        &self,
-        surface: &TriangleSurface,
-        outside: &SpaceSurface,
-        thickness: f64,
-        act: impl FnOnce(&Look<'_>) -> T,
-    ) -> T {
-        let positions: Vec<[f64; 3]> = self.mesh.positions.iter().chain(&surface.positions).copied().collect();
+    /// The first look of an obstacle of triangles at the outside of the parts; points of the obstacle follow
+    /// the nodes of the model.
+    pub(super) fn look_at_triangles(&self, surface: &TriangleSurface, outside: SpaceSurface, thickness: f64) -> Look<3> {
+        let positions = self.with_points(surface);
         let own = SpaceSurface::of_triangles(surface, self.mesh.positions.len() as u32);
-        let tracker = || {
-            let surfaces = vec![outside.clone(), own.clone()];
-            Some(Tracker::new(surfaces, PASSES, &self.body_of_node, search(), &positions).measured_by(0, &positions))
-        };
-        act(&Look { tracker: &tracker, edges: Some(&|| Some(search())), thickness })
+        let tracker = Tracker::new(vec![outside, own], PASSES, &self.body_of_node, search(), &positions).measured_by(0, &positions);
+        Look::new(tracker, Some(search), thickness)
     }
 
-    pub(super) fn penetrations_of_triangles(
-        &self,
-        surface: &TriangleSurface,
-        outside: SpaceSurface,
-        thickness: f64,
-        tolerance: f64,
-    ) -> Vec<Penetration<3>> {
-        let positions: Vec<[f64; 3]> = self.mesh.positions.iter().chain(&surface.positions).copied().collect();
-        let own = SpaceSurface::of_triangles(surface, self.mesh.positions.len() as u32);
-        let mut tracker = Tracker::new(vec![outside, own], PASSES, &self.body_of_node, search(), &positions).measured_by(0, &positions);
-        let touches = tracker.track(Sweep::between(&positions, &positions), thickness).iter();
-        let of = |touch: &ContactPoint| {
-            let place = positions[touch.node as usize];
-            Penetration { what: Inside::Node, place, depth: thickness - touch.projection.gap }
-        };
-        let mut found: Vec<_> = touches.map(of).filter(|found| found.depth > tolerance).collect();
-        if found.is_empty() {
-            let crossing = edges_at_start(&tracker, search(), &positions, thickness);
-            let of = |touch: &EdgeTouch| {
-                let [a, b] = touch.nodes[0].map(|node| positions[node as usize]);
-                Penetration { what: Inside::Edge, place: point([a, b], touch.crossing.along[0]), depth: thickness - touch.crossing.gap }
-            };
-            found = crossing.iter().map(of).filter(|found| found.depth > tolerance).collect();
-        }
+    /// Positions of the nodes of the model and of the points of an obstacle, m.
+    fn with_points(&self, surface: &TriangleSurface) -> Vec<[f64; 3]> {
+        self.mesh.positions.iter().chain(&surface.positions).copied().collect()
+    }
+
+    /// What is inside of an obstacle by its first look.
+    pub(super) fn penetrations_of_triangles(&self, surface: &TriangleSurface, look: Look<3>, tolerance: f64) -> Vec<Penetration<3>> {
+        let (positions, mut look) = (self.with_points(surface), look.shallow());
+        let found = look.penetrations(&positions, tolerance);
         if found.is_empty() && surface.open_edges().is_none() {
-            found = self.bodies_in_triangles(&tracker, &positions, tolerance);
+            return self.bodies_in_triangles(look.tracker(), &positions, tolerance);
         }
         found
     }

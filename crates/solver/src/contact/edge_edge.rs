@@ -21,6 +21,7 @@
 //! of edges against edges; order is fixed: edges ascending.
 
 use super::Sweep;
+use super::continuity::SpringHistory;
 use super::node_facet::groups::bodies_of;
 use super::node_facet::tracker::ContactHistory;
 use super::projection::edge_edge::{Crossing, Ridge, crossing, distance, point};
@@ -282,8 +283,9 @@ impl EdgeTracker {
         make: impl Fn(&EdgeTouch) -> (f64, f64, Stiffening),
     ) -> &[EdgeTouch] {
         let springs = self.pairs.iter().filter(|pair| pair.touches);
-        self.deepest =
-            springs.map(|pair| pair.memory.offset.abs() + pair.memory.half.abs() + pair.memory.carried.abs()).fold(0.0, f64::max);
+        self.deepest = springs
+            .map(|pair| pair.memory.spring.offset.abs() + pair.memory.spring.half.abs() + pair.memory.carried.abs())
+            .fold(0.0, f64::max);
         let mut found: Vec<EdgeTouch> = Vec::new();
         for number in 0..self.pairs.len() {
             found.extend(self.look_at(number, around, &is_held));
@@ -322,7 +324,8 @@ impl EdgeTracker {
                     let EdgePair { stiffness, area, stiffening, memory, .. } = self.pairs[left.pair];
                     // Normal and slip are those of the first edge against the second.
                     let of = |vector: Vector| vector.map(|c| left.sign() * c);
-                    let memory = ContactHistory { normal: of(memory.normal), slip: of(memory.slip), ..memory };
+                    let spring = SpringHistory { normal: of(memory.spring.normal), ..memory.spring };
+                    let memory = ContactHistory { spring, slip: of(memory.slip), ..memory };
                     self.pairs[left.pair].touches = false;
                     self.pairs[touch.pair as usize] = EdgePair { stiffness, area, stiffening, memory, ..self.pairs[touch.pair as usize] };
                 }
@@ -343,7 +346,7 @@ impl EdgeTracker {
 
     /// Cosine of the angle between the normal of a pair's spring and that of a crossing.
     fn cosine(&self, other: Other, crossing: &Crossing) -> f64 {
-        other.sign() * dot(self.pairs[other.pair].memory.normal, crossing.normal)
+        other.sign() * dot(self.pairs[other.pair].memory.spring.normal, crossing.normal)
     }
 
     /// Pairs of the edges of a touch, or those that continue from them in the same line.
@@ -423,7 +426,7 @@ impl EdgeTracker {
         let [a, b] = [0, 1].map(|of| placed[of].edge(edges[of]));
         let crossing = crossing(a, b)?;
         // A closed spring stays where one would not begin.
-        let is_closed = touches && memory.half < open;
+        let is_closed = touches && memory.spring.half < open;
         if !(if is_closed { self.continues(edges, &crossing, around) } else { crossing.is_within(0.0) }) {
             return None;
         }
@@ -440,7 +443,7 @@ impl EdgeTracker {
         let turned = crossing.turned();
         let fits = |crossing: &Crossing| crossing.fits([&first, &second]);
         let least = |crossing: &Crossing| fits(crossing).into_iter().fold(1.0, f64::min);
-        let is_turned = if is_closed { dot(crossing.normal, memory.normal) < 0.0 } else { least(&turned) > least(&crossing) };
+        let is_turned = if is_closed { dot(crossing.normal, memory.spring.normal) < 0.0 } else { least(&turned) > least(&crossing) };
         let crossing = if is_turned { turned } else { crossing };
         let [worse, better] = {
             let [a, b] = fits(&crossing);
@@ -453,7 +456,7 @@ impl EdgeTracker {
         if !is_closed && !are_sharp {
             return None;
         }
-        let known = touches && dot(memory.normal, crossing.normal) > 0.0;
+        let known = touches && dot(memory.spring.normal, crossing.normal) > 0.0;
         if crossing.gap < 0.0 && !known {
             let shallow = || -crossing.gap <= (radius - skin).min(SHALLOW * Ridge::narrower(&first, &second));
             let comes = if is_new { !own && shallow() } else { self.entered(&crossing, [a, b], old) };
@@ -498,7 +501,7 @@ impl EdgeTracker {
         };
         let follows = |other: Other| {
             let pair = &self.pairs[other.pair];
-            pair.touches && pair.memory.half < around.open && self.cosine(other, crossing) > STRAIGHT
+            pair.touches && pair.memory.spring.half < around.open && self.cosine(other, crossing) > STRAIGHT
         };
         self.beside(&touch, around).any(follows) || self.come_from(pair.edges, around).any(follows)
     }

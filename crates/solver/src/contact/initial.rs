@@ -3,22 +3,29 @@
 //!
 //! Surfaces come from the builder as trackers that know nothing of the past; what is found goes to the
 //! model's faults, or to the overview. Bodies with themselves are never thought to penetrate at the start.
+//! The nodes of a touch, on both sides, share the way so that the sum of squares is least, each along the
+//! directions in which it is not held; again and again until none is inside. What is found in 2D and in 3D
+//! says [`Penetrating`].
 
-pub mod space;
+mod plane;
+mod space;
 
-use super::tracker::{ContactPoint, Tracker};
-use super::{Sweep, Vector};
+use super::formulation::Surfaces;
+use super::search::Search;
 use crate::contact::messages::PENETRATION;
 use crate::error::Fault;
 use crate::load::constraint::Constraints;
 use crate::model::{InitialPenetration, Interface};
-use crate::vector::place;
+use crate::tensor::Dim;
+use crate::vector::{dot, place};
 
 /// At most so many are reported one by one.
 const REPORTED_MAX: usize = 20;
 /// Rounds of looking for penetrations, and sweeps over those that a round found.
 const ROUNDS: usize = 100;
 const SWEEPS: usize = 10;
+/// Ways that open less than this of a gap are none.
+const GAIN: f64 = 1e-12;
 
 /// What is inside at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,100 +108,147 @@ pub fn size<const D: usize>(positions: &[[f64; D]]) -> f64 {
     positions.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()))
 }
 
-/// Nodes that are inside other bodies, or nearer than `thickness` (m), by more than `tolerance` (m).
-#[must_use]
-pub fn penetrations(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<Penetration<2>> {
-    let inside = inside(tracker, thickness, positions, tolerance);
-    let of = |touch: &ContactPoint| Penetration {
-        what: Inside::Node,
-        place: positions[touch.node as usize],
-        depth: thickness - touch.projection.gap,
-    };
-    inside.iter().map(of).collect()
+/// What is inside at the start in a dimension.
+pub trait Penetrating<const D: usize>: Surfaces<D> {
+    /// A node, in 3D also an edge, that is inside another body.
+    type Touch;
+    /// Depth up to which nodes are found for certain, m.
+    fn deepest(tracker: &Self::Tracker) -> f64;
+    /// What is inside another body, or nearer than the thickness, by more than a tolerance (m).
+    fn inside(look: &mut Look<D>, positions: &[[f64; D]], tolerance: f64) -> Vec<Self::Touch>
+    where
+        Dim<D>: Penetrating<D>;
+    /// Where and how deep it is against surfaces that keep this distance, m.
+    fn penetration(touch: &Self::Touch, thickness: f64, positions: &[[f64; D]]) -> Penetration<D>;
+    /// How it can be opened, with the nodes where they are now; `None`: it is no more.
+    fn opening(tracker: &Self::Tracker, touch: &Self::Touch, positions: &[[f64; D]]) -> Option<Opening<D>>;
 }
 
-fn inside(tracker: &mut Tracker, thickness: f64, positions: &[Vector], tolerance: f64) -> Vec<ContactPoint> {
-    tracker.forget();
-    let touches = tracker.track(Sweep::between(positions, positions), thickness);
-    touches.iter().filter(|touch| !touch.own && touch.projection.gap - thickness < -tolerance).copied().collect()
+/// A gap and the nodes that open it.
+pub struct Opening<const D: usize> {
+    /// Nodes with their shares in the gap, as many as count.
+    ends: [(u32, f64); 5],
+    count: usize,
+    normal: [f64; D],
+    /// m.
+    gap: f64,
+}
+
+/// How a contact looks at its surfaces for the first time.
+pub struct Look<const D: usize>
+where
+    Dim<D>: Penetrating<D>,
+{
+    tracker: <Dim<D> as Surfaces<D>>::Tracker,
+    /// In 3D: makes the search for edges; `None`: they do not meet.
+    edges: Option<fn() -> Box<dyn Search<D>>>,
+    /// Distance that the surfaces keep, m.
+    thickness: f64,
+    /// Depth up to which nodes are found for certain, m.
+    deepest: f64,
+}
+
+impl<const D: usize> Look<D>
+where
+    Dim<D>: Penetrating<D>,
+{
+    /// Of what follows the nodes of surfaces that keep this distance (m); `edges` makes the search for edges
+    /// in 3D, if they meet.
+    #[must_use]
+    pub fn new(tracker: <Dim<D> as Surfaces<D>>::Tracker, edges: Option<fn() -> Box<dyn Search<D>>>, thickness: f64) -> Self {
+        let deepest = Dim::<D>::deepest(&tracker);
+        Self { tracker, edges, thickness, deepest }
+    }
+
+    /// The same that sees no deeper than the search of a step.
+    #[must_use]
+    pub fn shallow(self) -> Self {
+        Self { deepest: 0.0, ..self }
+    }
+
+    /// What follows the nodes.
+    #[must_use]
+    pub fn tracker(&self) -> &<Dim<D> as Surfaces<D>>::Tracker {
+        &self.tracker
+    }
+
+    /// What is inside another body, or nearer than the thickness, by more than a tolerance (m).
+    #[must_use]
+    pub fn penetrations(&mut self, positions: &[[f64; D]], tolerance: f64) -> Vec<Penetration<D>> {
+        let inside = Dim::<D>::inside(self, positions, tolerance);
+        inside.iter().map(|touch| Dim::<D>::penetration(touch, self.thickness, positions)).collect()
+    }
 }
 
 /// What may be moved at the start, and what must not.
-pub struct Movable<'a> {
+pub struct Movable<'a, const D: usize> {
     /// m; nodes beyond `count` are those of obstacles and stay where they are.
-    pub positions: &'a mut Vec<Vector>,
+    pub positions: &'a mut Vec<[f64; D]>,
     /// Nodes of the model.
     pub count: usize,
     /// Directions in which nodes are held.
-    pub constraints: &'a Constraints<2>,
+    pub constraints: &'a Constraints<D>,
     /// Depth that is round-off, m.
     pub tolerance: f64,
 }
 
-impl Movable<'_> {
-    /// Moves nodes until none is inside another body, or nearer than `thickness` (m), by more than the
-    /// tolerance, or until that has been tried often enough. A node and the segment that it is behind share
-    /// the way so that the sum of squares is least, each along the directions in which it is not held.
-    /// Whether something was moved.
-    pub fn push_out(&mut self, tracker: &mut Tracker, thickness: f64) -> bool {
+impl<const D: usize> Movable<'_, D>
+where
+    Dim<D>: Penetrating<D>,
+{
+    /// Moves nodes until nothing is inside another body, or nearer than the thickness, by more than the
+    /// tolerance, or until that has been tried often enough. Whether something was moved.
+    pub fn push_out(&mut self, look: &mut Look<D>) -> bool {
+        let distance = look.thickness + 0.5 * self.tolerance;
         for round in 0..ROUNDS {
-            let found = inside(tracker, thickness, self.positions, self.tolerance);
+            let found = Dim::<D>::inside(look, self.positions, self.tolerance);
             if found.is_empty() {
                 return round > 0;
             }
             for _ in 0..SWEEPS {
                 for touch in &found {
-                    self.part(tracker, touch, thickness + 0.5 * self.tolerance);
+                    let opening = Dim::<D>::opening(&look.tracker, touch, self.positions);
+                    if let Some(Opening { ends, count, normal, gap }) = opening.filter(|opening| opening.gap < distance) {
+                        self.open(&ends[..count], normal, distance - gap);
+                    }
                 }
             }
         }
         true
     }
 
-    /// Moves `nodes` out of an obstacle of which `project` reports gap (m) and normal. Whether something was
-    /// moved.
-    pub fn push_off(&mut self, nodes: &[u32], project: impl Fn(Vector) -> Option<(f64, Vector)>) -> bool {
+    /// Moves `nodes` out of an obstacle of which `distance` says how far they are from its surface (m,
+    /// negative inside) and the normal. Whether something was moved.
+    pub fn push_off(&mut self, nodes: &[u32], distance: impl Fn([f64; D]) -> Option<(f64, [f64; D])>) -> bool {
         let mut is_moved = false;
         for &node in nodes {
             for _ in 0..ROUNDS {
-                let Some((gap, normal)) = project(self.positions[node as usize]).filter(|&(gap, _)| gap < -self.tolerance) else { break };
-                let (way, gain) = self.way(node, 1.0, normal);
-                if gain <= 1e-12 {
+                let Some((gap, normal)) = distance(self.positions[node as usize]) else { break };
+                if !(gap < -self.tolerance && self.open(&[(node, 1.0)], normal, 0.5 * self.tolerance - gap)) {
                     break;
                 }
                 is_moved = true;
-                self.shift(node, way, (0.5 * self.tolerance - gap) / gain);
             }
         }
         is_moved
     }
 
-    /// Moves a node and the segment that it touches to a distance.
-    fn part(&mut self, tracker: &Tracker, touch: &ContactPoint, distance: f64) {
-        let target = tracker.target(touch.pass);
-        let Some(here) = target.follow(self.positions[touch.node as usize], touch.projection.segment, self.positions) else { return };
-        let [a, b] = target.surface.segments[here.segment as usize];
-        let [wa, wb] = here.weights;
-        let ways = [(touch.node, 1.0), (a, -wa), (b, -wb)].map(|(node, share)| (node, self.way(node, share, here.normal)));
-        let gain: f64 = ways.iter().map(|(_, (_, gain))| gain).sum();
-        if here.gap < distance && gain > 1e-12 {
-            for (node, (way, _)) in ways {
-                self.shift(node, way, (distance - here.gap) / gain);
-            }
+    /// Opens a gap with these shares of nodes by so much (m), as far as they can: whether they can at all.
+    fn open(&mut self, ends: &[(u32, f64)], normal: [f64; D], by: f64) -> bool {
+        let free = |node: u32| match node as usize {
+            at if at >= self.count => [0.0; D],
+            at => self.constraints.of(at).map_or(normal, |held| held.free_part(normal)),
+        };
+        let gain: f64 = ends.iter().map(|&(node, share)| share * share * dot(free(node), normal)).sum();
+        if !(gain > GAIN) {
+            return false;
         }
-    }
-
-    /// Way of a node per unit of what opens a gap with its `share`, and how much of the gap this opens.
-    fn way(&self, node: u32, share: f64, normal: Vector) -> (Vector, f64) {
-        if node as usize >= self.count {
-            return ([0.0; 2], 0.0);
+        for &(node, share) in ends {
+            let way = free(node);
+            let x = &mut self.positions[node as usize];
+            // Both orders round differently, and results depend on them.
+            (0..D).for_each(|d| x[d] += if D == 2 { by / gain * (share * way[d]) } else { by / gain * share * way[d] });
         }
-        let free = self.constraints.of(node as usize).map_or(normal, |held| held.free_part(normal));
-        ([share * free[0], share * free[1]], share * share * (free[0] * normal[0] + free[1] * normal[1]))
-    }
-
-    fn shift(&mut self, node: u32, way: Vector, by: f64) {
-        let x = &mut self.positions[node as usize];
-        *x = [x[0] + by * way[0], x[1] + by * way[1]];
+        true
     }
 }

@@ -229,7 +229,7 @@ impl MissedContactCheck {
                 continue;
             }
             // Who continues with its face has not passed.
-            if touch.is_some_and(|touch| dot(tracker.kept(touch).normal, touch.projection.normal) > 0.0) {
+            if touch.is_some_and(|touch| dot(tracker.kept(touch).spring.normal, touch.projection.normal) > 0.0) {
                 group.known.wake = AWAKE;
                 continue;
             }

@@ -21,6 +21,7 @@ pub mod node_segment;
 pub mod pinball;
 pub mod missed_contacts;
 pub mod segment;
+pub mod slaves;
 pub mod tied;
 pub mod obstacle;
 pub mod findings;
@@ -28,7 +29,7 @@ mod boxes;
 pub mod overlap;
 pub mod depths;
 pub mod outline;
-mod closed;
+pub mod continuity;
 pub mod checked;
 pub mod mirror;
 pub mod traces;
@@ -37,10 +38,11 @@ pub(crate) mod rebuild;
 use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::contact_forces::ContactForces;
-use crate::mesh::surface::Surface;
-use crate::mesh::surface::tributary::Depth;
+use crate::mesh::surface::tributary::{self, Depth};
+use crate::mesh::surface::{Corners, Facet, Sided};
 use crate::rigid::{Bodies, RigidMotion};
 use crate::tensor::Dim;
+use crate::vector::{self, minus};
 use findings::{CAST, Findings, Overlap};
 use springs::{Answer, Answers, Springs, Totals};
 use std::any::Any;
@@ -429,7 +431,7 @@ pub(crate) fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {
 pub struct Tributary {
     /// Area, m²/m; of an axisymmetric body m², all around.
     pub area: f64,
-    /// Length, m.
+    /// Length, m; in 3D the area.
     pub length: f64,
     /// Mean pressure stiffness κ of the elements behind it, Pa/m.
     pub stiffness: f64,
@@ -439,14 +441,22 @@ pub struct Tributary {
 
 /// What each node of a surface stands for, in the order of its nodes.
 #[must_use]
-pub fn tributaries(surface: &Surface<2>, pressure_stiffness: &[f64], positions: &[Vector], depth: Depth) -> Vec<Tributary> {
-    let mut sums = vec![Tributary::default(); surface.nodes.len()];
-    for (&segment, &stiffness) in surface.segments.iter().zip(pressure_stiffness) {
-        let shares = depth.shares(segment.map(|node| positions[node as usize]));
-        for (node, share) in segment.into_iter().zip(shares) {
-            if let Ok(at) = surface.nodes.binary_search(&node) {
+pub fn tributaries<const D: usize>(
+    surface: &impl Sided<Facet = Facet<D>>,
+    pressure_stiffness: &[f64],
+    positions: &[[f64; D]],
+    depth: Depth,
+) -> Vec<Tributary>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    let mut sums = vec![Tributary::default(); surface.nodes().len()];
+    for (&facet, &stiffness) in surface.facets().iter().zip(pressure_stiffness) {
+        let [a, b] = [0, 1].map(|k| positions[facet.corners()[k] as usize]);
+        for (node, share) in tributary::shares(depth, facet, positions) {
+            if let Ok(at) = surface.nodes().binary_search(&node) {
                 sums[at].area += share;
-                sums[at].length += 0.5 * length(segment, positions);
+                sums[at].length += if D == 2 { 0.5 * vector::length(minus(b, a)) } else { share };
                 sums[at].stiffness += share * stiffness;
             }
         }

@@ -10,28 +10,28 @@
 mod ends;
 mod far;
 pub(super) mod groups;
+pub mod make;
 pub(super) mod passage;
-pub mod tied;
+mod tied;
 pub mod tracker;
 
 use super::checked::Look;
-use super::closed::Closed;
+use super::continuity::{Closed, Continuity, SpringHistory};
 use super::edge_edge::{self, Around, EdgeTouch, EdgeTracker};
 use super::findings::Findings;
-use super::initial::{is_ignored, kept};
-use super::law::penalty::{factor, stiffening};
+use super::law::penalty::stiffening;
 use super::missed_contacts::MissedContactCheck;
-use super::node_segment::is_stored;
 use super::overlap::OverlapCheck;
 use super::projection::edge_edge::distance;
 use super::projection::node_facet::{Placed, Projection, Vector, unit};
 use super::search::Search;
+use super::slaves::{Face, PassInput};
 use super::spin;
 use super::springs::friction::cone;
 use super::springs::{Answer, Answers, End, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Sweep};
-use crate::archive::{Archive, ArchiveResult, persist_each};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::{Corners, NONE};
 use crate::model;
@@ -41,66 +41,6 @@ pub use ends::ends;
 use ends::{ends_with, pushed};
 use std::any::Any;
 use tracker::{ContactHistory, ContactPoint, Tracker};
-
-/// What a pass knows of its nodes and facets.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PassInput {
-    /// Slave nodes in the order of their surface.
-    pub slaves: Vec<Slave>,
-    /// Stiffness (N/m) of each slave by unit of pressure stiffness κ (Pa/m) of the target; empty where the
-    /// stiffness is given.
-    pub per_modulus: Vec<f64>,
-    /// κ behind each facet of the target, Pa/m: the softest of its part.
-    pub moduli: Vec<f64>,
-    /// The same α m / (dt² A) by the mass of its nodes and the first step, Pa/m; empty: not known.
-    pub of_mass: Vec<f64>,
-    /// By what factor springs stiffen if the slaves or the target are those of an obstacle.
-    pub at_obstacle: Option<f64>,
-    /// Local thickness at each slave and behind each facet of the target, m; empty: not known.
-    pub thickness: [Vec<f64>; 2],
-}
-
-/// A slave node.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Slave {
-    /// Stiffness as its own side gives it, N/m: of the automatic penalty κ times the area, half of it in a
-    /// double pass.
-    pub stiffness: f64,
-    /// Area of surface that it stands for, m²: its own, half of that where both surfaces are slaves.
-    pub area: f64,
-    /// Stiffness α m / dt² by its mass and the first step, N/m; zero: not known.
-    pub of_mass: f64,
-}
-
-impl PassInput {
-    /// The softer of both sides decides, where they meet.
-    fn stiffness(&self, slave: usize, facet: u32) -> f64 {
-        let own = self.slaves[slave].stiffness;
-        self.per_modulus.get(slave).map_or(own, |per| own.min(per * self.moduli[facet as usize]))
-    }
-
-    /// The same where some facets meet.
-    fn softest(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f64 {
-        facets.map(|facet| self.stiffness(slave, facet)).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Stiffness by mass and step, of the lighter side, N/m.
-    fn of_mass(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f64 {
-        let Slave { of_mass, area, .. } = self.slaves[slave];
-        facets.map(|facet| self.of_mass.get(facet as usize).map_or(0.0, |other| other * area)).fold(of_mass, f64::min)
-    }
-
-    /// By what factor a spring stiffens, between bodies by its stiffness and that by mass and step, N/m.
-    fn factor(&self, stiffness: f64, of_mass: f64) -> f64 {
-        self.at_obstacle.unwrap_or_else(|| factor(stiffness, of_mass))
-    }
-
-    /// Thickness of the thinner body there, m.
-    fn thickness(&self, slave: usize, facets: impl Iterator<Item = u32>) -> f64 {
-        let at = |of: usize, at: usize| self.thickness[of].get(at).copied().unwrap_or(f64::INFINITY);
-        facets.map(|facet| at(1, facet as usize)).fold(at(0, slave), f64::min)
-    }
-}
 
 /// The formulation.
 pub struct NodeFacet {
@@ -112,22 +52,9 @@ pub struct NodeFacet {
     /// Looks at the bodies as they are.
     overlap_check: Option<OverlapCheck>,
     passes: Vec<PassInput>,
-    /// Distance that the surfaces keep, m.
-    thickness: f64,
-    /// Largest gap at which the law pushes, m.
-    reach: f64,
-    /// Whether springs store energy: multipliers do not.
-    stores: bool,
+    continuity: Continuity<3>,
     /// Whether springs care for slip.
     slips: bool,
-    /// Whether gaps that are negative when the contact begins to act count as zero.
-    ignores_start: bool,
-    /// Initial positions, m: only where a surface meets itself at a distance.
-    initial: Vec<Vector>,
-    has_begun: bool,
-    /// Energy of the springs of the last step, and of those that were not found again, J.
-    closed: Closed,
-    lost_contact_energy: f64,
     /// The touches of nodes that made springs in this step; those of edges follow.
     used: Vec<u32>,
     /// Nodes whose springs were closed after the last step, and those that edges stand for in this one: slave
@@ -148,15 +75,8 @@ impl NodeFacet {
             proof: None,
             overlap_check: None,
             passes,
-            thickness: interface.thickness,
-            reach,
-            stores: is_stored(interface),
+            continuity: Continuity::new(interface, reach, initial),
             slips: interface.friction.is_some(),
-            ignores_start: is_ignored(interface),
-            initial: if interface.thickness + reach > 0.0 { initial.to_vec() } else { Vec::new() },
-            has_begun: false,
-            closed: Closed::default(),
-            lost_contact_energy: 0.0,
             used: Vec::new(),
             closed_nodes: Vec::new(),
             superseded: Vec::new(),
@@ -195,43 +115,29 @@ impl NodeFacet {
         &self.tracker
     }
 
-    /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had:
-    /// neighbours along a surface are near, and stay so.
+    /// As [`Continuity::gap`].
     fn gap(&self, touch: &ContactPoint) -> f64 {
-        let gap = touch.projection.gap - self.thickness;
-        if !touch.own || self.initial.is_empty() {
-            return gap;
-        }
-        let placed = Placed { surface: self.tracker.target(touch.pass), positions: &self.initial };
-        let facets = placed.surface.sharing(touch.projection.facet, placed.rests_on(&touch.projection));
-        let distance =
-            facets.map(|facet| placed.distance(self.initial[touch.node as usize], facet).unwrap_or(0.0)).fold(f64::INFINITY, f64::min);
-        gap + (self.thickness + self.reach - 0.5 * distance).max(0.0)
+        self.continuity.gap(touch.projection.gap, touch.own, |positions| {
+            let placed = Placed { surface: self.tracker.target(touch.pass), positions };
+            let facets = placed.surface.sharing(touch.projection.facet, placed.rests_on(&touch.projection));
+            facets.map(|facet| placed.distance(positions[touch.node as usize], facet).unwrap_or(0.0)).fold(f64::INFINITY, f64::min)
+        })
     }
 
-    /// Gap of edges less the thickness, as [`NodeFacet::gap`].
+    /// The same of edges.
     fn edge_gap(&self, touch: &EdgeTouch) -> f64 {
-        let gap = touch.crossing.gap - self.thickness;
-        if !touch.own || self.initial.is_empty() {
-            return gap;
-        }
-        let [a, b] = touch.nodes.map(|edge| edge.map(|node| self.initial[node as usize]));
-        gap + (self.thickness + self.reach - 0.5 * distance(a, b)).max(0.0)
-    }
-
-    /// Gap as the spring sees it, and the gap that counts as zero.
-    fn beyond(&self, gap: f64, own: bool, memory: &ContactHistory) -> (f64, f64) {
-        let offset = kept(self.has_begun, memory.offset, gap);
-        let offset = if self.ignores_start && !own { offset } else { 0.0 };
-        (gap - offset, offset)
+        self.continuity.gap(touch.crossing.gap, touch.own, |positions| {
+            let [a, b] = touch.nodes.map(|edge| edge.map(|node| positions[node as usize]));
+            distance(a, b)
+        })
     }
 
     /// Finds the pairs of edges that touch.
     fn track_edges(&mut self, scene: &Scene<'_, 3>, is_searched: bool) {
-        let Self { tracker, edges: Some(edges), passes, closed_nodes, .. } = self else { return };
-        let (surfaces, is_new) = (tracker.surfaces(), !self.has_begun);
+        let Self { tracker, edges: Some(edges), passes, closed_nodes, continuity, .. } = self else { return };
+        let (surfaces, is_new) = (tracker.surfaces(), !continuity.has_begun);
         let sweep = if is_new { Sweep { old: scene.sweep.new, ..scene.sweep } } else { scene.sweep };
-        let around = around(tracker, sweep, is_new, [self.thickness + self.reach, self.reach]);
+        let around = around(tracker, sweep, is_new, [continuity.thickness + continuity.reach, continuity.reach]);
         if is_searched {
             edges.find(&around);
         }
@@ -246,7 +152,7 @@ impl NodeFacet {
                 let facets = target.edges[touch.edges[1 - of] as usize].facets.into_iter().filter(|&facet| facet != NONE);
                 for node in touch.nodes[of] {
                     if let (Some((pass, _)), Ok(rank)) = (pass, slave.nodes.binary_search(&node)) {
-                        stiffness += 0.5 * pass.softest(rank, facets.clone());
+                        stiffness += 0.5 * pass.softest(rank, Face::WHOLE, facets.clone());
                         area += 0.5 * pass.slaves[rank].area;
                         of_mass += 0.5 * pass.of_mass(rank, facets.clone());
                         thickness = thickness.min(pass.thickness(rank, facets.clone()));
@@ -287,13 +193,13 @@ impl NodeFacet {
     fn push_node(&mut self, index: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         let touch = self.tracker.touches()[index];
         let memory = *self.tracker.kept(&touch);
-        let (gap, offset) = self.beyond(self.gap(&touch), touch.own, &memory);
+        let (gap, offset) = self.continuity.beyond(self.gap(&touch), touch.own, &memory.spring);
         let mut more = std::mem::take(&mut self.more);
         let (pass, node, slave) = (&self.passes[touch.pass as usize], touch.node, touch.slave as usize);
         let Projection { normal, facet, weights, .. } = touch.projection;
         let target = self.tracker.target(touch.pass);
         let rest = Placed { surface: target, positions: scene.sweep.new }.rests_on(&touch.projection);
-        let (stiffness, area) = (pass.softest(slave, target.sharing(facet, rest)), pass.slaves[slave].area);
+        let (stiffness, area) = (pass.softest(slave, Face::WHOLE, target.sharing(facet, rest)), pass.slaves[slave].area);
         let thickness = pass.thickness(slave, target.sharing(facet, rest));
         let of_mass = pass.of_mass(slave, target.sharing(facet, rest));
         let (stiffening, side) = (stiffening(thickness, pass.factor(stiffness, of_mass)), self.tracker.side(touch.pass));
@@ -306,16 +212,10 @@ impl NodeFacet {
         } else {
             self.push_whole(&touch, &memory, (spring, rest), scene, (springs, &mut more));
         }
-        self.continue_run(&memory, springs);
+        self.continuity.resume(&memory.spring, springs);
         self.more = more;
-        *self.tracker.kept_mut(&touch) = ContactHistory { offset, normal, facet, rest, stored: 0.0, ..memory };
-    }
-
-    /// Lets the spring that was pushed last continue where it ended.
-    fn continue_run(&self, memory: &ContactHistory, springs: &mut Springs<3>) {
-        if self.stores && self.has_begun {
-            springs.continues(memory.half(), memory.stored);
-        }
+        let spring = SpringHistory { offset, normal, stored: 0.0, ..memory.spring };
+        *self.tracker.kept_mut(&touch) = ContactHistory { spring, facet, rest, ..memory };
     }
 
     /// The same with slip and rims.
@@ -350,18 +250,19 @@ impl NodeFacet {
         let side = if edges.sides()[0] == edges.sides()[1] { 0.0f32 } else { 1.0 };
         let tangent = edge_edge::tangent(touch, positions);
         let ends = edge_edge::ends(touch, tangent, positions);
-        let (gap, offset) = self.beyond(self.edge_gap(touch), touch.own, &pair.memory);
+        let (gap, offset) = self.continuity.beyond(self.edge_gap(touch), touch.own, &pair.memory.spring);
         // It turns with both edges alike: which is the first says nothing.
         let turn = || spin::turn(touch.nodes.iter().map(|nodes| &nodes[..]), scene.sweep);
         let slip = if pair.memory.slip == [0.0; 3] { [0.0; 3] } else { spin::turned(pair.memory.slip, turn()) };
         let slip = cone::carried(slip, Dim::<3>::tangents(normal, &tangent));
         let (stiffness, area, stiffening) = (pair.stiffness, pair.area, pair.stiffening);
         springs.push(Spring { normal, gap, stiffness, area, stiffening, side, slip, tangent, ..Spring::default() }, &ends);
-        self.continue_run(&pair.memory, springs);
+        self.continuity.resume(&pair.memory.spring, springs);
         if let Some(edges) = &mut self.edges {
-            edges.kept_mut(touch).memory = ContactHistory { offset, normal, facet: touch.edges[1], stored: 0.0, ..pair.memory };
+            let spring = SpringHistory { offset, normal, stored: 0.0, ..pair.memory.spring };
+            edges.kept_mut(touch).memory = ContactHistory { spring, facet: touch.edges[1], ..pair.memory };
         }
-        pair.memory.stored
+        pair.memory.spring.stored
     }
 }
 
@@ -369,11 +270,12 @@ impl NodeFacet {
     /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by
     /// index; empty: all).
     fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+        let Continuity { thickness, reach, .. } = self.continuity;
         if self.edges.is_some() {
-            self.tracker.note_closed(self.reach, &mut self.closed_nodes);
+            self.tracker.note_closed(reach, &mut self.closed_nodes);
         }
         let searches = self.tracker.search_report().searches;
-        let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
+        let count = self.tracker.track(scene.sweep, thickness + reach).len();
         let is_searched = self.tracker.search_report().searches != searches;
         self.track_edges(scene, is_searched);
         if let Some(proof) = &mut self.proof {
@@ -395,10 +297,10 @@ impl NodeFacet {
                 continue;
             }
             let memory = *self.tracker.kept(&touch);
-            if !self.superseded.is_empty() && memory.half() >= self.reach && self.is_superseded(&touch, scene) {
+            if !self.superseded.is_empty() && memory.spring.half() >= reach && self.is_superseded(&touch, scene) {
                 continue;
             }
-            again.add(memory.stored);
+            again.add(memory.spring.stored);
             self.push_node(index, scene, springs);
             self.used.push(index as u32);
         }
@@ -408,8 +310,7 @@ impl NodeFacet {
         if let Some(overlap_check) = &mut self.overlap_check {
             overlap_check.push_nets(springs, |stored| again.add(stored));
         }
-        self.lost_contact_energy = self.closed.less(&again);
-        self.has_begun = true;
+        self.continuity.found(&again);
     }
 }
 
@@ -420,23 +321,20 @@ impl Formulation<3> for NodeFacet {
 
     fn remember(&mut self, solved: Answers<'_, 3>) {
         let (nodes, count) = (self.used.len(), self.edges.as_ref().map_or(0, |edges| edges.touches().len()));
-        self.closed = Closed::default();
+        let closed = self.continuity.begin_notes();
         if let Some(overlap_check) = &mut self.overlap_check {
-            overlap_check.note_nets(solved.part(nodes + count, usize::MAX), |stored| self.closed.add(stored));
+            overlap_check.note_nets(solved.part(nodes + count, usize::MAX), |stored| closed.add(stored));
             overlap_check.weigh(&solved);
         }
         let (nodes, edges) = (solved.part(0, nodes), solved.part(nodes, nodes + count));
-        let (stores, slips, reach, closed) = (self.stores, self.slips, self.reach, &mut self.closed);
+        let (slips, continuity) = (self.slips, &mut self.continuity);
         let mut note = |memory: &mut ContactHistory, answer: &Answer<'_, 3>| {
             if slips {
                 let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
                 memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
             }
-            (memory.half, memory.carried) = (answer.gap_new(), answer.solved.gap - answer.spring.gap);
-            if stores && memory.half < reach {
-                memory.stored = answer.stored_new();
-                closed.add(memory.stored);
-            }
+            memory.carried = answer.solved.gap - answer.spring.gap;
+            continuity.note(&mut memory.spring, answer);
         };
         for (&index, answer) in self.used.iter().zip(nodes) {
             let touch = self.tracker.touches()[index as usize];
@@ -451,25 +349,10 @@ impl Formulation<3> for NodeFacet {
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        #[rustfmt::skip]
         let Self {
-            passes: _,
-            thickness: _,
-            reach: _,
-            stores: _,
-            slips: _,
-            ignores_start: _,
-            initial: _,
-            lost_contact_energy: _,
-            used: _,
-            closed_nodes: _,
-            superseded: _,
-            more: _,
-            tracker,
-            edges,
-            proof,
-            overlap_check,
-            has_begun,
-            closed,
+            passes: _, slips: _, used: _, closed_nodes: _, superseded: _, more: _,
+            tracker, edges, proof, overlap_check, continuity,
         } = self;
         tracker.persist(archive)?;
         if let Some(proof) = proof {
@@ -481,8 +364,7 @@ impl Formulation<3> for NodeFacet {
         if let Some(overlap_check) = overlap_check {
             overlap_check.persist(archive)?;
         }
-        persist_each!(archive; has_begun, closed);
-        Ok(())
+        continuity.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
@@ -498,7 +380,7 @@ impl Formulation<3> for NodeFacet {
             if let (Some(overlap_check), Some(before)) = (&mut self.overlap_check, &old.overlap_check) {
                 overlap_check.inherit(before);
             }
-            self.has_begun = old.has_begun;
+            self.continuity.has_begun = old.continuity.has_begun;
         }
     }
 
@@ -519,7 +401,7 @@ impl Formulation<3> for NodeFacet {
     }
 
     fn lost_contact_energy(&self) -> f64 {
-        self.lost_contact_energy
+        self.continuity.lost_contact_energy
     }
 
     fn search_report(&self) -> Option<SearchReport> {

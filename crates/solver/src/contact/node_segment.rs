@@ -5,19 +5,21 @@
 //! stiffness that of the softer side where they meet.
 
 mod fold;
+mod tied;
 
 use super::checked::Look;
-use super::closed::Closed;
+use super::continuity::{Closed, Continuity, SpringHistory};
 use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes, one_pass};
-use super::initial::{is_ignored, kept};
-use super::law::penalty::{at_obstacles, factor, penalty_of, stiffening};
+use super::law::penalty::{at_obstacles, penalty_of, stiffening};
+use super::node_facet::NodeFacet;
 use super::projection::node_segment::{Projection, Target};
+use super::slaves::{PassInput, Slave};
 use super::springs::{Answers, End, Spring, Springs, tangent};
 use super::tracker::{Certificate, ContactHistory, ContactPoint, SearchReport, Tracker, is_facing};
 use super::{Formulation, Scene, Vector};
-use crate::archive::{Archive, ArchiveResult, persist_each};
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::mesh::surface::NONE;
 use crate::model;
 use fold::{other_at_node, turn_with_both};
@@ -26,152 +28,52 @@ use std::any::Any;
 /// Registry entry.
 pub const DOUBLE_PASS: FormulationKind = FormulationKind {
     name: "double_pass",
-    doc: "nodes against segments; each surface is slave once and target once in every force evaluation",
+    doc: "nodes against segments or facets; each surface is slave once and target once in every force evaluation",
     source: "Bittencourt and Creus (1995)",
     passes: both_passes,
-    make: |setup| Ok(Box::new(NodeSegment::of(setup))),
+    in_2d: Some(|setup| Ok(Box::new(NodeSegment::of(setup)))),
+    in_3d: Some(|setup| Ok(Box::new(NodeFacet::checked(setup)))),
 };
 
 /// Registry entry.
 pub const SINGLE_PASS: FormulationKind = FormulationKind {
     name: "single_pass",
-    doc: "nodes against segments; only the nodes of the slave surface are checked against the other one",
+    doc: "nodes against segments or facets; only the nodes of the slave surface are checked against the other one",
     source: "Bittencourt and Creus (1995)",
     passes: one_pass,
-    make: |setup| Ok(Box::new(NodeSegment::of(setup))),
+    in_2d: Some(|setup| Ok(Box::new(NodeSegment::of(setup)))),
+    in_3d: Some(|setup| Ok(Box::new(NodeFacet::checked(setup)))),
 };
 
 /// The formulation.
 pub struct NodeSegment {
     tracker: Tracker,
     passes: Vec<PassInput>,
-    /// Distance that the surfaces keep, m.
-    thickness: f64,
-    /// Largest gap at which the law pushes, m.
-    reach: f64,
-    /// Whether springs store energy: multipliers do not.
-    stores: bool,
+    continuity: Continuity<2>,
     /// Whether springs care for slip.
     slips: bool,
-    /// Whether gaps that are negative when the contact begins to act count as zero.
-    ignores_start: bool,
-    /// Initial positions, m: only where a surface meets itself at a distance.
-    initial: Vec<Vector>,
-    has_begun: bool,
     /// The touches of this step that made springs.
     used: Vec<u32>,
-    /// Energy of the springs of the last step, and of those that were not found again, J/m.
-    closed: Closed,
-    lost_contact_energy: f64,
     /// How deep nodes are against the local thickness.
     depths: Depths,
-}
-
-/// What a pass knows of its nodes and segments.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PassInput {
-    /// Slave nodes in the order of their surface; stiffness as their own side gives it.
-    pub slaves: Vec<Slave>,
-    /// Stiffness (N/m per metre of depth) of each slave by unit of pressure stiffness κ (Pa/m) of the target;
-    /// empty where the stiffness is given.
-    pub per_modulus: Vec<f64>,
-    /// Smallest κ of the part behind each segment of the target, Pa/m.
-    pub moduli: Vec<f64>,
-    /// The same α m / (dt² A) by the mass of its nodes and the first step, Pa/m; empty: not known.
-    pub of_mass: Vec<f64>,
-    /// What the segments at each slave stand for, [that which ends there, that which begins there]; empty:
-    /// slaves count whole.
-    pub faces: Vec<[Face; 2]>,
-    /// By what factor springs stiffen if the slaves or the target are those of an obstacle.
-    pub at_obstacle: Option<f64>,
-    /// Local thickness at each slave at the start, m; empty: what is behind the target counts alone.
-    pub thickness: Vec<f64>,
-}
-
-/// What a segment at a node has of the node's tributary length and of its stiffness, as fractions.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Face {
-    /// Fraction of the length, of an axisymmetric body of the area.
-    pub length: f64,
-    /// Fraction of the stiffness.
-    pub stiffness: f64,
 }
 
 /// Both faces of a node.
 const BOTH: u8 = 3;
 
-impl PassInput {
-    /// The softer of both sides decides, where they meet.
-    pub(super) fn stiffness(&self, slave: usize, segment: u32) -> f64 {
-        self.stiffness_of(slave, segment, Face { length: 1.0, stiffness: 1.0 })
-    }
-
-    fn stiffness_of(&self, slave: usize, segment: u32, part: Face) -> f64 {
-        let own = part.stiffness * self.slaves[slave].stiffness;
-        self.per_modulus.get(slave).map_or(own, |per| own.min(part.length * per * self.moduli[segment as usize]))
-    }
-
-    /// Stiffness by mass and step, of the lighter side, N/m per metre of depth.
-    fn of_mass(&self, slave: usize, segment: u32) -> f64 {
-        let Slave { of_mass, area, .. } = self.slaves[slave];
-        self.of_mass.get(segment as usize).map_or(0.0, |other| of_mass.min(other * area))
-    }
-
-    /// Local thickness at a slave, m; infinite: not known.
-    fn thickness(&self, slave: usize) -> f64 {
-        self.thickness.get(slave).copied().unwrap_or(f64::INFINITY)
-    }
-
-    /// By what factor a spring stiffens.
-    fn factor(&self, slave: usize, segment: u32, stiffness: f64) -> f64 {
-        self.at_obstacle.unwrap_or_else(|| factor(stiffness, self.of_mass(slave, segment)))
-    }
-
-    /// What counts of a slave.
-    fn part(&self, slave: usize, faces: u8) -> Face {
-        match self.faces.get(slave) {
-            Some(&[before, _]) if faces == 1 => before,
-            Some(&[_, after]) if faces == 2 => after,
-            _ => Face { length: 1.0, stiffness: 1.0 },
-        }
-    }
-}
-
-/// A slave node.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Slave {
-    /// Stiffness, N/m per metre of depth.
-    pub stiffness: f64,
-    /// Area of surface that it stands for, m (of an axisymmetric body m²): its own, half of that where both
-    /// surfaces are slaves.
-    pub area: f64,
-    /// Elastic slip at n − ½, m.
-    pub slip: f64,
-    /// Stiffness α m / dt² by its mass and the first step, N/m per metre of depth; zero: not known.
-    pub of_mass: f64,
-}
-
 impl NodeSegment {
     /// For the passes of a contact. Where it ignores initial penetrations, gaps that are negative when it
     /// begins to act count as zero until the surfaces part.
     #[must_use]
-    pub fn of(setup: Setup<'_>) -> Self {
+    pub fn of(mut setup: Setup<'_, 2>) -> Self {
         let passes = setup.passes;
         // A surface that meets itself is met from both sides.
         let sides = if setup.sides.len() == 1 { 2 } else { passes.len() };
-        let pass = |&(slave, target): &(usize, usize)| PassInput {
-            slaves: setup.slaves(slave, sides),
-            per_modulus: setup.per_modulus(slave, sides),
-            moduli: setup.sides[target].softest(),
-            of_mass: setup.of_mass(target),
-            faces: setup.faces(slave),
-            ..PassInput::default()
-        };
+        let pass = |&pass: &(usize, usize)| PassInput { faces: setup.faces(pass.0), ..setup.input(pass, sides) };
         let inputs = passes.iter().map(pass).collect();
         let (interface, reach) = (&setup.contact.interface, (setup.law)().reach());
-        let initial = if interface.thickness + reach > 0.0 { setup.positions.to_vec() } else { Vec::new() };
-        let depths = setup.depths();
-        Self { passes: inputs, initial, depths, ..Self::new(setup.tracker(), Vec::new(), interface, reach) }
+        let (tracker, continuity) = (setup.tracker().with_ends(setup.positions), Continuity::new(interface, reach, setup.positions));
+        Self { passes: inputs, continuity, depths: setup.overlap_check, ..Self::new(tracker, Vec::new(), interface, reach) }
     }
 
     /// Of an obstacle, for the passes of `tracker` with slaves whose stiffness is known; `reach` of the law,
@@ -180,49 +82,29 @@ impl NodeSegment {
     pub fn new(tracker: Tracker, slaves: Vec<Vec<Slave>>, interface: &model::Interface, reach: f64) -> Self {
         let factor = at_obstacles(penalty_of(interface));
         let passes = slaves.into_iter().map(|slaves| PassInput { slaves, at_obstacle: Some(factor), ..PassInput::default() }).collect();
-        Self {
-            tracker,
-            passes,
-            thickness: interface.thickness,
-            reach,
-            stores: is_stored(interface),
-            slips: interface.friction.is_some(),
-            ignores_start: is_ignored(interface),
-            initial: Vec::new(),
-            has_begun: false,
-            used: Vec::new(),
-            closed: Closed::default(),
-            lost_contact_energy: 0.0,
-            depths: Depths::default(),
-        }
+        let (continuity, slips) = (Continuity::new(interface, reach, &[]), interface.friction.is_some());
+        Self { tracker, passes, continuity, slips, used: Vec::new(), depths: Depths::default() }
     }
 
     /// The same with what is known of depths, and of each pass the thickness of the bodies at its slaves, m
     /// (empty: not known).
     #[must_use]
     pub fn with_depths(self, depths: Depths, thickness: Vec<Vec<f64>>) -> Self {
-        let passes = self.passes.into_iter().zip(thickness).map(|(pass, thickness)| PassInput { thickness, ..pass }).collect();
+        let passes = self
+            .passes
+            .into_iter()
+            .zip(thickness)
+            .map(|(pass, thickness)| PassInput { thickness: [thickness, Vec::new()], ..pass })
+            .collect();
         Self { passes, depths, ..self }
     }
 
-    /// Gap less the thickness. A surface keeps no more distance from itself than half of what it had:
-    /// neighbours along a surface are near, and stay so.
+    /// As [`Continuity::gap`].
     fn gap(&self, touch: &ContactPoint) -> f64 {
-        let gap = touch.projection.gap - self.thickness;
-        if !touch.own || self.initial.is_empty() {
-            return gap;
-        }
-        let target = self.tracker.target(touch.pass);
-        let distance = target.distance(self.initial[touch.node as usize], touch.projection.segment, &self.initial);
-        gap + (self.thickness + self.reach - 0.5 * distance.unwrap_or(0.0)).max(0.0)
-    }
-
-    /// Gap as the spring sees it, and the gap that counts as zero.
-    fn beyond(&self, touch: &ContactPoint, memory: &ContactHistory) -> (f64, f64) {
-        let gap = self.gap(touch);
-        let offset = kept(self.has_begun, memory.offset, gap);
-        let offset = if self.ignores_start && !touch.own { offset } else { 0.0 };
-        (gap - offset, offset)
+        self.continuity.gap(touch.projection.gap, touch.own, |initial| {
+            let target = self.tracker.target(touch.pass);
+            target.distance(initial[touch.node as usize], touch.projection.segment, initial).unwrap_or(0.0)
+        })
     }
 }
 
@@ -251,7 +133,7 @@ impl NodeSegment {
     /// [`Formulation::detect`] for those slaves of the first pass that are not bound otherwise (`bound` by
     /// index; empty: all).
     pub(super) fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
-        let count = self.tracker.track(scene.sweep, self.thickness + self.reach).len();
+        let count = self.tracker.track(scene.sweep, self.continuity.thickness + self.continuity.reach).len();
         self.used.clear();
         self.depths.begin(scene);
         let mut again = Closed::default();
@@ -262,7 +144,7 @@ impl NodeSegment {
                 continue;
             }
             let memory = *self.tracker.kept(&touch);
-            again.add(memory.stored);
+            again.add(memory.spring.stored);
             let pass = &self.passes[touch.pass as usize];
             let target = self.tracker.target(touch.pass);
             let mut ends = ends(touch.node, &touch.projection, target, scene.sweep.new);
@@ -270,12 +152,12 @@ impl NodeSegment {
             let faces = self.faces(&touch, &memory, scene.sweep.new);
             let part = pass.part(slave, faces);
             let other = other_at_node(touch.node, &touch.projection, target);
-            let stiffness = [Some(segment), other].into_iter().flatten().map(|segment| pass.stiffness_of(slave, segment, part));
-            let (stiffness, area) = (stiffness.fold(f64::INFINITY, f64::min), part.length * pass.slaves[slave].area);
-            let (gap, offset) = self.beyond(&touch, &memory);
-            let thickness = self.depths.thickness(self.tracker.around(&touch)).min(pass.thickness(slave));
+            let stiffness = pass.softest(slave, part, std::iter::once(segment).chain(other));
+            let area = part.length * pass.slaves[slave].area;
+            let (gap, offset) = self.continuity.beyond(self.gap(&touch), touch.own, &memory.spring);
+            let thickness = self.depths.thickness(self.tracker.around(&touch)).min(pass.thickness(slave, None));
             self.depths.see(&self.tracker, &touch, offset - touch.projection.gap, thickness, scene);
-            let stiffening = stiffening(thickness, pass.factor(slave, segment, stiffness));
+            let stiffening = stiffening(thickness, pass.factor(stiffness, pass.of_mass(slave, [segment])));
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
@@ -285,15 +167,13 @@ impl NodeSegment {
                 None => springs.push(spring, &ends),
                 Some(more) => springs.push_with(spring, ends.iter().chain([&more])),
             }
-            if self.stores && self.has_begun {
-                springs.continues(memory.half(), memory.stored);
-            }
-            *self.tracker.kept_mut(&touch) = ContactHistory { offset, faces, normal, stored: 0.0, ..memory };
+            self.continuity.resume(&memory.spring, springs);
+            let spring = SpringHistory { offset, normal, stored: 0.0, ..memory.spring };
+            *self.tracker.kept_mut(&touch) = ContactHistory { spring, faces, ..memory };
             self.used.push(index as u32);
         }
         self.depths.end();
-        self.lost_contact_energy = self.closed.less(&again);
-        self.has_begun = true;
+        self.continuity.found(&again);
     }
 }
 
@@ -303,26 +183,19 @@ impl Formulation<2> for NodeSegment {
     }
 
     fn remember(&mut self, solved: Answers<'_, 2>) {
-        self.closed = Closed::default();
+        self.continuity.begin_notes();
         for (&index, answer) in self.used.iter().zip(solved) {
             let touch = self.tracker.touches()[index as usize];
             let memory = self.tracker.kept_mut(&touch);
-            (memory.slip, memory.half) = (answer.solved.slip_new[0], answer.gap_new());
-            if self.stores && memory.half < self.reach {
-                memory.stored = answer.stored_new();
-                self.closed.add(memory.stored);
-            }
+            memory.slip = answer.solved.slip_new[0];
+            self.continuity.note(&mut memory.spring, &answer);
         }
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        #[rustfmt::skip]
-        let Self {
-            passes: _, thickness: _, reach: _, stores: _, slips: _, ignores_start: _, initial: _, used: _, lost_contact_energy: _,
-            tracker, has_begun, closed, depths,
-        } = self;
+        let Self { passes: _, slips: _, used: _, tracker, continuity, depths } = self;
         tracker.persist(archive)?;
-        persist_each!(archive; has_begun, closed);
+        continuity.persist(archive)?;
         depths.persist(archive)
     }
 
@@ -330,13 +203,13 @@ impl Formulation<2> for NodeSegment {
         if let Ok(old) = old.downcast::<Self>() {
             // What is not found again went with its surface.
             self.tracker.inherit(&old.tracker);
-            self.has_begun = old.has_begun;
+            self.continuity.has_begun = old.continuity.has_begun;
             self.depths.inherit(&old.depths);
         }
     }
 
     fn lost_contact_energy(&self) -> f64 {
-        self.lost_contact_energy
+        self.continuity.lost_contact_energy
     }
 
     fn certificate(&self) -> Certificate {
@@ -354,11 +227,6 @@ impl Formulation<2> for NodeSegment {
     fn search_report(&self) -> Option<SearchReport> {
         Some(self.tracker.search_report())
     }
-}
-
-/// Whether springs of an interface store energy.
-pub(super) fn is_stored(interface: &model::Interface) -> bool {
-    interface.law != model::ContactLaw::Multiplier
 }
 
 /// The ends of a spring between a node and where it projects.

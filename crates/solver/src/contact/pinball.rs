@@ -34,7 +34,8 @@ pub const KIND: FormulationKind = FormulationKind {
     doc: "disks (in 3D balls) in the elements under the surfaces against each other: simple and robust, bumpy where bodies slide",
     source: "Belytschko and Neal (1991), split as by Belytschko and Yeh (1993); disks and balls that touch the surface from inside",
     passes: both_passes,
-    make: |setup| Ok(Box::new(Checked::new(Box::new(Pinball::of(&setup)), setup.depths()))),
+    in_2d: Some(|setup| Ok(Box::new(Checked::new(Box::new(Pinball::of(&setup)), setup.overlap_check)))),
+    in_3d: Some(|setup| Ok(Box::new(Checked::new(Box::new(space::Pinball::of(&setup)), setup.overlap_check.without_nets())))),
 };
 
 /// A disk in an element of at most four nodes; its area is the length of surface that it stands for, m.
@@ -75,11 +76,12 @@ fn depth(x: Vector, [a, b]: [u32; 2], positions: &[Vector]) -> f64 {
 }
 
 /// The disks under a surface, segment by segment.
-fn disks_under(side: &Side<'_>, positions: &[Vector]) -> Vec<Disk> {
+fn disks_under(side: &Side<'_, 2>, positions: &[Vector]) -> Vec<Disk> {
     let mut disks: Vec<Disk> = Vec::new();
     let mut above: Vec<[u32; 2]> = Vec::new();
-    for ((&segment, &cell), &stiffness) in side.target.surface.segments.iter().zip(&side.cells).zip(&side.segments) {
-        for disk in disks_of_segment(segment, cell, stiffness, positions) {
+    for ((&segment, cell), &stiffness) in side.surface.target.surface.segments.iter().zip(&side.cells).zip(&side.stiffness) {
+        let Some(cell) = cell else { continue };
+        for disk in disks_of_segment(segment, cell.corners(), stiffness, positions) {
             let same = disks.iter().position(|other| disk.is_as(other, positions));
             let Some(at) = same else {
                 disks.push(disk);
@@ -129,7 +131,7 @@ fn disks_of_segment(segment: [u32; 2], cell: &[u32], stiffness: f64, positions: 
 }
 
 impl Pinball {
-    fn of(setup: &Setup<'_>) -> Self {
+    fn of(setup: &Setup<'_, 2>) -> Self {
         let layers = setup.sides.iter().map(|side| disks_under(side, setup.positions)).collect();
         let (interface, reach, search) = (&setup.contact.interface, (setup.law)().reach(), (setup.search)());
         Self { follower: Follower::new(layers, interface, setup.penalty(), reach, search, (setup.bodies, setup.positions)) }
@@ -178,6 +180,7 @@ impl Formulation<2> for Pinball {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::formulation::ContactSurface;
     use crate::contact::projection::node_segment::Target;
     use crate::contact::springs::tangent;
     use crate::mesh::shapes::{Body, rectangle};
@@ -185,13 +188,11 @@ mod tests {
 
     fn disks_of(body: &Body<2>) -> Vec<Disk> {
         let surface = Surface::<2>::outside(body.cells()).unwrap();
-        let cell = |segment: &[u32; 2]| {
-            let quad = body.cells().find(|quad| quad.edges().any(|[a, b]| [b, a] == *segment));
-            quad.unwrap().nodes
-        };
+        let cell = |segment: &[u32; 2]| body.cells().find(|quad| quad.edges().any(|[a, b]| [b, a] == *segment));
         let cells = surface.segments.iter().map(cell).collect();
-        let side =
-            Side { segments: vec![1.0; surface.segments.len()], cells, target: Target { surface, mirrors: Vec::new() }, ..Side::default() };
+        let stiffness = vec![1.0; surface.segments.len()];
+        let surface = ContactSurface { target: Target { surface, mirrors: Vec::new() }, lids: Vec::new() };
+        let side = Side { stiffness, cells, surface, ..Side::default() };
         disks_under(&side, &body.positions)
     }
 

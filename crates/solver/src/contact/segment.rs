@@ -43,7 +43,8 @@ pub const KIND: FormulationKind = FormulationKind {
     doc: "segments against segments, integrated over their common part: passes the contact patch test on any meshes",
     source: "Papadopoulos and Taylor (1992); common plane as in Puso and Laursen (2004)",
     passes: both_passes,
-    make: |setup| Ok(Box::new(Segment::of(setup))),
+    in_2d: Some(|setup| Ok(Box::new(Segment::of(setup)))),
+    in_3d: None,
 };
 
 /// Place (0 to 1) and weight of integration points.
@@ -166,12 +167,12 @@ impl Chain {
 }
 
 impl Segment {
-    fn of(setup: Setup<'_>) -> Self {
+    fn of(mut setup: Setup<'_, 2>) -> Self {
         // With springs that don't yield two points a pair were more conditions than the nodes can meet.
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let law = (setup.law)();
         let (penalty, thickness, reach, depth) = (setup.penalty(), setup.contact.interface.thickness, law.reach(), setup.depth);
-        let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.target.surface, side.segments.clone())).collect();
+        let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.surface.target.surface, side.stiffness.clone())).collect();
         let count = chains.iter().map(|chain| chain.depth.len()).sum();
         let at_a_distance = thickness + reach > 0.0;
         let start = Start {
@@ -180,10 +181,10 @@ impl Segment {
             bodies: if at_a_distance { setup.bodies.to_vec() } else { Vec::new() },
             has_begun: false,
         };
-        let (depths, tracker) = (setup.depths(), setup.tracker());
+        let tracker = setup.tracker().with_ends(setup.positions);
         Self {
             tracker,
-            depths,
+            depths: setup.overlap_check,
             chains,
             law,
             penalty,

@@ -4,11 +4,12 @@
 
 use embate_solver::contact::law::penalty::Penalty;
 use embate_solver::contact::missed_contacts::MissedContactCheck;
+use embate_solver::contact::node_facet::NodeFacet;
 use embate_solver::contact::node_facet::tracker::{ContactPoint, Tracker};
-use embate_solver::contact::node_facet::{NodeFacet, PassInput, Slave};
 use embate_solver::contact::projection::node_facet::{Placed, Vector};
 use embate_solver::contact::projection::swept::entries;
 use embate_solver::contact::search::{Pair, Query, Search, registry};
+use embate_solver::contact::slaves::{PassInput, Slave};
 use embate_solver::contact::springs::{Springs, Tangential, Terms};
 use embate_solver::contact::tracker::Certificate;
 use embate_solver::contact::{Formulation, Scene, Sweep};

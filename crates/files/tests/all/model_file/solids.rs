@@ -146,7 +146,7 @@ fn what_only_the_plane_knows_is_refused_in_3d_on_its_line() {
         (
             "[[contact]]\nbodies = \"all\"\nformulation = \"segment\"",
             "contact[0].formulation",
-            "in 3D there are no segments: nodes meet facets, and edges meet edges | take `double_pass`, `single_pass` or `pinball`",
+            "in 3D there is no formulation \"segment\" | take `double_pass`, `single_pass` or `pinball`",
         ),
         (
             "[[obstacle]]\ncircle = { centre = [0, -2], radius = 1 }",

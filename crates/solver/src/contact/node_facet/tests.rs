@@ -4,6 +4,7 @@ use super::*;
 use crate::bench::Random;
 use crate::contact::law::penalty::Penalty;
 use crate::contact::search;
+use crate::contact::slaves::Slave;
 use crate::contact::springs::friction::Friction;
 use crate::contact::springs::{NodeResponse, NodeResponses, Tangential, Terms, Update};
 use crate::contact::traces::Traces;
@@ -484,7 +485,8 @@ fn who_sleeps_would_have_been_found_as_it_was() {
             for tracker in [&mut sleepy, &mut awake] {
                 for touch in &found {
                     let Projection { normal, facet, .. } = touch.projection;
-                    *tracker.kept_mut(touch) = ContactHistory { normal, facet, ..*tracker.kept(touch) };
+                    let kept = *tracker.kept(touch);
+                    *tracker.kept_mut(touch) = ContactHistory { spring: SpringHistory { normal, ..kept.spring }, facet, ..kept };
                 }
             }
         }

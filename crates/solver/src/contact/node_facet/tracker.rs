@@ -23,10 +23,11 @@
 //! bodies ascending.
 
 use super::super::Sweep;
+use super::super::continuity::SpringHistory;
 use super::super::projection::node_facet::{Placed, Projection, Vector};
-use super::super::search::{Pair, Query, Search};
+use super::super::search::{Query, Search};
 use super::super::tracker::sleep::{AWAKE, awake, wake_at};
-use super::super::tracker::{SAFE, SKIN, SearchReport};
+use super::super::tracker::{Reach, SKIN, SLACK, SearchReport};
 use super::far::Candidates;
 use super::groups::{Group, Meeting, bend, bodies_of, halves, mean_edge};
 use super::passage::{Passages, led};
@@ -52,8 +53,6 @@ const FLUSH: f64 = 4e-6;
 const BAND: f64 = 0.02;
 /// Cosine of the angle between the normal that a node felt and that of the face that holds it.
 const SAME_FACE: f64 = 0.9;
-/// The global search is asked for a little more than is needed: it may round.
-const SLACK: f64 = 1.001;
 
 /// What is kept of a slave and a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,16 +63,10 @@ pub struct ContactHistory {
     pub facet: u32,
     /// See `facet`.
     pub rest: [u32; 2],
-    /// Gap that counts as zero, m.
-    pub offset: f64,
-    /// Where the spring's gap was at n − ½, m.
-    pub half: f64,
-    /// Its normal in the step before; zero: it had none.
-    pub normal: Vector,
-    /// By how much that was less deep than the surfaces at n − 1, m.
+    /// Its spring.
+    pub spring: SpringHistory<3>,
+    /// By how much that was less deep at n − ½ than the surfaces at n − 1, m.
     pub carried: f64,
-    /// Energy of its spring at n − ½, J.
-    pub stored: f64,
     /// Side from which the node came in; zero while it is outside.
     pub side: Vector,
     /// Whether the face by which it came in leads it, though something else is nearer.
@@ -82,31 +75,12 @@ pub struct ContactHistory {
 
 impl Default for ContactHistory {
     fn default() -> Self {
-        let none = [0.0; 3];
-        Self {
-            slip: none,
-            facet: NONE,
-            rest: [NONE; 2],
-            offset: 0.0,
-            half: 0.0,
-            normal: none,
-            carried: 0.0,
-            stored: 0.0,
-            side: none,
-            is_led: false,
-        }
+        let (none, spring) = ([0.0; 3], SpringHistory::default());
+        Self { slip: none, facet: NONE, rest: [NONE; 2], spring, carried: 0.0, side: none, is_led: false }
     }
 }
 
-impl ContactHistory {
-    /// Where its spring's gap was at n − ½, m; infinite: there was no spring.
-    #[must_use]
-    pub fn half(&self) -> f64 {
-        if self.normal == [0.0; 3] { f64::INFINITY } else { self.half }
-    }
-}
-
-persist_all!(ContactHistory { slip, facet, rest, offset, half, normal, carried, stored, side, is_led });
+persist_all!(ContactHistory { slip, facet, rest, spring, carried, side, is_led });
 
 /// What is known of a slave node and a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -164,31 +138,24 @@ enum Place {
 pub struct Tracker {
     surfaces: Vec<SpaceSurface>,
     passes: Vec<Pass>,
-    search: Box<dyn Search<3>>,
+    reach: Reach<3>,
     /// Two triangles for each facet of each surface; of a triangle twice itself.
     triangles: Vec<Vec<[u32; 3]>>,
     /// A facet and a corner at each node of each surface.
     corners: Vec<Vec<(u32, u32)>>,
     /// Body of each node as far as the surfaces go.
     bodies: Vec<u32>,
-    /// All nodes of the surfaces, and where they were at the last search; empty before the first.
-    nodes: Vec<u32>,
-    searched: Vec<Vector>,
     /// Whether nothing is known of the past.
     is_new: bool,
-    skin: f64,
     /// A face holds nodes no farther beyond its rim than this, m.
     band: f64,
     /// Everything nearer was found by the last search, m.
     radius: f64,
     /// Deepest touch of the last step, m.
     deepest: f64,
-    /// Travel of the last step, of the last search, m.
+    /// Travel of the last step, m.
     travel: f64,
-    searched_at: f64,
     touches: Vec<ContactPoint>,
-    pairs: Vec<Pair>,
-    report: SearchReport,
 }
 
 impl Tracker {
@@ -219,15 +186,12 @@ impl Tracker {
             surface.nodes.iter().enumerate().map(at).collect()
         };
         let (triangles, corners) = (surfaces.iter().map(halves).collect(), surfaces.iter().map(corners).collect());
-        let mut nodes: Vec<u32> = surfaces.iter().flat_map(|surface| surface.nodes.iter().copied()).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        let nodes = surfaces.iter().flat_map(|surface| surface.nodes.iter().copied());
+        let reach = Reach::new(search, nodes, SKIN * mean_edge(&surfaces, positions));
         let bodies = bodies_of(&surfaces, bodies);
-        let skin = SKIN * mean_edge(&surfaces, positions);
-        let report = SearchReport { skin, ..SearchReport::default() };
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, search, triangles, corners, bodies, nodes, searched: Vec::new(), is_new: true, skin, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, searched_at: 0.0, touches: Vec::new(), pairs: Vec::new(), report,
+            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, touches: Vec::new(),
         };
         tracker
     }
@@ -237,9 +201,9 @@ impl Tracker {
     #[must_use]
     pub fn measured_by(self, surface: usize, positions: &[Vector]) -> Self {
         let edge = mean_edge(&self.surfaces[surface..=surface], positions);
-        let skin = self.skin.min(SKIN * edge);
+        let skin = self.reach.skin.min(SKIN * edge);
         // The diagonals of a square.
-        Self { skin, band: 2.0 * BAND * edge, report: SearchReport { skin, ..self.report }, ..self }
+        Self { reach: self.reach.with_skin(skin), band: 2.0 * BAND * edge, ..self }
     }
 
     /// The surfaces.
@@ -264,21 +228,21 @@ impl Tracker {
     /// What the search cost so far.
     #[must_use]
     pub fn search_report(&self) -> SearchReport {
-        SearchReport { candidates: self.passes.iter().map(|pass| pass.candidates.len()).sum(), ..self.report }
+        SearchReport { candidates: self.passes.iter().map(|pass| pass.candidates.len()).sum(), ..self.reach.report }
     }
 
     /// Everything nearer was found by the last search, and the part of it for what moves until the next one,
     /// m.
     #[must_use]
     pub fn reach(&self) -> [f64; 2] {
-        [self.radius, self.skin]
+        [self.radius, self.reach.skin]
     }
 
     /// Gap (m) up to which springs are there before they are needed, beside what the motion asks for; and how
     /// many motions ahead.
     #[must_use]
     pub fn near(&self) -> [f64; 2] {
-        [START * self.skin, LOOK_AHEAD]
+        [START * self.reach.skin, LOOK_AHEAD]
     }
 
     /// Fills a list with the nodes whose springs were closed (gap below `open`, m) after the last step: slave
@@ -287,7 +251,7 @@ impl Tracker {
         closed.clear();
         for pass in &self.passes {
             // A node that edges stand for touches without a spring.
-            let is_closed = |group: &&Group<Known>| group.known.touches && group.known.memory.half() < open;
+            let is_closed = |group: &&Group<Known>| group.known.touches && group.known.memory.spring.half() < open;
             let target = &self.surfaces[pass.target];
             for Group { node, known: Known { memory: ContactHistory { facet, rest, .. }, .. }, .. } in pass.groups.iter().filter(is_closed)
             {
@@ -329,14 +293,14 @@ impl Tracker {
     /// Nodes that are inside, or near enough to come in during the next update, ascending by pass, slave and
     /// body. Nodes farther than `extra` (m) beyond that are not looked at.
     pub fn track(&mut self, sweep: Sweep<'_, 3>, extra: f64) -> &[ContactPoint] {
-        self.report.steps += 1;
+        self.reach.report.steps += 1;
         let mut sweep = sweep;
         if std::mem::replace(&mut self.is_new, false) {
             // Nothing is known of the past: a node in another body is where the nearest feature says.
             sweep.old = sweep.new;
         }
         let way = sweep.travel - std::mem::replace(&mut self.travel, sweep.travel);
-        if self.is_left(sweep) {
+        if self.reach.is_left(sweep) {
             self.find_candidates(sweep, extra);
         }
         self.touches.clear();
@@ -344,7 +308,7 @@ impl Tracker {
         let mut clear = Vec::new();
         for number in 0..self.passes.len() {
             let pass = &mut self.passes[number];
-            let asleep = awake(extra + START * self.skin + pass.band, LOOK_AHEAD, sweep.travel, way);
+            let asleep = awake(extra + START * self.reach.skin + pass.band, LOOK_AHEAD, sweep.travel, way);
             std::mem::swap(&mut clear, &mut pass.clear);
             for index in 0..pass.groups.len() {
                 if self.passes[number].wakes[index] <= asleep {
@@ -356,26 +320,23 @@ impl Tracker {
         &self.touches
     }
 
-    /// Whether some node has moved by more than half the skin since the last search (or there was none).
-    fn is_left(&self, sweep: Sweep<'_, 3>) -> bool {
-        let limit = 0.25 * self.skin * self.skin;
-        if !self.searched.is_empty() && (0.0..SAFE * self.skin).contains(&(sweep.travel - self.searched_at)) {
-            return false;
+    /// Forgets what is known of the past.
+    pub fn forget(&mut self) {
+        for Pass { groups, candidates, clear, wakes, .. } in &mut self.passes {
+            groups.clear();
+            candidates.clear();
+            clear.clear();
+            wakes.clear();
         }
-        self.searched.is_empty()
-            || self.nodes.iter().zip(&self.searched).any(|(&node, from)| {
-                let moved = minus(sweep.new[node as usize], *from);
-                // What is no number counts as moved.
-                !(dot(moved, moved) <= limit)
-            })
+        self.reach.forget();
+        (self.is_new, self.radius, self.deepest, self.travel) = (true, 0.0, 0.0, 0.0);
     }
 
     /// Groups and candidates again; what groups remember continues.
     fn find_candidates(&mut self, sweep: Sweep<'_, 3>, extra: f64) {
-        let way = |node: &u32| length(minus(sweep.new[*node as usize], sweep.old[*node as usize]));
-        let fastest = self.nodes.iter().map(way).fold(0.0, f64::max);
-        let radius = 2.0 * self.skin + extra + LOOK_AHEAD * fastest + self.deepest;
-        let Self { surfaces, passes, search, triangles, bodies, pairs, band, skin, .. } = self;
+        let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
+        let radius = 2.0 * self.reach.skin + extra + LOOK_AHEAD * self.reach.fastest(way) + self.deepest;
+        let Self { surfaces, passes, triangles, bodies, band, reach: Reach { search, pairs, skin, .. }, .. } = self;
         let skin = *skin;
         for pass in passes {
             let (slaves, target) = (&surfaces[pass.slave].nodes, &surfaces[pass.target]);
@@ -392,7 +353,7 @@ impl Tracker {
             let counts = |node: u32, facet: u32| {
                 let distance = placed.distance(sweep.new[node as usize], facet);
                 // Those that the node has passed on its way stay, however far it is now.
-                let is_near = distance.is_some_and(|distance| distance <= radius) || way(&node) > skin;
+                let is_near = distance.is_some_and(|distance| distance <= radius) || way(node) > skin;
                 is_near.then(|| distance.map_or(AWAKE, |distance| wake_at(distance, sweep.travel)))
             };
             let meeting = Meeting { slaves, target, is_one: pass.slave == pass.target };
@@ -410,10 +371,7 @@ impl Tracker {
             pass.wakes.resize(pass.groups.len(), AWAKE);
         }
         self.radius = radius;
-        self.searched_at = sweep.travel;
-        self.report.searches += 1;
-        self.searched.clear();
-        self.searched.extend(self.nodes.iter().map(|&node| sweep.new[node as usize]));
+        self.reach.settle(sweep);
     }
 
     /// Where the node of group `index` of pass `number` is with respect to its body; `clear` is what is known
@@ -471,14 +429,14 @@ impl Tracker {
             return Place::Touches(led, along, true);
         }
         // Who continues with its face needs no second look.
-        let continues = |found: &Projection| group.known.touches && dot(group.known.memory.normal, found.normal) > SAME_FACE;
+        let continues = |found: &Projection| group.known.touches && dot(group.known.memory.spring.normal, found.normal) > SAME_FACE;
         if !group.own && !found.as_ref().is_some_and(continues) {
             let own = self.own_normal(pass.slave, group.slave, sweep.new);
             if found.is_none_or(|found| dot(own, found.normal) >= FACING) {
                 let faces = |facet: u32| dot(own, placed.facet_normal(facet)) < FACING;
                 let over = candidates.nearest(&placed, x, likely, |facet| sees(facet) && faces(facet));
                 let over = over.and_then(|over| placed.seen_over(x, over, faces));
-                let is_flush = found.is_some_and(|found| found.gap.abs() <= FLUSH * self.skin);
+                let is_flush = found.is_some_and(|found| found.gap.abs() <= FLUSH * self.reach.skin);
                 // No face before which it is leads it out of a body into which it has gone.
                 let may_hold = |over: &Projection| !(may_lead && is_inside) || is_flush || over.gap < 0.0;
                 let over = over.filter(|over| may_hold(&over.0) && self.is_held(pass, group, side, sweep, over, is_flush));
@@ -488,15 +446,15 @@ impl Tracker {
         let Some(found) = found else { return Place::Away };
         if found.gap < 0.0 {
             // In its own body only who was seen to come in, or was just before it.
-            let known = came || (group.known.touches && dot(group.known.memory.normal, found.normal) > SAME_SIDE);
+            let known = came || (group.known.touches && dot(group.known.memory.spring.normal, found.normal) > SAME_SIDE);
             return match known {
                 false if group.own => Place::Away,
-                false if -found.gap > self.radius - self.skin => Place::Lost,
+                false if -found.gap > self.radius - self.reach.skin => Place::Lost,
                 _ => Place::Touches(found, found.normal, false),
             };
         }
-        let near = extra + START * self.skin + LOOK_AHEAD * motion(&placed, &found, sweep, group.node);
-        let is_near = found.gap <= near.min(self.radius - self.skin).max(extra);
+        let near = extra + START * self.reach.skin + LOOK_AHEAD * motion(&placed, &found, sweep, group.node);
+        let is_near = found.gap <= near.min(self.radius - self.reach.skin).max(extra);
         if is_near { Place::Touches(found, [0.0; 3], false) } else { Place::Away }
     }
 
@@ -515,10 +473,11 @@ impl Tracker {
         let target = &self.surfaces[pass.target];
         let (placed, before) = (Placed { surface: target, positions: sweep.new }, Placed { surface: target, positions: sweep.old });
         let way = length(*beyond);
-        if way > (BAND * placed.size(over.facet)).min(self.band) || -over.gap > self.radius - self.skin {
+        if way > (BAND * placed.size(over.facet)).min(self.band) || -over.gap > self.radius - self.reach.skin {
             return false;
         }
-        let held = dot(side, over.normal) > SAME_FACE || (group.known.touches && dot(group.known.memory.normal, over.normal) > SAME_FACE);
+        let held =
+            dot(side, over.normal) > SAME_FACE || (group.known.touches && dot(group.known.memory.spring.normal, over.normal) > SAME_FACE);
         let from_the_front = || {
             let [a, b, c] = before.triangle(over.facet, over.triangle);
             let height = dot(minus(sweep.old[group.node as usize], a), cross(minus(b, a), minus(c, a)));
@@ -561,8 +520,8 @@ impl Tracker {
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
         }
-        persist_each!(archive; &mut self.searched, &mut self.is_new, &mut self.radius, &mut self.deepest, &mut self.travel, &mut self.searched_at, &mut self.report.steps, &mut self.report.searches);
-        archive.check(self.searched.is_empty() || self.searched.len() == self.nodes.len(), "a contact was searched at other nodes")
+        persist_each!(archive; &mut self.reach, &mut self.is_new, &mut self.radius, &mut self.deepest, &mut self.travel);
+        Ok(())
     }
 
     /// Takes over what another one knew whose surfaces were those before they changed: of nodes that are
@@ -576,8 +535,8 @@ impl Tracker {
             pass.wakes = vec![AWAKE; pass.groups.len()];
         }
         self.is_new = old.is_new;
-        (self.travel, self.searched_at) = (old.travel, old.searched_at);
-        (self.deepest, self.report) = (old.deepest, SearchReport { skin: self.skin, ..old.report });
+        (self.travel, self.deepest) = (old.travel, old.deepest);
+        self.reach.inherit(&old.reach);
     }
 }
 

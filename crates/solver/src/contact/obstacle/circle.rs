@@ -16,7 +16,8 @@ use crate::contact::Vector;
 use crate::contact::depths::Depths;
 use crate::contact::initial::kept;
 use crate::contact::law::penalty::stiffening;
-use crate::contact::node_segment::{Slave, segment_ends};
+use crate::contact::node_segment::segment_ends;
+use crate::contact::slaves::Slave;
 use crate::contact::springs::{Answers, End, Spring, Springs};
 use crate::contact::tracker::{Certificate, ContactPoint, SearchReport, Tracker};
 use crate::contact::{Formulation, Scene};
@@ -169,7 +170,7 @@ impl RoundSegments {
         let [a, b] = segment_ends(segment, &projection, gap, positions);
         let ends = [a, b, End { at: (positions.len() + self.body) as u32, share: 1.0, point, ..End::default() }];
         let (Slave { stiffness, area, .. }, memory) = (self.slave, self.tracker.kept(touch));
-        let (slip, gap) = (memory.slip, gap - memory.offset);
+        let (slip, gap) = (memory.slip, gap - memory.spring.offset);
         let stiffening = stiffening(self.depths.thickness(self.tracker.around(touch)), self.factor);
         (Spring { normal, gap, stiffness, area, stiffening, side: -1.0, slip: [slip], ..Spring::default() }, ends)
     }
@@ -183,7 +184,7 @@ impl Formulation<2> for RoundSegments {
             if self.ignores_start {
                 let gap = touch.projection.gap - self.radius;
                 let memory = self.tracker.kept_mut(&touch);
-                memory.offset = kept(self.has_begun, memory.offset, gap);
+                memory.spring.offset = kept(self.has_begun, memory.spring.offset, gap);
             }
             let (spring, ends) = self.spring(&touch, scene.sweep.new);
             springs.push(spring, &ends);

@@ -14,7 +14,7 @@ pub mod space;
 use super::findings::Findings;
 use super::initial::kept;
 use super::law::penalty::stiffening;
-use super::node_segment::Slave;
+use super::slaves::Slave;
 use super::springs::{Answers, End, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
@@ -131,6 +131,8 @@ pub struct NodeObstacle {
     /// Number of its rigid body.
     body: usize,
     nodes: Vec<(u32, Slave)>,
+    /// Their elastic slips at n − ½, m.
+    slips: Vec<f64>,
     /// Where their springs stiffen, and the thickness of their bodies there at the start, m.
     walls: Vec<(Stiffening, f64)>,
     memories: Vec<ContactHistory>,
@@ -178,13 +180,13 @@ impl NodeObstacle {
     #[must_use]
     pub fn new(shape: Box<dyn Shape>, body: usize, nodes: Vec<(u32, Slave)>, manner: Manner, bodies: Box<dyn Thick<2>>) -> Self {
         let Manner { reach, factor, ignores_start } = manner;
-        let memories = vec![ContactHistory::default(); nodes.len()];
+        let (memories, slips) = (vec![ContactHistory::default(); nodes.len()], vec![0.0; nodes.len()]);
         let thickness = shape.radius().map_or(f64::INFINITY, |radius| 2.0 * radius);
         let wall = |thickness: f64| (stiffening(thickness, factor), thickness);
         let walls = nodes.iter().map(|&(node, _)| wall(bodies.at(node).min(thickness))).collect();
         let (behind, found, near) = (Behind::new(bodies, thickness), Vec::new(), Near::default());
         let sees_facets = !ignores_start && shape.radius().is_some_and(|radius| behind.may_be_between(radius));
-        Self { shape, body, memories, nodes, walls, reach, ignores_start, has_begun: false, found, near, behind, sees_facets }
+        Self { shape, body, memories, nodes, slips, walls, reach, ignores_start, has_begun: false, found, near, behind, sees_facets }
     }
 }
 
@@ -243,7 +245,7 @@ impl Formulation<2> for NodeObstacle {
             self.behind.see(node, -gap, initial, dot(moved, moved).sqrt(), scene);
             // Well before it touches: a spring that closes unseen would give back what it never took.
             if gap <= self.reach + 4.0 * bound_of(moved) {
-                let Slave { stiffness, area, slip, .. } = slave;
+                let Slave { stiffness, area, .. } = slave;
                 let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(
                     Spring {
@@ -253,7 +255,7 @@ impl Formulation<2> for NodeObstacle {
                         area,
                         stiffening,
                         side: 1.0,
-                        slip: [slip],
+                        slip: [self.slips[index]],
                         ..Spring::default()
                     },
                     &ends,
@@ -275,10 +277,9 @@ impl Formulation<2> for NodeObstacle {
         #[rustfmt::skip]
         let Self {
             shape: _, body: _, walls: _, reach: _, ignores_start: _, found: _, sees_facets: _,
-            nodes, memories, has_begun, near, behind,
+            nodes, slips, memories, has_begun, near, behind,
         } = self;
-        nodes.iter_mut().try_for_each(|(_, slave)| slave.slip.persist(archive))?;
-        persist_each!(archive; &mut memories[..], has_begun, near);
+        persist_each!(archive; &mut slips[..], &mut memories[..], has_begun, near);
         behind.persist(archive)?;
         archive.check(near.indices.iter().all(|&index| (index as usize) < nodes.len()), "an obstacle looks at nodes that are not there")
     }
@@ -287,16 +288,16 @@ impl Formulation<2> for NodeObstacle {
         let Ok(old) = old.downcast::<Self>() else { return };
         self.has_begun = old.has_begun;
         self.behind.inherit(&old.behind);
-        for ((node, slave), memory) in self.nodes.iter_mut().zip(&mut self.memories) {
+        for (((node, _), slip), memory) in self.nodes.iter().zip(&mut self.slips).zip(&mut self.memories) {
             if let Ok(at) = old.nodes.binary_search_by_key(node, |&(node, _)| node) {
-                (slave.slip, *memory) = (old.nodes[at].1.slip, old.memories[at]);
+                (*slip, *memory) = (old.slips[at], old.memories[at]);
             }
         }
     }
 
     fn remember(&mut self, solved: Answers<'_, 2>) {
         for (&index, answer) in self.found.iter().zip(solved) {
-            self.nodes[index as usize].1.slip = answer.solved.slip_new[0];
+            self.slips[index as usize] = answer.solved.slip_new[0];
             self.memories[index as usize].presses = answer.solved.force != 0.0;
         }
     }

@@ -6,7 +6,7 @@
 //! momenta as a node's does. What a node stands for goes to the facets at it, equally, and there to the
 //! points by the trapezoidal rule; the node keeps a part of 1 / n².
 
-use crate::contact::node_facet::Slave;
+use crate::contact::slaves::Slave;
 use crate::mesh::surface::Corners;
 
 /// A point: nodes with their shares, and what it stands for.

@@ -10,8 +10,8 @@
 use super::super::findings::Findings;
 use super::super::initial::kept;
 use super::super::law::penalty::stiffening;
-use super::super::node_facet::Slave;
 use super::super::projection::node_facet::place_on_triangle;
+use super::super::slaves::Slave;
 use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Spring, Springs, Stiffening};
 use super::super::{Formulation, Scene};

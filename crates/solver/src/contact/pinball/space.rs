@@ -13,8 +13,8 @@
 
 mod geometry;
 
+use super::super::formulation::{Setup, Side};
 use super::super::projection::node_facet::Placed;
-use super::super::search::Search;
 use super::super::spin;
 use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Spring, Springs};
@@ -23,9 +23,7 @@ use super::super::{Formulation, Scene, Sweep};
 use super::follower::{self, Follower};
 use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::contact::springs::TangentSpace;
-use crate::mesh::cell::Cell;
-use crate::mesh::surface::{Corners, SpaceSurface};
-use crate::model;
+use crate::mesh::surface::Corners;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{length, minus};
 use std::any::Any;
@@ -40,16 +38,6 @@ type Ball = follower::Ball<8>;
 const LOOK_AHEAD: f64 = 4.0;
 const START: f64 = 0.02;
 
-/// A surface, and what is behind its facets.
-pub struct Layer<'a> {
-    /// The surface.
-    pub surface: &'a SpaceSurface,
-    /// The element behind each facet; `None` where it is not known.
-    pub cells: Vec<Option<Cell<'a>>>,
-    /// κ of these elements, Pa/m.
-    pub stiffness: Vec<f64>,
-}
-
 /// The formulation.
 pub struct Pinball {
     follower: Follower<3, 8>,
@@ -58,19 +46,13 @@ pub struct Pinball {
 }
 
 impl Pinball {
-    /// Of one surface that meets itself, or of two; `bodies` of each node of the model, `positions` the
-    /// initial ones, m; `reach` of the law, m.
+    /// Of one surface that meets itself, or of two.
     #[must_use]
-    pub fn new(
-        layers: &[Layer<'_>],
-        contact: &model::Contact,
-        penalty: model::Penalty,
-        reach: f64,
-        search: Box<dyn Search<3>>,
-        (bodies, positions): (&[u32], &[Vector]),
-    ) -> Self {
-        let layers = layers.iter().map(|layer| geometry::balls_under(layer, positions)).collect();
-        Self { follower: Follower::new(layers, &contact.interface, penalty, reach, search, (bodies, positions)), used: Vec::new() }
+    pub fn of(setup: &Setup<'_, 3>) -> Self {
+        let layers = setup.sides.iter().map(|side| geometry::balls_under(side, setup.positions)).collect();
+        let (interface, reach, search) = (&setup.contact.interface, (setup.law)().reach(), (setup.search)());
+        let places = (setup.bodies, setup.positions);
+        Self { follower: Follower::new(layers, interface, setup.penalty(), reach, search, places), used: Vec::new() }
     }
 }
 

@@ -7,20 +7,32 @@
 //! Theory, sections 4.1 and 4.2.
 
 use crate::archive::persist_all;
-use crate::mesh::surface::{NONE, Surface};
+use crate::mesh::surface::{NONE, Sided, Surface};
 use crate::vector::{bound, cross, dot, minus, plus, times};
 
 /// A point or vector in 2D.
 pub type Vector = [f64; 2];
 
 /// A surface as a target: its segments, and what its ends know.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Target {
     /// The segments, body on the right.
     pub surface: Surface<2>,
     /// Normal of the symmetry line that the node of an open end lies on: (node, normal), by node. The
     /// mirrored half of the body continues there.
     pub mirrors: Vec<(u32, Vector)>,
+}
+
+impl Sided for Target {
+    type Facet = [u32; 2];
+
+    fn facets(&self) -> &[[u32; 2]] {
+        &self.surface.segments
+    }
+
+    fn nodes(&self) -> &[u32] {
+        &self.surface.nodes
+    }
 }
 
 /// Where a node lies with respect to the nearest feature of a target.

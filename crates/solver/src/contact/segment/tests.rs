@@ -1,5 +1,5 @@
 use super::*;
-use crate::contact::formulation::Side;
+use crate::contact::formulation::{ContactSurface, Side};
 use crate::contact::outline::Outlines;
 use crate::contact::projection::node_segment::Target;
 use crate::contact::search;
@@ -53,28 +53,29 @@ fn detect(formulation: &mut dyn Formulation<2>, model: &Facing2, springs: &mut S
 fn formulation_of(model: &Facing2, penalty: Penalty, depth: Depth) -> Box<dyn Formulation<2>> {
     let contact = model::Contact { formulation: model::Formulation::Segment, interface: penalty.into(), ..model::Contact::default() };
     let side = |surface: &Surface<2>| Side {
-        segments: vec![1.0; surface.segments.len()],
-        target: Target { surface: surface.clone(), mirrors: Vec::new() },
+        stiffness: vec![1.0; surface.segments.len()],
+        surface: ContactSurface { target: Target { surface: surface.clone(), mirrors: Vec::new() }, lids: Vec::new() },
         ..Side::default()
     };
     let search = || (search::registry::<2>()[0].make)();
     let law = || -> Box<dyn Law> { Box::new(law::penalty::Penalty) };
     let bodies: Vec<u32> = (0..model.positions.len()).map(|node| u32::from(node >= model.surfaces[0].nodes.len())).collect();
-    let sides = model.surfaces.iter().map(side).collect();
+    let sides: Vec<_> = model.surfaces.iter().map(side).collect();
+    let overlap_check = Side::depths(&sides, &Outlines::default(), &bodies, true);
     let setup = Setup {
         contact: &contact,
         sides,
         positions: &model.positions,
         depth,
         law: &law,
-        outlines: &Outlines::default(),
+        overlap_check,
         tie_terms: 0,
         rebuild: false,
         search: &search,
         bodies: &bodies,
         passes: both_passes(&contact),
     };
-    (KIND.make)(setup).unwrap()
+    KIND.in_2d.unwrap()(setup).unwrap()
 }
 
 /// Forces F = −k g at the nodes.

@@ -191,7 +191,7 @@ impl Pass {
     }
 
     /// Global search, then a filter by distance: candidates are the same whatever the search, and few.
-    pub(super) fn search(&mut self, targets: &[Target], sweep: Sweep<'_, 2>, distance: f64, reach: &mut Reach) {
+    pub(super) fn search(&mut self, targets: &[Target], sweep: Sweep<'_, 2>, distance: f64, reach: &mut Reach<2>) {
         let target = &targets[self.target];
         self.ends.find(target, sweep.new);
         let slaves = &targets[self.slave].surface.nodes;

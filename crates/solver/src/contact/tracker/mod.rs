@@ -18,19 +18,20 @@ mod steady;
 
 pub use certificate::{Certificate, SearchReport};
 pub use ends::is_facing;
-pub(in crate::contact) use reach::SAFE;
 pub use reach::SKIN;
+pub(in crate::contact) use reach::{Reach, SLACK};
 
-use super::Sweep;
+use super::continuity::SpringHistory;
 use super::projection::node_segment::{Projection, Target, Vector};
 use super::search::Search;
+use super::{Sweep, length};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::NONE;
+use crate::vector::{bound_of, minus};
 use ends::Ends;
 use group::{Group, Pass};
 use locate::Located;
 use rayon::prelude::*;
-use reach::Reach;
 
 /// A slave node that is inside a body, or within the skin of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,34 +59,20 @@ persist_all!(ContactPoint { pass, slave, node, projection, slope, group, own });
 pub struct ContactHistory {
     /// Elastic slip, m.
     pub slip: f64,
-    /// Gap that counts as zero, m.
-    pub offset: f64,
-    /// Where the spring's gap was at n − ½, m.
-    pub half: f64,
-    /// Its normal in the step before; zero: it had none.
-    pub normal: Vector,
-    /// Energy of its spring at n − ½, J/m.
-    pub stored: f64,
+    /// Its spring.
+    pub spring: SpringHistory<2>,
     /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins
     /// there, 3 both; 0 not known.
     pub faces: u8,
 }
 
-impl ContactHistory {
-    /// Where its spring's gap was at n − ½, m; infinite: there was no spring.
-    #[must_use]
-    pub fn half(&self) -> f64 {
-        if self.normal == [0.0; 2] { f64::INFINITY } else { self.half }
-    }
-}
-
-persist_all!(ContactHistory { slip, offset, half, normal, stored, faces });
+persist_all!(ContactHistory { slip, spring, faces });
 
 /// Follows the nodes of surfaces along the bodies of other surfaces, or of their own.
 pub struct Tracker {
     targets: Vec<Target>,
     passes: Vec<Pass>,
-    reach: Reach,
+    reach: Reach<2>,
     /// Touches of this step, and what was checked so far.
     found: Found,
     /// What the chunks of groups found in this step.
@@ -117,7 +104,10 @@ impl Tracker {
     #[must_use]
     pub fn new(targets: Vec<Target>, passes: &[(usize, usize)], search: Box<dyn Search<2>>, positions: &[Vector]) -> Self {
         let passes = passes.iter().map(|&(slave, target)| Pass::new(slave, target, &targets)).collect();
-        let reach = Reach::new(search, &targets, positions);
+        let lengths = targets.iter().flat_map(|target| target.surface.segments.iter()).map(|&segment| length(segment, positions));
+        let count = targets.iter().map(|target| target.surface.segments.len()).sum::<usize>().max(1);
+        let nodes = targets.iter().flat_map(|target| target.surface.nodes.iter().copied());
+        let reach = Reach::new(search, nodes, SKIN * lengths.sum::<f64>() / count as f64);
         Self { targets, passes, reach, found: Found::default(), chunks: Vec::new(), travel: 0.0, past: None }
     }
 
@@ -168,6 +158,12 @@ impl Tracker {
     #[must_use]
     pub fn target(&self, pass: u32) -> &Target {
         &self.targets[self.passes[pass as usize].target]
+    }
+
+    /// Slave surface of a pass.
+    #[must_use]
+    pub fn slave(&self, pass: u32) -> usize {
+        self.passes[pass as usize].slave
     }
 
     /// Whether the slaves of a pass are the first surface (1), the second (−1), or both in one (0).
@@ -231,7 +227,8 @@ impl Tracker {
             if at_start && past.is_none() {
                 sweep.old = sweep.new;
             }
-            let reach = self.reach.radius(sweep) + extra;
+            let way = |node: u32| bound_of(minus(sweep.new[node as usize], sweep.old[node as usize]));
+            let reach = self.reach.skin + 2.0 * self.reach.fastest(way) + extra;
             for (number, pass) in self.passes.iter_mut().enumerate() {
                 if at_start {
                     pass.search(&self.targets, sweep, FIRST * reach, &mut self.reach);

@@ -6,7 +6,6 @@
 //! other: whatever came in or left is proven as before. Who was inside through a segment that is no more is
 //! outside, unless the new surfaces say otherwise.
 
-use super::certificate::SearchReport;
 use super::group::{Group, Pass};
 use super::{ContactHistory, Tracker};
 use crate::contact::projection::node_segment::Target;
@@ -31,7 +30,7 @@ impl Tracker {
     /// Takes over what `old` knows, which followed the same passes over surfaces that are no more.
     pub fn inherit(&mut self, old: &Self) {
         self.found.certificate = old.found.certificate;
-        self.reach.report = SearchReport { skin: self.reach.report.skin, ..old.reach.report };
+        self.reach.inherit(&old.reach);
         if old.reach.is_new() {
             return;
         }

@@ -1,24 +1,20 @@
-//! A model in 3D has nothing that only the plane knows: segments, circles, polylines, ends of lines. Reported
-//! where they are written, before anything is meshed.
+//! A model in 3D has nothing that only the plane knows: contact formulations of 2D, circles, polylines, ends
+//! of lines. Reported where they are written, before anything is meshed.
 
 use super::Check;
+use crate::contact::formulation::FORMULATIONS;
+use crate::error::Fault;
+use crate::model::ObstacleShape;
 use crate::model::messages::NOT_IN_SPACE;
-use crate::model::{Formulation, ObstacleShape};
 
 impl Check<'_> {
     /// Faults of what only the plane has.
     pub(super) fn nothing_of_2d_alone(&mut self) {
         let model = self.model;
         for (index, contact) in model.contacts.iter().enumerate() {
-            if contact.formulation == Formulation::Segment {
-                let message = "in 3D there are no segments: nodes meet facets, and edges meet edges";
-                self.fault(
-                    &NOT_IN_SPACE,
-                    format!("contact[{index}].formulation"),
-                    message,
-                    "take `double_pass`, `single_pass` or `pinball`",
-                );
-            }
+            let kind = FORMULATIONS.iter().find(|kind| kind.name == contact.formulation.name());
+            let refusal = kind.and_then(|kind| kind.refusal(3));
+            self.faults.extend(refusal.map(|fault| Fault { path: format!("contact[{index}].{}", fault.path), ..fault }));
         }
         for (index, obstacle) in model.obstacles.iter().enumerate() {
             let (key, message, help) = match &obstacle.shape {

@@ -7,7 +7,7 @@
 //! comes as near between six of them as between four of a square. The ball touches the facet from inside, and
 //! sticks out of no other facet of the surface at the same nodes: at rims it is smaller.
 
-use super::{Ball, Corners, Layer, Placed, Vector, cross, dot, length, minus};
+use super::{Ball, Corners, Placed, Side, Vector, cross, dot, length, minus};
 use crate::mesh::cell::Cell;
 
 /// Halvings that find how deep a ball at a rim is.
@@ -28,14 +28,14 @@ impl Ball {
 }
 
 /// The balls under a surface, facet by facet.
-pub(super) fn balls_under(layer: &Layer<'_>, positions: &[Vector]) -> Vec<Ball> {
-    let placed = Placed { surface: layer.surface, positions };
+pub(super) fn balls_under(side: &Side<'_, 3>, positions: &[Vector]) -> Vec<Ball> {
+    let placed = Placed { surface: &side.surface.target, positions };
     let mut balls: Vec<Ball> = Vec::new();
     // Those of the same element, by its lowest node: only they may be one.
     let mut at_node: std::collections::BTreeMap<u32, Vec<usize>> = std::collections::BTreeMap::new();
-    for facet in 0..layer.surface.facets.len() as u32 {
-        let stiffness = layer.stiffness[facet as usize];
-        let Some(cell) = layer.cells[facet as usize] else { continue };
+    for facet in 0..placed.surface.facets.len() as u32 {
+        let stiffness = side.stiffness[facet as usize];
+        let Some(cell) = side.cells[facet as usize] else { continue };
         let Some(&lowest) = cell.nodes.iter().min() else { continue };
         let known = at_node.entry(lowest).or_default();
         for ball in balls_of_facet(&placed, facet, cell, stiffness) {

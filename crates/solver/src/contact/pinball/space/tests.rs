@@ -1,6 +1,8 @@
 use super::geometry::balls_under;
 use super::*;
-use crate::mesh::surface::Surface;
+use crate::contact::formulation::ContactSurface;
+use crate::mesh::cell::Cell;
+use crate::mesh::surface::{SpaceSurface, Surface};
 
 /// A block of cells (m, elements) as hexahedra, or cut into two wedges or six tetrahedra each.
 fn block(size: Vector, elements: [usize; 3], nodes: usize) -> (Vec<Vec<u32>>, Vec<Vector>) {
@@ -29,8 +31,9 @@ fn balls_of((cells, positions): &(Vec<Vec<u32>>, Vec<Vector>)) -> (SpaceSurface,
     let cells = || cells.iter().filter_map(|nodes| Cell::of(3, nodes));
     let surface = Surface::<3>::outside(cells()).unwrap();
     let holds = |facet: &[u32; 4]| cells().find(|cell| facet.corners().iter().all(|node| cell.nodes.contains(node)));
-    let layer = Layer { surface: &surface, cells: surface.facets.iter().map(holds).collect(), stiffness: vec![1.0; surface.facets.len()] };
-    let balls = balls_under(&layer, positions);
+    let (cells, stiffness) = (surface.facets.iter().map(holds).collect(), vec![1.0; surface.facets.len()]);
+    let target = ContactSurface { target: surface.clone(), lids: Vec::new() };
+    let balls = balls_under(&Side { surface: target, cells, stiffness, ..Side::default() }, positions);
     (surface, balls)
 }
 

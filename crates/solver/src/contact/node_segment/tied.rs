@@ -1,0 +1,74 @@
+//! What ties bind nodes to in 2D: a segment, at a place along it.
+
+use super::super::projection::node_segment::{Projection, Target};
+use super::super::search::{Pair, Query, Search};
+use super::super::springs::{Spring, Springs};
+use super::super::tied::{Bindable, Bond, NEAR, Tie};
+use super::super::{Scene, Vector, length};
+use super::{NodeSegment, ends};
+
+impl Bindable<2> for NodeSegment {
+    /// Along the segment: 0 and 1 are its nodes.
+    type Place = f64;
+    const WIDTH: &'static str = "a segment's length";
+
+    fn slaves(&self) -> &[u32] {
+        &self.tracker.targets()[self.tracker.slave(0)].surface.nodes
+    }
+
+    fn target(&self) -> &Target {
+        self.tracker.target(0)
+    }
+
+    fn near(&self, search: &mut dyn Search<2>, thickness: f64, positions: &[Vector]) -> Vec<Bond<f64>> {
+        let (slaves, surface) = (self.slaves(), &self.target().surface);
+        let longest = surface.segments.iter().map(|&segment| length(segment, positions)).fold(0.0, f64::max);
+        let reach = thickness + 1.01 * NEAR * longest;
+        let query = Query { positions_old: positions, positions_new: positions, slaves, facets: &surface.segments, reach };
+        let mut pairs = Vec::new();
+        search.pairs(&query, &mut pairs);
+        let of_slave = |pairs: &[Pair]| {
+            let node = slaves[pairs[0].slave as usize];
+            if surface.nodes.binary_search(&node).is_ok() {
+                return None;
+            }
+            let mut best: Option<(f64, Bond<f64>)> = None;
+            for pair in pairs {
+                let Some([along, gap, whole]) = place(positions, node, surface.segments[pair.facet as usize]) else { continue };
+                let beyond = f64::max(0.0, (along - 0.5 * whole).abs() - 0.5 * whole);
+                let distance = (gap * gap + beyond * beyond).sqrt();
+                if distance <= thickness + NEAR * whole && best.as_ref().is_none_or(|(nearest, _)| distance < *nearest) {
+                    best = Some((distance, Bond { slave: pair.slave, facet: pair.facet, place: along / whole, gap }));
+                }
+            }
+            best.map(|(_, bond)| bond)
+        };
+        pairs.chunk_by(|a, b| a.slave == b.slave).filter_map(of_slave).collect()
+    }
+
+    fn hold(&self, tie: &Tie<f64>, spring: Spring<2>, positions: &[Vector], springs: &mut Springs<2>) {
+        let segment = self.target().surface.segments[tie.facet as usize];
+        // A segment without length is the elements' to tell; the tie does nothing.
+        let [along, gap, whole] = place(positions, tie.node, segment).unwrap_or([0.0, tie.gap, 1.0]);
+        let [a, b] = segment.map(|node| positions[node as usize]);
+        let normal = [-(b[1] - a[1]) / whole, (b[0] - a[0]) / whole];
+        // Forces act at the present foot of the node, so that both are collinear.
+        let projection = Projection { segment: tie.facet, weights: [1.0 - along / whole, along / whole], gap, normal };
+        let slip = [along - tie.place * whole];
+        springs.push(Spring { normal, gap: gap - tie.gap, slip, ..spring }, &ends(tie.node, &projection, self.target(), positions));
+    }
+
+    fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
+        Self::detect_free(self, bound, scene, springs);
+    }
+}
+
+/// Where a node is seen from a segment: along it from its beginning, and above it, m; and the length of the
+/// segment, m. `None` where that has none.
+fn place(positions: &[Vector], node: u32, segment: [u32; 2]) -> Option<[f64; 3]> {
+    let [a, b] = segment.map(|node| positions[node as usize]);
+    let x = positions[node as usize];
+    let (d, r) = ([b[0] - a[0], b[1] - a[1]], [x[0] - a[0], x[1] - a[1]]);
+    let whole = (d[0] * d[0] + d[1] * d[1]).sqrt();
+    (whole > 0.0).then(|| [(r[0] * d[0] + r[1] * d[1]) / whole, (d[0] * r[1] - d[1] * r[0]) / whole, whole])
+}

@@ -1,4 +1,4 @@
-//! Surfaces of contacts, and what is behind them: the same in 2D and 3D.
+//! Surfaces of contacts, and the elements behind them: the same in 2D and 3D.
 
 use super::node_elements::Under;
 use super::{Builder, Builds, source_of};
@@ -57,7 +57,7 @@ where
         Ok(ContactSurface { target: <Dim<D>>::target(self, surface), lids: lids.into_inner() })
     }
 
-    /// What is behind a surface, with the stiffness that an interface asks for.
+    /// The elements behind a surface, with the stiffness that an interface asks for.
     pub(super) fn side(&self, surface: ContactSurface<D>, interface: &Interface) -> Side<'_, D> {
         let (target, source) = (&surface.target, source_of(interface));
         let under: Vec<Option<Under>> = target.facets().iter().map(|&facet| self.under(facet)).collect();

@@ -1,5 +1,5 @@
-//! Obstacles: planes, circles and polylines that are fixed, driven or free; what goes through them, and what
-//! is behind them at the start.
+//! Obstacles: planes, circles and polylines that are fixed, driven or free; what goes through them, and
+//! bodies behind them at the start.
 
 use crate::bodies::*;
 use embate_solver::model::{

@@ -54,7 +54,7 @@ pub struct ContactLawKind {
 /// A slave node as a law sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// The surface that is its own, and what is behind it.
+    /// Its own surface, and the elements behind it.
     pub own: Tributary,
     /// Pressure stiffness κ of the elements behind the target, Pa/m.
     pub other: f64,

@@ -68,7 +68,7 @@ impl Bindable<3> for NodeFacet {
         let placed = Placed { surface: self.target(), positions };
         let (facet, triangle, place) = (tie.facet, tie.place.0 as usize, tie.place.1);
         let corners = placed.triangle(facet, triangle);
-        // A triangle without area is the elements' to tell; the tie does nothing.
+        // A triangle without area is reported with the elements; the tie does nothing.
         let above = placed.above(positions[tie.node as usize], facet, triangle);
         let (weights, gap, normal) = above.unwrap_or((place, tie.gap, [0.0, 0.0, 1.0]));
         let at = |shares: Vector| [0, 1, 2].map(|d| (0..3).map(|k| shares[k] * corners[k][d]).sum::<f64>());

@@ -45,8 +45,8 @@ pub(in crate::contact) const FACING: f64 = -0.2;
 /// those that are set in motion now.
 const LOOK_AHEAD: f64 = 4.0;
 const START: f64 = 0.02;
-/// A node nearer to a side than this fraction of the skin (a millionth of an edge) is on it, as far as one
-/// can tell.
+/// A node nearer to a side than this fraction of the skin (a millionth of an edge) is on it, within
+/// rounding.
 const FLUSH: f64 = 4e-6;
 /// How far a face holds nodes beyond its rim, as a fraction of the size of its facets (the root of the sum of
 /// the squares of both diagonals).
@@ -459,8 +459,8 @@ impl Tracker {
     }
 
     /// Whether a face holds a node that is over its rim or beyond it, by the projection and the way from the
-    /// rim: `side` is the one from which it came, `is_flush` says whether it lies on the body's surface as
-    /// far as one can tell.
+    /// rim: `side` is the one from which it came, `is_flush` says whether it lies on the body's surface
+    /// within rounding.
     fn is_held(
         &self,
         pass: &Pass,

@@ -48,7 +48,7 @@ impl Bindable<2> for NodeSegment {
 
     fn hold(&self, tie: &Tie<f64>, spring: Spring<2>, positions: &[Vector], springs: &mut Springs<2>) {
         let segment = self.target().surface.segments[tie.facet as usize];
-        // A segment without length is the elements' to tell; the tie does nothing.
+        // A segment without length is reported with the elements; the tie does nothing.
         let [along, gap, whole] = place(positions, tie.node, segment).unwrap_or([0.0, tie.gap, 1.0]);
         let [a, b] = segment.map(|node| positions[node as usize]);
         let normal = [-(b[1] - a[1]) / whole, (b[0] - a[0]) / whole];

@@ -22,7 +22,7 @@
 //! the springs of nodes and edges.
 //!
 //! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour
-//! in one body does not close, as where it begins between facets that share a node, what is behind pierced
+//! in one body does not close, as where it begins between facets that share a node, a node behind pierced
 //! triangles and inside by its winding number is as deep as it is far from them.
 
 mod lineage;

@@ -57,7 +57,7 @@ impl Region {
     }
 
     /// Whether it is of a body in itself whose contour is not closed: the flood says nothing, and piercings
-    /// tell.
+    /// decide.
     pub(super) fn is_torn(&self) -> bool {
         self.is_own() && self.is_open
     }
@@ -143,7 +143,7 @@ impl Work {
             let (first, last) = (&here[0], &here[here.len() - 1]);
             let entries = 2 * here.iter().filter(|piercing| piercing.enters).count();
             // Where it goes in as often as out, the order says how; what lies at one place has none, and
-            // other edges tell.
+            // other edges decide.
             let are_apart = here.windows(2).all(|two| two[1].along - two[0].along > SAME_PLACE);
             let is_certain = entries != here.len() || (are_apart && !here.iter().any(|piercing| piercing.is_flat));
             let begins_outside = if entries == here.len() { first.enters } else { entries > here.len() };

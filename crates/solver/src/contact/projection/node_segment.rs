@@ -353,8 +353,8 @@ impl Target {
         segment != NONE && (own == NONE || !self.surface.segments[segment as usize].contains(&own))
     }
 
-    /// The projection of a feature; of a node that is equally near to two sides, as far as rounding lets one
-    /// tell, that on their common node: what is symmetric stays so. Sides that meet at an edge count only
+    /// The projection of a feature; of a node that is equally near to two sides, within
+    /// rounding, that on their common node: what is symmetric stays so. Sides that meet at an edge count only
     /// with `over_edges`.
     fn between_sides(&self, x: Vector, feature: Feature, own: u32, positions: &[Vector], over_edges: bool) -> Option<Projection> {
         let projection = feature.projection?;

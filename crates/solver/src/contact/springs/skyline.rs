@@ -3,8 +3,8 @@
 //!
 //! [`super::newton`] fills in the springs of an island and takes the solution. Row i of the lower and column
 //! i of the upper triangle are stored from the same first entry on; factors stay inside that profile. Without
-//! pivoting, so for matrices that are definite (or nearly symmetric and quasi-definite); whoever uses the
-//! solution checks it.
+//! pivoting, so for matrices that are definite (or nearly symmetric and quasi-definite); the
+//! user of the solution checks it.
 
 /// A square matrix, then its factors.
 #[derive(Default)]

@@ -13,7 +13,8 @@ use crate::model::{Obstacle, ObstacleShape};
 use crate::vector::{first, unit};
 
 impl Builder<'_, 2> {
-    /// The bodies that are behind an obstacle at the start. Wrong parts and shapes are reported when obstacles are made.
+    /// The bodies that are behind an obstacle at the start. Wrong parts and shapes are reported when
+    /// obstacles are made.
     pub(crate) fn obstacle_at_start(&self, obstacle: &Obstacle, tolerance: f64) -> Option<AtStart<2>> {
         let outline = self.outline_met(obstacle).ok()?;
         let distance = behind(obstacle, &outline.target.surface, &self.mesh.positions)?;

@@ -82,8 +82,33 @@ pub struct Key {
     pub doc: &'static str,
 }
 
-/// Names that a key's value is chosen from.
-pub type Choices = fn() -> Vec<&'static str>;
+/// Names that a key's value is chosen from: words, or the names of a registry, which `input` knows
+/// ([`Choices::names`]).
+#[derive(Clone, Copy, Debug)]
+pub enum Choices {
+    /// These words.
+    Words(&'static [&'static str]),
+    /// What this function lists.
+    Listed(fn() -> Vec<&'static str>),
+    /// Laws of materials.
+    Laws,
+    /// Equations of state.
+    EquationsOfState,
+    /// Elements for cells that are no triangles.
+    Elements,
+    /// Elements for triangles.
+    Triangles,
+    /// Stress states.
+    StressStates,
+    /// Laws of contacts.
+    ContactLaws,
+    /// Formulations of contacts.
+    Formulations,
+    /// Searches of contacts.
+    Searches,
+    /// Fields of the output.
+    Fields,
+}
 
 /// What a value may be.
 #[derive(Clone, Copy, Debug)]

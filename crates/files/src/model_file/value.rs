@@ -343,8 +343,8 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
             }
             Datum::Texts(at.several(|at| at.text())?)
         }
-        Kind::Choice(known) => Datum::Text(at.choice(&known())?),
-        Kind::Choices(known) => Datum::Texts(at.several(|at| at.choice(&known()))?),
+        Kind::Choice(known) => Datum::Text(at.choice(&known.names())?),
+        Kind::Choices(known) => Datum::Texts(at.several(|at| at.choice(&known.names()))?),
         Kind::Table(_) => return at.unlike(),
     })
 }
@@ -448,8 +448,8 @@ pub(super) fn example(key: &Key) -> String {
         Kind::References(count) => {
             format!("[{}]", ["\"...\"", "\"...\""].iter().cycle().take(count.unwrap_or(1)).copied().collect::<Vec<_>>().join(", "))
         }
-        Kind::Choice(known) => format!("\"{}\"", known().first().copied().unwrap_or("...")),
-        Kind::Choices(known) => format!("[\"{}\"]", known().first().copied().unwrap_or("...")),
+        Kind::Choice(known) => format!("\"{}\"", known.names().first().copied().unwrap_or("...")),
+        Kind::Choices(known) => format!("[\"{}\"]", known.names().first().copied().unwrap_or("...")),
         Kind::Table(section) => {
             let required = section.keys.iter().filter(|key| key.need == embate_solver::vocabulary::Need::Required);
             format!("{{ {} }}", required.map(|key| format!("{} = {}", key.name, example(key))).collect::<Vec<_>>().join(", "))

@@ -5,7 +5,7 @@ use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
 use crate::vocabulary::Kind::{Angle, Quantity, Reference, References, Spatial, Table};
 use crate::vocabulary::Need::{Default, Optional, Required};
-use crate::vocabulary::{Form, Kind, Rule, Section, key};
+use crate::vocabulary::{Choices, Form, Kind, Rule, Section, key};
 
 pub(super) static SYMMETRY: Section = Section {
     name: "symmetry",
@@ -27,7 +27,7 @@ pub(super) static CONSTRAINT: Section = Section {
     required: false,
     keys: &[
         key("on", Reference, Required, "The set."),
-        key("fixed", Kind::Choices(|| vec!["x", "y", "z"]), Optional("none"), "Components that don't move."),
+        key("fixed", Kind::Choices(Choices::Words(&["x", "y", "z"])), Optional("none"), "Components that don't move."),
         key(
             "velocity",
             Kind::Components(Dimension::VELOCITY),

@@ -1,12 +1,11 @@
 //! The sections of the model file that say what bodies meet: contacts, obstacles, and the keys that both
 //! share, described once.
 
-use crate::contact::{formulation, law, search};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
 use crate::vocabulary::Kind::{Angle, Choice, Flag, Name, Points, Quantities, Quantity, Reference, References, Spatial, Stiffness, Table};
 use crate::vocabulary::Need::{Default, Optional, Required};
-use crate::vocabulary::{Form, Group, Kind, Rule, Section, key};
+use crate::vocabulary::{Choices, Form, Group, Kind, Rule, Section, key};
 
 pub(super) static CONTACT: Section = Section {
     name: "contact",
@@ -20,7 +19,7 @@ pub(super) static CONTACT: Section = Section {
         key("bodies", References(None), Optional("`between`"), "Parts that meet each other and themselves; `\"all\"` for all parts."),
         key(
             "formulation",
-            Choice(formulations),
+            Choice(Choices::Formulations),
             Default("\"double_pass\""),
             "What is checked: the nodes of each surface against the segments of the other, only the nodes of \
                 `slave`, segments against segments, or disks in the elements. In 3D nodes meet facets, in a double \
@@ -29,7 +28,7 @@ pub(super) static CONTACT: Section = Section {
         key("slave", Reference, Optional("needed for, and only for, `single_pass`"), "The surface of `between` whose nodes are checked."),
         key("tied", Flag, Default("false"), "Whether what touches at the start stays together."),
         key("tie_strength", Quantity(Dimension::PRESSURE, Positive), Optional("it never breaks"), "Traction above which a tie breaks."),
-        key("search", Choice(searches), Optional("`grid`"), "How near pairs are found; changes no result."),
+        key("search", Choice(Choices::Searches), Optional("`grid`"), "How near pairs are found; changes no result."),
     ],
     groups: &[&INTERFACE],
     rules: &[Rule::OneOf(&["between", "bodies"]), Rule::Only { keys: &["tie_strength"], by: "tied", value: "true" }],
@@ -165,7 +164,7 @@ static INTERFACE: Group = Group {
     keys: &[
         key(
             "law",
-            Choice(contact_laws),
+            Choice(Choices::ContactLaws),
             Default("\"penalty\""),
             "What keeps the surfaces apart: a force proportional to the penetration, a pressure that depends on the \
                 gap, or whatever force it takes.",
@@ -180,7 +179,7 @@ static INTERFACE: Group = Group {
         key("penalty_scale", Quantity(Dimension::NONE, Positive), Optional("1"), "Factor on the automatic penalty."),
         key(
             "penalty_from",
-            Choice(|| vec!["wave_modulus", "bulk_modulus", "time_step"]),
+            Choice(Choices::Words(&["wave_modulus", "bulk_modulus", "time_step"])),
             Optional("`wave_modulus`"),
             "What the automatic penalty is made from: K + 4µ/3 or K over the height of the elements, or the mass \
                 over the square of the first stable step.",
@@ -221,7 +220,7 @@ static INTERFACE: Group = Group {
         key("friction_limit", Quantity(Dimension::PRESSURE, Positive), Optional("none"), "Largest shear stress τ."),
         key(
             "initial_penetration",
-            Choice(|| vec!["error", "ignore", "push_out"]),
+            Choice(Choices::Words(&["error", "ignore", "push_out"])),
             Default("\"error\""),
             "What is done with penetrations at the start: the model is refused, the gap counts as zero, or nodes are moved to the surface.",
         ),
@@ -243,15 +242,3 @@ static INTERFACE: Group = Group {
         Rule::Needs("friction_limit", "friction"),
     ],
 };
-
-fn contact_laws() -> Vec<&'static str> {
-    law::LAWS.iter().map(|kind| kind.name).collect()
-}
-
-fn searches() -> Vec<&'static str> {
-    search::registry::<2>().iter().map(|kind| kind.name).collect()
-}
-
-fn formulations() -> Vec<&'static str> {
-    formulation::FORMULATIONS.iter().map(|kind| kind.name).collect()
-}

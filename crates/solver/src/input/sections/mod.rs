@@ -9,6 +9,7 @@ mod contact;
 mod discrete;
 mod initial;
 
+use crate::contact::{formulation, law, search};
 use crate::failure::CRITERIA;
 use crate::mesh::shapes::SHAPES;
 use crate::mesh::shapes::sweep::{EXTRUDE, REVOLVE};
@@ -17,7 +18,7 @@ use crate::quantity::{Dimension, Parameter};
 use crate::stress_state::STRESS_STATES;
 use crate::vocabulary::Kind::{Angle, Choice, Flag, Integer, Name, Quantities, Quantity, Reference, Spatial, Table, Text, Vector};
 use crate::vocabulary::Need::{self, Default, Optional, Required};
-use crate::vocabulary::{Form, Key, Kind, More, Rule, Section, key};
+use crate::vocabulary::{Choices, Form, Key, Kind, More, Rule, Section, key};
 use crate::{element, material, output};
 use conditions::{CONSTRAINT, JOIN, LOAD, NON_REFLECTING, SYMMETRY};
 use contact::{CONTACT, OBSTACLE};
@@ -176,11 +177,11 @@ static MATERIAL: Section = Section {
     form: Form::Named,
     required: true,
     keys: &[
-        key("law", Choice(laws), Required, "Name of the law."),
+        key("law", Choice(Choices::Laws), Required, "Name of the law."),
         key("failure", Table(&FAILURE), Optional("nothing fails"), "When elements of this material fail: they are taken out of the model."),
         key(
             "eos",
-            Choice(equations_of_state),
+            Choice(Choices::EquationsOfState),
             Optional("the law's own pressure"),
             "Equation of state: gives the pressure in place of the law, which keeps what is without volume. Not with \
                 hyperelastic laws, nor where flow changes the volume (`drucker_prager`, `crushable_foam`); `null` \
@@ -220,8 +221,8 @@ static PART: Section = Section {
     keys: &[
         key("name", Name, Required, "Unique name."),
         key("material", Reference, Required, "Name of a `[material.NAME]` section."),
-        key("element", Choice(elements), Default("\"quad4\""), "Kind of element: what quadrilaterals are; `bar2` for bars."),
-        key("element_triangles", Choice(triangles), Optional("`tri3`"), "What triangles are, where the part has some."),
+        key("element", Choice(Choices::Elements), Default("\"quad4\""), "Kind of element: what quadrilaterals are; `bar2` for bars."),
+        key("element_triangles", Choice(Choices::Triangles), Optional("`tri3`"), "What triangles are, where the part has some."),
         key(
             "area",
             Quantity(Dimension::LENGTH, Positive),
@@ -237,7 +238,7 @@ static PART: Section = Section {
         ),
         key(
             "stress_state",
-            Choice(stress_states),
+            Choice(Choices::StressStates),
             Default("\"plane_strain\""),
             "What the plane stands for. In an axisymmetric part x is the radius and y the axis; forces, masses and \
                 energies are those of the whole circumference.",
@@ -349,7 +350,7 @@ static CURVE: Section = Section {
         ),
         key(
             "between",
-            Choice(|| vec!["lines", "smooth_steps"]),
+            Choice(Choices::Words(&["lines", "smooth_steps"])),
             Default("\"lines\""),
             "What leads from point to point: straight lines, or steps without velocity and acceleration at their ends.",
         ),
@@ -424,16 +425,16 @@ static OUTPUT: Section = Section {
             Default("100"),
             "Steps between two lines of `hashes.csv`, by which `embate diff` finds where two runs diverge; 0: none are written.",
         ),
-        key("include", Kind::Choices(fields), Optional("all"), "Fields to write."),
+        key("include", Kind::Choices(Choices::Fields), Optional("all"), "Fields to write."),
         key(
             "mirror",
-            Kind::Choices(|| vec!["x", "y", "z"]),
+            Kind::Choices(Choices::Words(&["x", "y", "z"])),
             Optional("none"),
             "Pictures also show the model mirrored at the line (in 3D the plane) x = 0 (`\"x\"`), y = 0 (`\"y\"`), \
                 in 3D z = 0 (`\"z\"`), or several of them.",
         ),
         key("pictures", Flag, Default("true"), "Whether pictures and the animation are made."),
-        key("picture_field", Choice(fields), Optional("what suits the model"), "Field that colours the pictures."),
+        key("picture_field", Choice(Choices::Fields), Optional("what suits the model"), "Field that colours the pictures."),
         key(
             "picture_view",
             Table(&PICTURE_VIEW),
@@ -472,28 +473,24 @@ static PICTURE_VIEW: Section = Section {
     ..Section::EMPTY
 };
 
-fn laws() -> Vec<&'static str> {
-    material::registry().iter().map(|kind| kind.name).collect()
-}
-
-fn equations_of_state() -> Vec<&'static str> {
-    material::eos::EQUATIONS.iter().map(|kind| kind.name).collect()
-}
-
-fn elements() -> Vec<&'static str> {
-    element::registry().iter().filter(|kind| !kind.is_triangle()).map(|kind| kind.name).collect()
-}
-
-fn triangles() -> Vec<&'static str> {
-    element::registry().iter().filter(|kind| kind.is_triangle()).map(|kind| kind.name).collect()
-}
-
-fn stress_states() -> Vec<&'static str> {
-    STRESS_STATES.iter().map(|kind| kind.name).collect()
-}
-
-fn fields() -> Vec<&'static str> {
-    output::FIELDS.iter().map(|kind| kind.name).collect()
+impl Choices {
+    /// The names.
+    #[must_use]
+    pub fn names(self) -> Vec<&'static str> {
+        match self {
+            Self::Words(words) => words.to_vec(),
+            Self::Listed(list) => list(),
+            Self::Laws => material::registry().iter().map(|kind| kind.name).collect(),
+            Self::EquationsOfState => material::eos::EQUATIONS.iter().map(|kind| kind.name).collect(),
+            Self::Elements => element::registry().iter().filter(|kind| !kind.is_triangle()).map(|kind| kind.name).collect(),
+            Self::Triangles => element::registry().iter().filter(|kind| kind.is_triangle()).map(|kind| kind.name).collect(),
+            Self::StressStates => STRESS_STATES.iter().map(|kind| kind.name).collect(),
+            Self::ContactLaws => law::LAWS.iter().map(|kind| kind.name).collect(),
+            Self::Formulations => formulation::FORMULATIONS.iter().map(|kind| kind.name).collect(),
+            Self::Searches => search::registry::<2>().iter().map(|kind| kind.name).collect(),
+            Self::Fields => output::FIELDS.iter().map(|kind| kind.name).collect(),
+        }
+    }
 }
 
 /// The keys of a law's parameters.

@@ -1,9 +1,9 @@
 //! The types that describe the model file (sections, keys, kinds of values, ranges, rules), and the messages
 //! about wrong names and numbers.
 //!
-//! The descriptions are in `input/sections/`, those of shapes beside the shapes. The reader, the range
-//! checks, "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from them by
-//! iteration.
+//! A section is described beside the struct of its values, in `model`; a shape beside its mesh. The reader,
+//! the range checks, "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from the
+//! descriptions by iteration.
 
 use crate::quantity::{Dimension, Range};
 

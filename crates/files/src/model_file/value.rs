@@ -3,49 +3,16 @@
 //! Nodes come from `tree.rs` through `reader.rs`; typed values in SI units, or what is wrong with them, go
 //! back to it. Each kind of value is one arm of `read`, one of `example`, and one of `words`.
 
-use super::reader::Record;
 use super::tree::{Node, Place, Value};
 use super::units::{self, Wanted};
 use crate::model_file::messages::{CHOICE, TYPE, UNIT, UNKNOWN_KEY};
 use embate_solver::input::name_is_plain;
 use embate_solver::message::Message;
 use embate_solver::model::messages::{LIST_LENGTH, RANGE};
+use embate_solver::model::values::{Course, Datum};
 use embate_solver::model::{Cadence, Drive, Penalty};
 use embate_solver::quantity::{Dimension, Range};
 use embate_solver::vocabulary::{Key, Kind, out_of_range, suggestion};
-
-/// A value that is sound.
-#[derive(Clone, Debug)]
-pub(super) enum Datum {
-    Number(f64),
-    Vector([f64; 2]),
-    Spatial([f64; 3]),
-    Numbers(Vec<f64>),
-    /// Numbers of one dimension; `None` where none has a unit.
-    Values(Vec<f64>, Option<Dimension>),
-    Points(Vec<[f64; 2]>),
-    Outlines(Vec<Vec<[f64; 2]>>),
-    SpatialOutlines(Vec<Vec<[f64; 3]>>),
-    /// A number or the name of a curve.
-    Drive(Drive),
-    /// Prescribed motion along x, y and z and around.
-    Courses([Option<Course>; 4]),
-    Integer(u64),
-    Integers(Vec<u64>),
-    Flag(bool),
-    Text(String),
-    Texts(Vec<String>),
-    Cadence(Cadence),
-    Penalty(Penalty),
-    Table(Box<Record>),
-}
-
-/// What is prescribed for a degree of freedom.
-#[derive(Clone, Debug)]
-pub(super) enum Course {
-    Free,
-    Driven(Drive),
-}
 
 /// What is wrong with a value or an item of it.
 #[derive(Clone, Debug)]

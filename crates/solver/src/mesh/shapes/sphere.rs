@@ -61,8 +61,8 @@ static SECTION: Section = Section {
 
 impl BuiltIn<3> for Sphere {
     fn read(values: &dyn Values) -> Self {
-        let (centre, radius) = (values.spatial("centre"), values.number("radius"));
-        Self { centre, radius, elements: values.count(ELEMENTS), portion: values.text("portion") }
+        let (centre, radius) = (values.get("centre"), values.get("radius"));
+        Self { centre, radius, elements: values.get(ELEMENTS), portion: values.get("portion") }
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {

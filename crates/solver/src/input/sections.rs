@@ -4,13 +4,12 @@
 //! A section is described beside the struct of its values, in `model`; that of materials is here, since its
 //! keys are those of laws, equations of state and failure criteria.
 
-mod contact;
-
 use crate::contact::{formulation, law, search};
 use crate::failure::CRITERIA;
 use crate::model::values::Datum;
 use crate::model::{
-    CONSTRAINT, CURVE, JOIN, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS, PROBE, RUN, SPRING, SYMMETRY, Values,
+    CONSTRAINT, CONTACT, CURVE, JOIN, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS, PROBE, RUN, SPRING, SYMMETRY,
+    Values,
 };
 use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
@@ -18,7 +17,6 @@ use crate::vocabulary::Kind::{Choice, Flag, Quantities, Quantity, Table, Text};
 use crate::vocabulary::Need::{self, Optional, Required};
 use crate::vocabulary::{Choices, Form, Key, Kind, More, Section, key};
 use crate::{element, material, output};
-use contact::CONTACT;
 
 /// Largest number of elements of a model.
 pub const ELEMENTS_MAX: u128 = 100_000_000;

@@ -4,14 +4,14 @@
 //! Values come from the model file, checked by `input`; contacts are made of them by
 //! [`crate::build`].
 
-use super::Values;
 use super::load::window;
 use super::values::LeftOut;
+use super::{Values, section};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
-use crate::vocabulary::Kind::{Choice, Quantities, Quantity, Stiffness};
+use crate::vocabulary::Kind::{Choice, Flag, Name, Quantities, Quantity, Reference, References, Stiffness};
 use crate::vocabulary::Need::{Default as Written, Optional};
-use crate::vocabulary::{Choices, Group, Rule, key};
+use crate::vocabulary::{Choices, Form, Group, Rule, Section, key};
 
 /// What a contact makes of its surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -310,27 +310,59 @@ pub enum Partners {
     Bodies(Vec<String>),
 }
 
+impl Partners {
+    fn read(values: &dyn Values) -> Self {
+        if !values.has("bodies") || values.has("between") {
+            return Self::Between(values.get("between"));
+        }
+        // Faulty names: one that no other contact has.
+        let names = values.get::<Option<Vec<String>>>("bodies").unwrap_or_else(|| vec![String::new()]);
+        Self::Bodies(if names == ["all"] { Vec::new() } else { names })
+    }
+}
+
 impl Default for Partners {
     fn default() -> Self {
         Self::Between(Default::default())
     }
 }
 
-/// `[[contact]]`: surfaces that can't go through each other.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Contact {
-    /// Unique name.
-    pub name: String,
+section! {
+    /// `[[contact]]`: surfaces that can't go through each other.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Contact in CONTACT = Section {
+        name: "contact",
+        doc: "Bodies that can't go through each other: two surfaces, or several bodies, each of which meets each other \
+            and itself. A surface is a part (its whole outside), a side such as `plate.top`, or a group of lines (in 3D \
+            of surfaces) of a mesh file.",
+        form: Form::Repeated,
+        groups: &[&INTERFACE],
+        rules: &[Rule::OneOf(&["between", "bodies"]), Rule::Only { keys: &["tie_strength"], by: "tied", value: "true" }],
+        ..Section::EMPTY
+    };
+    name: String = Name, Optional("the names of the surfaces or parts joined by `-`, or `all`"), "Unique name.";
+    "between" = References(Some(2)), Optional("`bodies`"), "The two surfaces.";
+    "bodies" = References(None), Optional("`between`"),
+        "Parts that meet each other and themselves; `\"all\"` for all parts.";
+    "formulation" = Choice(Choices::Formulations), Default("\"double_pass\""),
+        "What is checked: the nodes of each surface against the segments of the other, only the nodes of \
+            `slave`, segments against segments, or disks in the elements. In 3D nodes meet facets, in a double \
+            pass also edges edges, and the elements have balls; there are no segments.";
+    "slave" = Reference, Optional("needed for, and only for, `single_pass`"),
+        "The surface of `between` whose nodes are checked.";
+    "tied" = Flag, Default("false"), "Whether what touches at the start stays together.";
+    "tie_strength" = Quantity(Dimension::PRESSURE, Positive), Optional("it never breaks"),
+        "Traction above which a tie breaks.";
+    search: String = Choice(Choices::Searches), Optional("`grid`"), "How near pairs are found; changes no result.";
     /// The surfaces.
-    pub partners: Partners,
-    /// Nodes, segments or pinballs.
-    pub formulation: Formulation,
+    partners: Partners, read Partners::read;
+    /// Nodes, segments or pinballs; the reader of the file knows which surface is the slave.
+    formulation: Formulation, read |_| Formulation::default();
     /// Law, friction and so on.
-    pub interface: Interface,
+    interface: Interface, read Interface::read;
     /// `Some`: what touches at the start stays together until the traction (Pa) exceeds this.
-    pub tied: Option<f64>,
-    /// Name in the search registry; empty: `grid`.
-    pub search: String,
+    tied: Option<f64>,
+        read |values| values.get::<bool>("tied").then(|| values.get::<Option<f64>>("tie_strength").unwrap_or(f64::INFINITY));
 }
 
 impl Contact {

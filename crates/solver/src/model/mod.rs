@@ -40,7 +40,7 @@ pub use crate::mesh::shapes::{
     Cuboid, Cylinder, Disk, Edge, Extrude, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, SpaceTruss, Sphere, Sweep,
     Trapezoid, Truss, Tube,
 };
-pub(crate) use contact::INTERFACE;
+pub(crate) use contact::CONTACT;
 pub(crate) use discrete::{POINT_MASS, SPRING};
 pub(crate) use load::{CONSTRAINT, JOIN, LOAD, NON_REFLECTING, SYMMETRY};
 pub(crate) use motion::CURVE;

@@ -4,27 +4,13 @@ use crate::model_file::diagnostics::Faults;
 use crate::model_file::reader::Record;
 use crate::model_file::units::shorten;
 use embate_solver::model::messages::{CLASH, UNKNOWN_NAME};
-use embate_solver::model::{Contact, Formulation, Interface, Partners};
+use embate_solver::model::{Contact, Formulation, Partners};
 
 pub(super) fn contact(record: &Record, faults: &mut Faults) -> Contact {
-    let bodies = record.written("bodies").is_some() && record.written("between").is_none();
-    let names: Vec<String> = record.get(if bodies { "bodies" } else { "between" });
-    let partners = if bodies {
-        // Faulty names: one that no other contact has.
-        let names = if record.is_sound("bodies") { names } else { vec![String::new()] };
-        Partners::Bodies(if names == ["all"] { Vec::new() } else { names })
-    } else {
-        Partners::Between([0, 1].map(|index| names.get(index).cloned().unwrap_or_default()))
-    };
-    let between = if let Partners::Between(between) = &partners { Some(between) } else { None };
-    Contact {
-        name: record.text("name"),
-        formulation: formulation(record, between, faults),
-        interface: Interface::read(record),
-        search: record.text("search"),
-        tied: record.get::<bool>("tied").then(|| record.number("tie_strength").unwrap_or(f64::INFINITY)),
-        partners,
-    }
+    let mut contact = Contact::read(record);
+    let between = if let Partners::Between(between) = &contact.partners { Some(between) } else { None };
+    contact.formulation = formulation(record, between, faults);
+    contact
 }
 
 fn formulation(record: &Record, between: Option<&[String; 2]>, faults: &mut Faults) -> Formulation {

@@ -179,6 +179,7 @@ pub fn find(path: &str) -> Option<&'static Key> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vocabulary::Rule;
 
     #[test]
     fn a_path_finds_its_key() {

@@ -9,7 +9,7 @@ use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 use crate::vocabulary::Kind::{Angle, Flag, Name, Points, Quantity, References, Spatial, Table};
 use crate::vocabulary::Need::{Default as Written, Optional, Required};
-use crate::vocabulary::{Form, Kind, Rule, Section, key};
+use crate::vocabulary::{Form, Key, Kind, Rule, Section, key};
 use std::sync::Arc;
 
 section! {
@@ -153,27 +153,18 @@ static PLANE: Section = Section {
     ..Section::EMPTY
 };
 
-static CIRCLE: Section = Section {
-    name: "circle",
-    doc: "A circle.",
-    keys: &[
-        key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
-        key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
-        key("hollow", Flag, Written("false"), "Whether the bodies are inside of it."),
-    ],
-    ..Section::EMPTY
-};
+/// The keys of a circle and of a sphere.
+const ROUND: [Key; 3] = [
+    key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
+    key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
+    HOLLOW,
+];
 
-static SPHERE: Section = Section {
-    name: "sphere",
-    doc: "In 3D: a sphere.",
-    keys: &[
-        key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
-        key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
-        key("hollow", Flag, Written("false"), "Whether the bodies are inside of it."),
-    ],
-    ..Section::EMPTY
-};
+const HOLLOW: Key = key("hollow", Flag, Written("false"), "Whether the bodies are inside of it.");
+
+static CIRCLE: Section = Section { name: "circle", doc: "A circle.", keys: &ROUND, ..Section::EMPTY };
+
+static SPHERE: Section = Section { name: "sphere", doc: "In 3D: a sphere.", keys: &ROUND, ..Section::EMPTY };
 
 static CYLINDER: Section = Section {
     name: "cylinder",
@@ -182,7 +173,7 @@ static CYLINDER: Section = Section {
         key("point", Spatial(Dimension::LENGTH, Finite), Written("[0, 0, 0]"), "A point of its axis."),
         key("axis", Spatial(Dimension::NONE, Finite), Required, "Direction of the axis; any length but zero."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
-        key("hollow", Flag, Written("false"), "Whether the bodies are inside of it."),
+        HOLLOW,
     ],
     ..Section::EMPTY
 };

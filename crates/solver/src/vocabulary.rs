@@ -1,9 +1,9 @@
 //! The types that describe the model file (sections, keys, kinds of values, ranges, rules), and the messages
 //! about wrong names and numbers.
 //!
-//! The descriptions are in `input/sections/`, those of shapes beside the shapes. The reader, the range
-//! checks, "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from them by
-//! iteration.
+//! A section is described beside the struct of its values, in `model`; a shape beside its mesh. The reader,
+//! the range checks, "did you mean", the JSON schema and the tables of `docs/model-file.md` are made from the
+//! descriptions by iteration.
 
 use crate::quantity::{Dimension, Range};
 
@@ -82,8 +82,33 @@ pub struct Key {
     pub doc: &'static str,
 }
 
-/// Names that a key's value is chosen from.
-pub type Choices = fn() -> Vec<&'static str>;
+/// Names that a key's value is chosen from: words, or the names of a registry, which `input` knows
+/// ([`Choices::names`]).
+#[derive(Clone, Copy, Debug)]
+pub enum Choices {
+    /// These words.
+    Words(&'static [&'static str]),
+    /// What this function lists.
+    Listed(fn() -> Vec<&'static str>),
+    /// Laws of materials.
+    Laws,
+    /// Equations of state.
+    EquationsOfState,
+    /// Elements for cells that are no triangles.
+    Elements,
+    /// Elements for triangles.
+    Triangles,
+    /// Stress states.
+    StressStates,
+    /// Laws of contacts.
+    ContactLaws,
+    /// Formulations of contacts.
+    Formulations,
+    /// Searches of contacts.
+    Searches,
+    /// Fields of the output.
+    Fields,
+}
 
 /// What a value may be.
 #[derive(Clone, Copy, Debug)]

@@ -189,9 +189,11 @@ fn words(key: &Key) -> String {
         Kind::Rigid => format!("true, false, or {MOTION}"),
         Kind::Integer(least) => format!("whole number from {least}"),
         Kind::Integers(count, least) => format!("{count} whole numbers from {least}"),
-        Kind::Choice(known) if known().len() <= 4 => known().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "),
-        Kind::Choices(known) if known().len() <= 3 => {
-            format!("{}, or a list of them", known().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "))
+        Kind::Choice(known) if known.names().len() <= 4 => {
+            known.names().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or ")
+        }
+        Kind::Choices(known) if known.names().len() <= 3 => {
+            format!("{}, or a list of them", known.names().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "))
         }
         Kind::Table(section) => format!("table, see `{}` below", section.name),
         other => value::words(other).trim_start_matches("a ").to_string(),

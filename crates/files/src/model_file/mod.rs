@@ -1,10 +1,10 @@
 //! The model file: TOML with units, read into a [`Model`].
 //!
 //! The walk: text (`mod.rs`) -> tree with places (`tree.rs`) -> overrides (`set.rs`, `template.rs`) ->
-//! checked values (`reader.rs`, `value.rs`, `units.rs`) -> model (`build.rs`) -> [`Model::check`]. What a
-//! section may hold is described once, in [`embate_solver::input::sections`]; the JSON schema (`schema.rs`)
-//! and the manual (`manual.rs`) come from there too. Faults (`diagnostics.rs`) are collected all the way and
-//! shown together; warnings of a model without faults likewise.
+//! checked values (`reader.rs`, `value.rs`, `units.rs`) -> model (`build/`) -> [`Model::check`]. What a
+//! section may hold is described once, in [`embate_solver::model`] with what is read from it; the JSON schema
+//! (`schema.rs`) and the manual (`manual.rs`) come from there too. Faults (`diagnostics.rs`) are collected
+//! all the way and shown together; warnings of a model without faults likewise.
 
 mod build;
 mod decimal;

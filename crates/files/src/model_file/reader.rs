@@ -1,18 +1,19 @@
 //! Reads the tree of a model file section by section, key by key, as
 //! [`sections`](embate_solver::input::sections) says.
 //!
-//! The tree comes from `tree.rs`; records of checked values go to `build.rs`. Every fault is noted and
+//! The tree comes from `tree.rs`; records of checked values go to `build/`. Every fault is noted and
 //! reading continues.
 
 use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
-use super::value::{self, Datum, Wrong};
+use super::value::{self, Wrong};
 use crate::model_file::messages::{FORM, MISSING_KEY, MISSING_SECTION, UNKNOWN_KEY};
 use embate_solver::element::elements_of;
-use embate_solver::input::sections::{MOVED, SECTIONS, TOP, section as section_by_name};
+use embate_solver::input::sections::{MOVED, SECTIONS, TOP};
 use embate_solver::mesh::shapes::Shape;
-use embate_solver::mesh::shapes::Values;
+use embate_solver::model::Values;
 use embate_solver::model::messages::CLASH;
+use embate_solver::model::values::{Datum, Field};
 use embate_solver::quantity::Dimension;
 use embate_solver::stress_state::STRESS_STATES;
 use embate_solver::vocabulary::{Form, Key, Kind, Need, Rule, Section, nearest, suggestion};
@@ -46,6 +47,7 @@ pub(crate) struct Record {
     /// Name in `[section.NAME]`; empty elsewhere.
     pub(crate) name: String,
     values: BTreeMap<String, Datum>,
+    tables: BTreeMap<String, Record>,
     /// Keys that the file has, sound or not, with the places of their values.
     written: BTreeMap<String, Place>,
 }
@@ -66,18 +68,9 @@ impl Document {
         self.sections.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// The only table of a section, or one of defaults.
-    pub(super) fn single(&self, name: &str) -> Record {
-        match (self.section(name).first(), section_by_name(name)) {
-            (Some(record), _) => record.clone(),
-            (None, Some(section)) => Reader { vocabulary: &MODEL, faults: &mut Faults::default(), extent: Extent::Slice }.table(
-                section,
-                &[],
-                name,
-                Place { source: 0, start: 0, end: 0 },
-            ),
-            (None, None) => Record::default(),
-        }
+    /// All tables of all sections.
+    pub(super) fn records(&self) -> impl Iterator<Item = &Record> {
+        self.sections.values().flatten()
     }
 }
 
@@ -92,131 +85,50 @@ impl Record {
         self.written.get(name).copied()
     }
 
-    pub(super) fn datum(&self, name: &str) -> Option<&Datum> {
-        self.values.get(name)
+    /// Whether a key has a sound value, of the file or by default.
+    pub(super) fn is_sound(&self, name: &str) -> bool {
+        self.values.contains_key(name) || self.tables.contains_key(name)
     }
 
     /// Whether a key has this value, a text or a flag; `None` where its value is not sound.
     fn has(&self, name: &str, value: &str) -> Option<bool> {
-        match self.datum(name) {
+        match self.values.get(name) {
             Some(Datum::Text(text)) => Some(text == value),
             Some(Datum::Flag(flag)) => Some(flag.to_string() == value),
             _ => None,
         }
     }
 
-    /// All keys with numbers.
-    pub(super) fn numbers(&self) -> BTreeMap<String, f64> {
-        let number = |(key, datum): (&String, &Datum)| if let Datum::Number(value) = datum { Some((key.clone(), *value)) } else { None };
-        self.values.iter().filter_map(number).collect()
-    }
-
-    pub(super) fn lists(&self) -> BTreeMap<String, Vec<f64>> {
-        let list =
-            |(key, datum): (&String, &Datum)| if let Datum::Numbers(values) = datum { Some((key.clone(), values.clone())) } else { None };
-        self.values.iter().filter_map(list).collect()
+    /// The value of a key, or its placeholder; of an `Option` nothing.
+    pub(crate) fn get<T: Field>(&self, name: &str) -> T {
+        (self as &dyn Values).get(name)
     }
 
     pub(crate) fn number(&self, name: &str) -> Option<f64> {
-        if let Some(Datum::Number(value)) = self.datum(name) { Some(*value) } else { None }
-    }
-
-    pub(super) fn list(&self, name: &str) -> Vec<f64> {
-        if let Some(Datum::Numbers(values)) = self.datum(name) { values.clone() } else { Vec::new() }
-    }
-
-    pub(super) fn is(&self, name: &str) -> bool {
-        matches!(self.datum(name), Some(Datum::Flag(true)))
-    }
-
-    pub(crate) fn vector(&self, name: &str) -> [f64; 2] {
-        if let Some(Datum::Vector(value)) = self.datum(name) { *value } else { [f64::NAN; 2] }
-    }
-
-    pub(crate) fn spatial(&self, name: &str) -> [f64; 3] {
-        if let Some(Datum::Spatial(value)) = self.datum(name) { *value } else { [f64::NAN; 3] }
-    }
-
-    pub(super) fn integer(&self, name: &str) -> Option<u64> {
-        if let Some(Datum::Integer(value)) = self.datum(name) { Some(*value) } else { None }
+        self.get(name)
     }
 
     pub(crate) fn text(&self, name: &str) -> String {
-        if let Some(Datum::Text(value)) = self.datum(name) { value.clone() } else { String::new() }
+        self.get(name)
     }
 
-    pub(crate) fn texts(&self, name: &str) -> Vec<String> {
-        if let Some(Datum::Texts(values)) = self.datum(name) { values.clone() } else { Vec::new() }
-    }
-
-    /// Its tables, by their keys.
-    pub(super) fn tables(&self) -> impl Iterator<Item = (&str, &Record)> {
-        self.values.iter().filter_map(|(key, datum)| if let Datum::Table(record) = datum { Some((key.as_str(), &**record)) } else { None })
-    }
-
-    pub(crate) fn table(&self, name: &str) -> Option<&Record> {
-        if let Some(Datum::Table(record)) = self.datum(name) { Some(record) } else { None }
+    pub(crate) fn table(&self, name: &str) -> Option<&Self> {
+        self.tables.get(name)
     }
 }
 
 impl Values for Record {
     fn has(&self, key: &str) -> bool {
-        self.written(key).is_some()
+        self.written.contains_key(key)
     }
 
-    fn number(&self, key: &str) -> f64 {
-        Self::number(self, key).unwrap_or(f64::NAN)
+    fn values(&self) -> &BTreeMap<String, Datum> {
+        &self.values
     }
 
-    fn vector(&self, key: &str) -> [f64; 2] {
-        Self::vector(self, key)
+    fn tables(&self) -> Vec<(&str, &dyn Values)> {
+        self.tables.iter().map(|(key, record)| (key.as_str(), record as &dyn Values)).collect()
     }
-
-    fn spatial(&self, key: &str) -> [f64; 3] {
-        Self::spatial(self, key)
-    }
-
-    fn numbers(&self, key: &str) -> Vec<f64> {
-        self.list(key)
-    }
-
-    fn points(&self, key: &str) -> Vec<[f64; 2]> {
-        if let Some(Datum::Points(points)) = self.datum(key) { points.clone() } else { Vec::new() }
-    }
-
-    fn outlines(&self, key: &str) -> Vec<Vec<[f64; 2]>> {
-        if let Some(Datum::Outlines(outlines)) = self.datum(key) { outlines.clone() } else { Vec::new() }
-    }
-
-    fn spatial_outlines(&self, key: &str) -> Vec<Vec<[f64; 3]>> {
-        if let Some(Datum::SpatialOutlines(outlines)) = self.datum(key) { outlines.clone() } else { Vec::new() }
-    }
-
-    fn count(&self, key: &str) -> usize {
-        self.integer(key).map_or(usize::MAX, whole)
-    }
-
-    fn counts(&self, key: &str) -> [usize; 2] {
-        let Some(Datum::Integers(values)) = self.datum(key) else { return [usize::MAX; 2] };
-        [0, 1].map(|index| values.get(index).copied().map_or(usize::MAX, whole))
-    }
-
-    fn three_counts(&self, key: &str) -> [usize; 3] {
-        let Some(Datum::Integers(values)) = self.datum(key) else { return [usize::MAX; 3] };
-        [0, 1, 2].map(|index| values.get(index).copied().map_or(usize::MAX, whole))
-    }
-
-    fn text(&self, key: &str) -> String {
-        Self::text(self, key)
-    }
-
-    fn flag(&self, key: &str) -> bool {
-        self.is(key)
-    }
-}
-
-fn whole(value: u64) -> usize {
-    usize::try_from(value).unwrap_or(usize::MAX)
 }
 
 /// Reads all sections. Where keys alone do not say so, `solids` says that parts are solids.
@@ -374,10 +286,12 @@ impl Reader<'_> {
             let path = join(path, &entry.key);
             record.written.insert(entry.key.clone(), entry.node.place);
             match keys.iter().find(|key| key.name == entry.key) {
-                Some(key) => {
-                    let datum = self.datum(key, &entry.node, &path);
-                    record.values.extend(datum.map(|datum| (entry.key.clone(), datum)));
-                }
+                Some(key) => match (key.kind, &entry.node.value) {
+                    (Kind::Table(section), Value::Table(entries)) => {
+                        record.tables.insert(entry.key.clone(), self.table(section, entries, &path, entry.node.place));
+                    }
+                    _ => record.values.extend(self.datum(key, &entry.node, &path).map(|datum| (entry.key.clone(), datum))),
+                },
                 None if complete => self.unknown(section, &keys, entry, &path),
                 None => {}
             }
@@ -400,9 +314,6 @@ impl Reader<'_> {
     }
 
     fn datum(&mut self, key: &Key, node: &Node, path: &str) -> Option<Datum> {
-        if let (Kind::Table(section), Value::Table(entries)) = (key.kind, &node.value) {
-            return Some(Datum::Table(Box::new(self.table(section, entries, path, node.place))));
-        }
         let key = self.extent.of(key);
         match value::read(&key, node, path) {
             Ok(datum) => Some(datum),
@@ -466,7 +377,10 @@ impl Reader<'_> {
                 let present: Vec<&str> = names.iter().filter(|name| has(name)).copied().collect();
                 match present.as_slice() {
                     [_] => return,
-                    [] => (place, format!("{what} needs one of {}", list(names, "and")), "add one of them".to_string()),
+                    [] => {
+                        names.iter().for_each(|name| self.faults.cover(&record.key(name)));
+                        (place, format!("{what} needs one of {}", list(names, "and")), "add one of them".to_string())
+                    }
                     [_, second, ..] => (
                         record.written(second).unwrap_or(place),
                         format!("{what} has {} at once", list(&present, "and")),

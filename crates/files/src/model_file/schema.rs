@@ -149,7 +149,7 @@ fn variants(section: &Section) -> Json {
 /// needs it.
 fn keys_by(more: &More, keys: &mut Vec<Key>, rules: &mut Vec<Json>) {
     let Some(Kind::Choice(values)) = keys.iter().find(|key| key.name == more.by).map(|key| key.kind) else { return };
-    let variants: Vec<(&str, Vec<Key>)> = values().into_iter().map(|value| (value, (more.keys)(value).unwrap_or_default())).collect();
+    let variants: Vec<(&str, Vec<Key>)> = values.names().into_iter().map(|value| (value, (more.keys)(value).unwrap_or_default())).collect();
     let known: Vec<&str> = keys.iter().map(|key| key.name).collect();
     let own = |key: &&Key| !known.contains(&key.name);
     let mut names: Vec<&str> = variants.iter().flat_map(|(_, keys)| keys).filter(own).map(|key| key.name).collect();
@@ -251,8 +251,8 @@ fn of_key(key: &Key) -> Json {
         Kind::Name => object([("type", text("string")), ("pattern", text(NAME_PATTERN))]),
         Kind::References(Some(count)) => list(object([("type", text("string"))]), Some(count)),
         Kind::References(None) => one_or_more(object([("type", text("string"))])),
-        Kind::Choice(known) => choice(&known()),
-        Kind::Choices(known) => one_or_more(choice(&known())),
+        Kind::Choice(known) => choice(&known.names()),
+        Kind::Choices(known) => one_or_more(choice(&known.names())),
         Kind::Table(section) => of_table(section, &all(section)),
     };
     let json = json.with("description", text(key.doc));

@@ -3,49 +3,16 @@
 //! Nodes come from `tree.rs` through `reader.rs`; typed values in SI units, or what is wrong with them, go
 //! back to it. Each kind of value is one arm of `read`, one of `example`, and one of `words`.
 
-use super::reader::Record;
 use super::tree::{Node, Place, Value};
 use super::units::{self, Wanted};
 use crate::model_file::messages::{CHOICE, TYPE, UNIT, UNKNOWN_KEY};
 use embate_solver::input::name_is_plain;
 use embate_solver::message::Message;
 use embate_solver::model::messages::{LIST_LENGTH, RANGE};
+use embate_solver::model::values::{Course, Datum};
 use embate_solver::model::{Cadence, Drive, Penalty};
 use embate_solver::quantity::{Dimension, Range};
 use embate_solver::vocabulary::{Key, Kind, out_of_range, suggestion};
-
-/// A value that is sound.
-#[derive(Clone, Debug)]
-pub(super) enum Datum {
-    Number(f64),
-    Vector([f64; 2]),
-    Spatial([f64; 3]),
-    Numbers(Vec<f64>),
-    /// Numbers of one dimension; `None` where none has a unit.
-    Values(Vec<f64>, Option<Dimension>),
-    Points(Vec<[f64; 2]>),
-    Outlines(Vec<Vec<[f64; 2]>>),
-    SpatialOutlines(Vec<Vec<[f64; 3]>>),
-    /// A number or the name of a curve.
-    Drive(Drive),
-    /// Prescribed motion along x, y and z and around.
-    Courses([Option<Course>; 4]),
-    Integer(u64),
-    Integers(Vec<u64>),
-    Flag(bool),
-    Text(String),
-    Texts(Vec<String>),
-    Cadence(Cadence),
-    Penalty(Penalty),
-    Table(Box<Record>),
-}
-
-/// What is prescribed for a degree of freedom.
-#[derive(Clone, Debug)]
-pub(super) enum Course {
-    Free,
-    Driven(Drive),
-}
 
 /// What is wrong with a value or an item of it.
 #[derive(Clone, Debug)]
@@ -343,8 +310,8 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
             }
             Datum::Texts(at.several(|at| at.text())?)
         }
-        Kind::Choice(known) => Datum::Text(at.choice(&known())?),
-        Kind::Choices(known) => Datum::Texts(at.several(|at| at.choice(&known()))?),
+        Kind::Choice(known) => Datum::Text(at.choice(&known.names())?),
+        Kind::Choices(known) => Datum::Texts(at.several(|at| at.choice(&known.names()))?),
         Kind::Table(_) => return at.unlike(),
     })
 }
@@ -448,8 +415,8 @@ pub(super) fn example(key: &Key) -> String {
         Kind::References(count) => {
             format!("[{}]", ["\"...\"", "\"...\""].iter().cycle().take(count.unwrap_or(1)).copied().collect::<Vec<_>>().join(", "))
         }
-        Kind::Choice(known) => format!("\"{}\"", known().first().copied().unwrap_or("...")),
-        Kind::Choices(known) => format!("[\"{}\"]", known().first().copied().unwrap_or("...")),
+        Kind::Choice(known) => format!("\"{}\"", known.names().first().copied().unwrap_or("...")),
+        Kind::Choices(known) => format!("[\"{}\"]", known.names().first().copied().unwrap_or("...")),
         Kind::Table(section) => {
             let required = section.keys.iter().filter(|key| key.need == embate_solver::vocabulary::Need::Required);
             format!("{{ {} }}", required.map(|key| format!("{} = {}", key.name, example(key))).collect::<Vec<_>>().join(", "))

@@ -4,7 +4,7 @@
 use super::case::{TAKES, Take};
 use crate::model_file::{Vocabulary, keys_table};
 use embate_solver::quantity::{Dimension, Range};
-use embate_solver::vocabulary::{Form, Group, Key, Kind, Need, Rule, Section};
+use embate_solver::vocabulary::{Choices, Form, Group, Key, Kind, Need, Rule, Section};
 use std::fmt::Write;
 
 const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> Key {
@@ -25,7 +25,7 @@ static TOP: Section = Section {
     form: Form::Single,
     keys: &[
         key("title", Text, Required, "What is verified."),
-        key("tier", Choice(tiers), Required, "`every`: run by default; `all`: only with `--all` or by name."),
+        key("tier", Choice(Choices::Words(&["every", "all"])), Required, "`every`: run by default; `all`: only with `--all` or by name."),
     ],
     ..Section::EMPTY
 };
@@ -104,7 +104,12 @@ static NUMBERS: Group = Group {
         key("summary", Text, Optional("another source"), "A figure of summary.json; keys within keys are joined by dots."),
         key("history", Text, Optional("another source"), "A column of history.csv."),
         key("field", Text, Optional("another source"), "A field of a frame: `von_mises`, or with its component `stress.yy`."),
-        key("take", Choice(takes), Optional("`at` or `nearest`"), "What is made of the many values of a column or a field."),
+        key(
+            "take",
+            Choice(Choices::Listed(takes)),
+            Optional("`at` or `nearest`"),
+            "What is made of the many values of a column or a field.",
+        ),
         key(
             "at",
             Quantity(Dimension::TIME, Range::NotNegative),
@@ -156,10 +161,6 @@ static CONVERGES: Section = Section {
     ],
     ..Section::EMPTY
 };
-
-fn tiers() -> Vec<&'static str> {
-    vec!["every", "all"]
-}
 
 fn takes() -> Vec<&'static str> {
     TAKES.iter().map(|take: &Take| take.name).collect()

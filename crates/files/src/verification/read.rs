@@ -62,7 +62,7 @@ fn variants(document: &Document, files: &[String], faults: &mut Faults) -> BTree
             let texts = (format!("there is a model file `{}.toml` too", record.name), "give the variant another name".to_string());
             faults.beside(&CASE, &record.path, None, texts);
         }
-        variants.insert(record.name.clone(), Variant { model, set: record.texts("set") });
+        variants.insert(record.name.clone(), Variant { model, set: record.get("set") });
     }
     variants
 }
@@ -92,7 +92,7 @@ fn names(document: &Document, files: &[String], variants: &BTreeMap<String, Vari
         used.insert(name);
     };
     for record in document.section("check") {
-        let named = record.texts("model");
+        let named: Vec<String> = record.get("model");
         let named = if named.is_empty() { vec![MODEL.to_string()] } else { named };
         named.into_iter().for_each(|it| name(record, "model", it, faults));
         for (table, key) in [("over", "model"), ("minus", "model"), ("converges", "model")] {
@@ -112,7 +112,7 @@ fn names(document: &Document, files: &[String], variants: &BTreeMap<String, Vari
 }
 
 fn check(record: &Record, faults: &mut Faults) -> Check {
-    let named = record.texts("model");
+    let named: Vec<String> = record.get("model");
     let with = [("over", Combination::Over), ("minus", Combination::Minus)].into_iter().find_map(|(name, how)| {
         let table = record.table(name)?;
         Some(With { how, quantity: quantity(table, faults), model: table.written("model").is_some().then(|| table.text("model")) })
@@ -210,8 +210,8 @@ fn history(record: &Record, column: String, faults: &mut Faults) -> Source {
 
 fn field(record: &Record, name: String, faults: &mut Faults) -> Source {
     let place = match record.table("box") {
-        _ if record.written("nearest").is_some() => Place::Nearest(record.spatial("nearest")),
-        Some(table) => Place::Box { low: table.spatial("low"), high: table.spatial("high") },
+        _ if record.written("nearest").is_some() => Place::Nearest(record.get("nearest")),
+        Some(table) => Place::Box { low: table.get("low"), high: table.get("high") },
         None => Place::All,
     };
     // Of one value, mean is itself.

@@ -1,12 +1,17 @@
-//! Contacts and obstacles of a [`super::Model`]: formulations, laws, friction, what touches what.
+//! Contacts of a [`super::Model`]: formulations, laws, friction, what touches what; and the keys that they
+//! share with obstacles, described once.
 //!
 //! Values come from the model file, checked by `input`; contacts are made of them by
 //! [`crate::build`].
 
-use super::in_3d;
-use super::motion::Motion;
-use super::triangles::TriangleSurface;
-use std::sync::Arc;
+use super::load::window;
+use super::values::LeftOut;
+use super::{Values, section};
+use crate::quantity::Dimension;
+use crate::quantity::Range::{Finite, NotNegative, Positive};
+use crate::vocabulary::Kind::{Choice, Flag, Name, Quantities, Quantity, Reference, References, Stiffness};
+use crate::vocabulary::Need::{Default as Written, Optional};
+use crate::vocabulary::{Choices, Form, Group, Rule, Section, key};
 
 /// What a contact makes of its surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -147,16 +152,145 @@ pub struct Interface {
     pub active: [f64; 2],
 }
 
+/// What happens between surfaces, of any body.
+pub(crate) static INTERFACE: Group = Group {
+    title: "Where surfaces meet",
+    doc: "Keys of contacts and of obstacles alike. Friction is at most min(µ p + c v, τ) at pressure p and slip rate \
+        v, with µ = µ_d + (µ_s - µ_d) exp(-β v).",
+    keys: &[
+        key(
+            "law",
+            Choice(Choices::ContactLaws),
+            Written("\"penalty\""),
+            "What keeps the surfaces apart: a force proportional to the penetration, a pressure that depends on the \
+                gap, or whatever force it takes.",
+        ),
+        key(
+            "penalty",
+            Stiffness(Dimension::PRESSURE, Positive),
+            Optional("automatic, from the elements under the surfaces"),
+            "Stiffness per node and depth, or circumference (N/m/m, of solids N/m; also meant by a bare number), or \
+                pressure per penetration (Pa/m).",
+        ),
+        key("penalty_scale", Quantity(Dimension::NONE, Positive), Optional("1"), "Factor on the automatic penalty."),
+        key(
+            "penalty_from",
+            Choice(Choices::Words(&["wave_modulus", "bulk_modulus", "time_step"])),
+            Optional("`wave_modulus`"),
+            "What the automatic penalty is made from: K + 4µ/3 or K over the height of the elements, or the mass \
+                over the square of the first stable step.",
+        ),
+        key(
+            "gaps",
+            Quantities(Dimension::LENGTH, Finite, 2),
+            Optional("needed for, and only for, `pressure_gap`"),
+            "Gaps, ascending; below zero is penetration.",
+        ),
+        key(
+            "pressures",
+            Quantities(Dimension::PRESSURE, NotNegative, 2),
+            Optional("needed for, and only for, `pressure_gap`"),
+            "Pressures at the gaps, never rising, zero at the last.",
+        ),
+        key(
+            "damping",
+            Quantity(Dimension::NONE, NotNegative),
+            Written("0"),
+            "Viscous damping of closed contacts, as a fraction of the critical one. It also resists rolling: what \
+                comes in is slowed down, and what goes out is not pushed back as much.",
+        ),
+        key("friction", Quantity(Dimension::NONE, NotNegative), Optional("no friction"), "Coefficient µ_s of Coulomb friction, at rest."),
+        key(
+            "friction_dynamic",
+            Quantity(Dimension::NONE, NotNegative),
+            Optional("`friction`"),
+            "Coefficient µ_d of fast sliding, at most µ_s.",
+        ),
+        key(
+            "friction_decay",
+            Quantity(Dimension::SLOWNESS, Positive),
+            Optional("no decay"),
+            "Rate β from the one to the other coefficient.",
+        ),
+        key("friction_viscosity", Quantity(Dimension::VISCOSITY_PER_LENGTH, Positive), Optional("none"), "Shear stress c per slip rate."),
+        key("friction_limit", Quantity(Dimension::PRESSURE, Positive), Optional("none"), "Largest shear stress τ."),
+        key(
+            "initial_penetration",
+            Choice(Choices::Words(&["error", "ignore", "push_out"])),
+            Written("\"error\""),
+            "What is done with penetrations at the start: the model is refused, the gap counts as zero, or nodes are moved to the surface.",
+        ),
+        key("thickness", Quantity(Dimension::LENGTH, NotNegative), Written("0"), "Distance that the surfaces keep."),
+        key("birth", Quantity(Dimension::TIME, NotNegative), Written("0"), "Time from which it acts."),
+        key("death", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time until which it acts."),
+    ],
+    rules: &[
+        Rule::NotBoth("penalty", "penalty_scale"),
+        Rule::NotBoth("penalty", "penalty_from"),
+        Rule::Only { keys: &["penalty", "penalty_scale", "penalty_from"], by: "law", value: "penalty" },
+        Rule::Only { keys: &["gaps", "pressures"], by: "law", value: "pressure_gap" },
+        Rule::With { by: "law", value: "pressure_gap", keys: &["gaps", "pressures"] },
+        Rule::Needs("friction_dynamic", "friction"),
+        Rule::Needs("friction_dynamic", "friction_decay"),
+        Rule::Needs("friction_decay", "friction"),
+        Rule::Needs("friction_decay", "friction_dynamic"),
+        Rule::Needs("friction_viscosity", "friction"),
+        Rule::Needs("friction_limit", "friction"),
+    ],
+};
+
+impl Interface {
+    /// From the table of a contact or an obstacle.
+    #[must_use]
+    pub fn read(values: &dyn Values) -> Self {
+        Self {
+            law: ContactLaw::read(values),
+            damping: values.get("damping"),
+            friction: values.has("friction").then(|| Friction::read(values)),
+            initial_penetration: match values.get::<String>("initial_penetration").as_str() {
+                "ignore" => InitialPenetration::Ignore,
+                "push_out" => InitialPenetration::PushOut,
+                _ => InitialPenetration::Error,
+            },
+            thickness: values.get("thickness"),
+            active: window(values, ["birth", "death"]),
+        }
+    }
+}
+
+impl ContactLaw {
+    fn read(values: &dyn Values) -> Self {
+        match values.get::<String>("law").as_str() {
+            "pressure_gap" => Self::PressureGap { gaps: values.get("gaps"), pressures: values.get("pressures") },
+            "multiplier" => Self::Multiplier,
+            _ => Self::Penalty(values.get::<Option<Penalty>>("penalty").unwrap_or_else(|| Penalty::Automatic {
+                source: match values.get::<String>("penalty_from").as_str() {
+                    "bulk_modulus" => PenaltySource::BulkModulus,
+                    "time_step" => PenaltySource::TimeStep,
+                    _ => PenaltySource::WaveModulus,
+                },
+                scale: values.get::<Option<f64>>("penalty_scale").unwrap_or(1.0),
+            })),
+        }
+    }
+}
+
+impl Friction {
+    fn read(values: &dyn Values) -> Self {
+        let or = |key, left_out| values.get::<Option<f64>>(key).unwrap_or(left_out);
+        Self {
+            coefficient: values.get("friction"),
+            dynamic: values.get("friction_dynamic"),
+            decay: or("friction_decay", 0.0),
+            viscosity: or("friction_viscosity", 0.0),
+            limit: or("friction_limit", f64::INFINITY),
+        }
+    }
+}
+
 impl Default for Interface {
     fn default() -> Self {
-        Self {
-            law: ContactLaw::default(),
-            damping: 0.0,
-            friction: None,
-            initial_penetration: InitialPenetration::default(),
-            thickness: 0.0,
-            active: [0.0, f64::INFINITY],
-        }
+        Self::read(&LeftOut::of(INTERFACE.keys))
     }
 }
 
@@ -176,27 +310,59 @@ pub enum Partners {
     Bodies(Vec<String>),
 }
 
+impl Partners {
+    fn read(values: &dyn Values) -> Self {
+        if !values.has("bodies") || values.has("between") {
+            return Self::Between(values.get("between"));
+        }
+        // Faulty names: one that no other contact has.
+        let names = values.get::<Option<Vec<String>>>("bodies").unwrap_or_else(|| vec![String::new()]);
+        Self::Bodies(if names == ["all"] { Vec::new() } else { names })
+    }
+}
+
 impl Default for Partners {
     fn default() -> Self {
         Self::Between(Default::default())
     }
 }
 
-/// `[[contact]]`: surfaces that can't go through each other.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Contact {
-    /// Unique name.
-    pub name: String,
+section! {
+    /// `[[contact]]`: surfaces that can't go through each other.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Contact in CONTACT = Section {
+        name: "contact",
+        doc: "Bodies that can't go through each other: two surfaces, or several bodies, each of which meets each other \
+            and itself. A surface is a part (its whole outside), a side such as `plate.top`, or a group of lines (in 3D \
+            of surfaces) of a mesh file.",
+        form: Form::Repeated,
+        groups: &[&INTERFACE],
+        rules: &[Rule::OneOf(&["between", "bodies"]), Rule::Only { keys: &["tie_strength"], by: "tied", value: "true" }],
+        ..Section::EMPTY
+    };
+    name: String = Name, Optional("the names of the surfaces or parts joined by `-`, or `all`"), "Unique name.";
+    "between" = References(Some(2)), Optional("`bodies`"), "The two surfaces.";
+    "bodies" = References(None), Optional("`between`"),
+        "Parts that meet each other and themselves; `\"all\"` for all parts.";
+    "formulation" = Choice(Choices::Formulations), Default("\"double_pass\""),
+        "What is checked: the nodes of each surface against the segments of the other, only the nodes of \
+            `slave`, segments against segments, or disks in the elements. In 3D nodes meet facets, in a double \
+            pass also edges edges, and the elements have balls; there are no segments.";
+    "slave" = Reference, Optional("needed for, and only for, `single_pass`"),
+        "The surface of `between` whose nodes are checked.";
+    "tied" = Flag, Default("false"), "Whether what touches at the start stays together.";
+    "tie_strength" = Quantity(Dimension::PRESSURE, Positive), Optional("it never breaks"),
+        "Traction above which a tie breaks.";
+    search: String = Choice(Choices::Searches), Optional("`grid`"), "How near pairs are found; changes no result.";
     /// The surfaces.
-    pub partners: Partners,
-    /// Nodes, segments or pinballs.
-    pub formulation: Formulation,
+    partners: Partners, read Partners::read;
+    /// Nodes, segments or pinballs; the reader of the file knows which surface is the slave.
+    formulation: Formulation, read |_| Formulation::default();
     /// Law, friction and so on.
-    pub interface: Interface,
+    interface: Interface, read Interface::read;
     /// `Some`: what touches at the start stays together until the traction (Pa) exceeds this.
-    pub tied: Option<f64>,
-    /// Name in the search registry; empty: `grid`.
-    pub search: String,
+    tied: Option<f64>,
+        read |values| values.get::<bool>("tied").then(|| values.get::<Option<f64>>("tie_strength").unwrap_or(f64::INFINITY));
 }
 
 impl Contact {
@@ -204,107 +370,5 @@ impl Contact {
     #[must_use]
     pub fn between(name: &str, first: &str, second: &str) -> Self {
         Self { name: name.into(), partners: Partners::Between([first.into(), second.into()]), ..Self::default() }
-    }
-}
-
-/// Shape of a rigid obstacle. Its free side is where the normal points.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ObstacleShape {
-    /// A straight line; in 3D a plane without end.
-    Plane {
-        /// A point of the line, m; its middle where it has a length.
-        point: [f64; 3],
-        /// Normal that points to the free side; any length.
-        normal: [f64; 3],
-        /// Length, m; infinite without.
-        length: Option<f64>,
-    },
-    /// A circle.
-    Circle {
-        /// Centre, m.
-        centre: [f64; 3],
-        /// Radius, m.
-        radius: f64,
-        /// Whether bodies are inside of it.
-        hollow: bool,
-    },
-    /// In 3D: a sphere.
-    Sphere {
-        /// Centre, m.
-        centre: [f64; 3],
-        /// Radius, m.
-        radius: f64,
-        /// Whether bodies are inside of it.
-        hollow: bool,
-    },
-    /// In 3D: a cylinder without ends.
-    Cylinder {
-        /// A point of its axis, m.
-        point: [f64; 3],
-        /// Direction of the axis; any length.
-        axis: [f64; 3],
-        /// Radius, m.
-        radius: f64,
-        /// Whether bodies are inside of it.
-        hollow: bool,
-    },
-    /// Straight lines from point to point, the obstacle on their right.
-    Polyline {
-        /// Points, m; the first once more at the end: closed.
-        points: Vec<[f64; 2]>,
-    },
-    /// In 3D: triangles, counter-clockwise seen from the side on which bodies are.
-    Triangles(Arc<TriangleSurface>),
-}
-
-/// `[[obstacle]]`: a rigid body without elements.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Obstacle {
-    /// Unique name.
-    pub name: String,
-    /// Parts that can't cross it; empty: all.
-    pub parts: Vec<String>,
-    /// Shape.
-    pub shape: ObstacleShape,
-    /// How it moves.
-    pub motion: Motion,
-    /// Reference point of rotation and moments, m; `None`: the plane's point, the circle's centre, the mean
-    /// of the polyline's points, the middle of the box around triangles.
-    pub reference: Option<[f64; 3]>,
-    /// Mass per metre of depth, kg/m; needed where it is free to move.
-    pub mass: Option<f64>,
-    /// Moment of inertia about the reference point per metre of depth, kg m; needed where it is free to turn.
-    pub inertia: Option<f64>,
-    /// Initial velocity where it is free, m/s.
-    pub velocity: [f64; 3],
-    /// Initial spin where it is free, rad/s.
-    pub spin: f64,
-    /// Law, friction and so on.
-    pub interface: Interface,
-}
-
-impl Obstacle {
-    /// A fixed plane without end that stops all parts; `normal` points to the free side. Vectors have two or
-    /// three components.
-    #[must_use]
-    pub fn wall<const D: usize>(name: &str, point: [f64; D], normal: [f64; D]) -> Self {
-        Self::fixed(name, ObstacleShape::Plane { point: in_3d(point), normal: in_3d(normal), length: None })
-    }
-
-    /// A fixed obstacle that stops all parts.
-    #[must_use]
-    pub fn fixed(name: &str, shape: ObstacleShape) -> Self {
-        Self {
-            name: name.into(),
-            parts: Vec::new(),
-            shape,
-            motion: Motion::fixed(),
-            reference: None,
-            mass: None,
-            inertia: None,
-            velocity: [0.0; 3],
-            spin: 0.0,
-            interface: Interface::default(),
-        }
     }
 }

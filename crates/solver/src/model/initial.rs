@@ -3,18 +3,50 @@
 //!
 //! Part of [`super::Part`]; blocks take it over in `block/initial.rs`.
 
-/// A Cauchy stress that varies linearly: σ(x) = σ₀ + (x − x₀) ∂σ/∂x + (y − y₀) ∂σ/∂y. Components xx, yy, zz,
-/// xy.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct InitialStress {
+use super::{Values, section};
+use crate::quantity::Dimension;
+use crate::quantity::Range::Finite;
+use crate::vocabulary::Kind::{Quantity, Table, Vector};
+use crate::vocabulary::{Key, Need, Section, key};
+
+section! {
+    /// A Cauchy stress that varies linearly: σ(x) = σ₀ + (x − x₀) ∂σ/∂x + (y − y₀) ∂σ/∂y. Components xx, yy,
+    /// zz, xy.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct InitialStress in STRESS_INITIAL = Section {
+        name: "stress_initial",
+        doc: "Cauchy stress at the start, tension positive: uniform, or linear in x and y. Its elastic energy is in the \
+            energy balance from the start. The law must be one in rate form that can hold it; nothing makes sure that it \
+            is in equilibrium. Of bars `xx` is the stress along the bar, and there is no other.",
+        ..Section::EMPTY
+    };
     /// σ₀, Pa. Of bars xx is the stress along the bar, and there is no other.
-    pub value: [f64; 4],
-    /// ∂σ/∂x, Pa/m.
-    pub per_x: [f64; 4],
-    /// ∂σ/∂y, Pa/m.
-    pub per_y: [f64; 4],
-    /// (x₀, y₀), m.
-    pub point: [f64; 2],
+    value: [f64; 4], read components;
+    "xx" = Quantity(Dimension::PRESSURE, Finite), Default("0"), "Normal stress along x (radial in an axisymmetric part).";
+    "yy" = Quantity(Dimension::PRESSURE, Finite), Default("0"), "Normal stress along y (axial).";
+    "zz" = Quantity(Dimension::PRESSURE, Finite), Default("0"), "Normal stress across the plane (around the axis); not in plane stress.";
+    "xy" = Quantity(Dimension::PRESSURE, Finite), Default("0"), "Shear stress.";
+    per_x: [f64; 4] = Table(&PER_X), Optional("uniform along x"), "How much the stress grows along x.", read |values| slope(values, "per_x");
+    per_y: [f64; 4] = Table(&PER_Y), Optional("uniform along y"), "How much the stress grows along y.", read |values| slope(values, "per_y");
+    point: [f64; 2] = Vector(Dimension::LENGTH, Finite), Default("[0, 0]"),
+        "Where the stress is just `xx`, `yy`, `zz`, `xy`.";
+}
+
+const fn growth(name: &'static str, doc: &'static str) -> Key {
+    key(name, Quantity(Dimension::PRESSURE_PER_LENGTH, Finite), Need::Default("0"), doc)
+}
+
+const SLOPES: [Key; 4] = [growth("xx", "Of `xx`."), growth("yy", "Of `yy`."), growth("zz", "Of `zz`."), growth("xy", "Of `xy`.")];
+
+static PER_X: Section = Section { name: "per_x", doc: "Growth of a stress along x.", keys: &SLOPES, ..Section::EMPTY };
+static PER_Y: Section = Section { name: "per_y", doc: "Growth of a stress along y.", keys: &SLOPES, ..Section::EMPTY };
+
+fn components(values: &dyn Values) -> [f64; 4] {
+    ["xx", "yy", "zz", "xy"].map(|name| values.get(name))
+}
+
+fn slope(values: &dyn Values, name: &str) -> [f64; 4] {
+    values.table(name).map_or([0.0; 4], components)
 }
 
 impl InitialStress {

@@ -1,5 +1,12 @@
 //! Where the body of a built-in shape goes: mirrored, turned, moved, copied. The mesh builder does it.
 
+use super::{Values, section};
+use crate::quantity::Dimension;
+use crate::quantity::Range::Finite;
+use crate::vocabulary::Kind::{Angle, Integer, Spatial};
+use crate::vocabulary::Need::{Default as Written, Required};
+use crate::vocabulary::{Rule, Section, key};
+
 /// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
@@ -26,34 +33,60 @@ impl Default for Placement {
     }
 }
 
-/// A line, in 3D a plane, to mirror on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Mirror {
-    /// A point of it, m.
-    pub point: [f64; 3],
-    /// Its normal, of any length but zero.
-    pub normal: [f64; 3],
-}
-
-/// Bodies of one part that follow each other: each is turned and then moved as often as there are others
-/// before it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Copies {
-    /// How many bodies there are in all.
-    pub count: usize,
-    /// How far each is moved from the one before, m.
-    pub translation: [f64; 3],
-    /// Angle by which each is turned from the one before, rad, counter-clockwise (in 3D by the right-hand
-    /// rule about the axis).
-    pub angle: f64,
-    /// Point about which they are turned, in 3D one of the axis, m.
-    pub point: [f64; 3],
-    /// Direction of the axis about which they are turned, of any length but zero; z in 2D.
-    pub axis: [f64; 3],
-}
-
-impl Default for Copies {
-    fn default() -> Self {
-        Self { count: 0, translation: [0.0; 3], angle: 0.0, point: [0.0; 3], axis: ALONG_Z }
+impl Placement {
+    /// From the table of a part or of a file of triangles.
+    #[must_use]
+    pub fn read(values: &dyn Values) -> Self {
+        let mut placement =
+            Self { mirror: values.get("mirror"), translation: values.get("translation"), copies: values.get("copies"), ..Self::default() };
+        if let Some(turn) = values.table("rotation") {
+            placement.rotation = turn.get("angle");
+            placement.rotation_point = turn.get("point");
+            placement.rotation_axis = turn.get("axis");
+        }
+        placement
     }
+}
+
+pub(crate) static ROTATION: Section = Section {
+    name: "rotation",
+    doc: "The shape is turned about a point, in 3D about an axis.",
+    keys: &[
+        key("angle", Angle(Dimension::NONE, Finite), Required, "Angle, counter-clockwise; about an axis by the right-hand rule."),
+        key("point", Spatial(Dimension::LENGTH, Finite), Written("[0, 0]"), "The point; in 3D one of the axis."),
+        key("axis", Spatial(Dimension::NONE, Finite), Written("[0, 0, 1]"), "Direction of the axis, of a solid; any length but zero."),
+    ],
+    ..Section::EMPTY
+};
+
+section! {
+    /// A line, in 3D a plane, to mirror on.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Mirror in MIRROR = Section {
+        name: "mirror",
+        doc: "The shape is mirrored on a line, in 3D on a plane.",
+        ..Section::EMPTY
+    };
+    normal: [f64; 3] = Spatial(Dimension::NONE, Finite), Required,
+        "Normal of the line or plane; any length but zero.";
+    point: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line or plane.";
+}
+
+section! {
+    /// Bodies of one part that follow each other: each is turned and then moved as often as there are others
+    /// before it.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Copies in COPIES = Section {
+        name: "copies",
+        doc: "The part consists of several bodies of one shape, each turned and moved from the one before. Sides are those of all of them.",
+        rules: &[Rule::SomeOf(&["translation", "angle"])],
+        ..Section::EMPTY
+    };
+    count: usize = Integer(1), Required, "Number of bodies in all.";
+    translation: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far each is moved.";
+    angle: f64 = Angle(Dimension::NONE, Finite), Default("0"), "Angle by which each is turned, counter-clockwise.";
+    point: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"),
+        "Point about which they are turned; in 3D one of the axis.";
+    axis: [f64; 3] = Spatial(Dimension::NONE, Finite), Default("[0, 0, 1]"),
+        "Direction of the axis about which they are turned, of solids; any length but zero.";
 }

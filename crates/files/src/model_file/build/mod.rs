@@ -1,151 +1,108 @@
 //! Makes a [`Model`] from the records of a file: names that were left out, contradictions between keys, mesh
 //! files.
 //!
-//! Records come from `reader.rs`. Where a value is missing or faulty a placeholder stands in (NaN, empty, the
+//! Records come from `reader.rs`; what is made of the values of one is said beside its description in
+//! [`embate_solver::model`]. Where a value is missing or faulty a placeholder stands in (NaN, empty, the
 //! largest count, a mesh that is not there): its fault is noted already, and faults that only follow from it
-//! are not shown. Contacts and obstacles are in `contact.rs`, what moves in `motion.rs`, loads in `load.rs`.
+//! are not shown (`follow.rs`). Contacts are in `contact.rs`.
 
 mod contact;
-mod discrete;
-mod load;
-mod motion;
+mod follow;
 
 use super::GivenMeshes;
 use super::diagnostics::Faults;
 use super::reader::{Document, Record};
 use super::tree::Place;
 use super::units::shorten;
-use super::value::Datum;
 use crate::gmsh::messages::MESH_FILE;
 use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
-use embate_solver::mesh::shapes::Values;
 use embate_solver::model::{
-    Cadence, Camera, Copies, ImportedMesh, InitialStress, MassScaling, Material, Mirror, Model, Output, Part, Partners, PictureView,
-    Placement, Probe, ProbeAt, Relaxation, Run, Shape, Sweep, Symmetry, TriangleSurface,
+    Constraint, Curve, Drive, ImportedMesh, Join, Load, Material, Model, NonReflecting, Obstacle, ObstacleShape, Output, Part, Partners,
+    Placement, PointMass, Probe, Run, Shape, Spring, Symmetry, TriangleSurface, Values,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The model of a file; `meshes` are its mesh files.
 pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Model {
+    document.records().for_each(|record| follow::cover(record, faults));
+    document.section("curve").iter().filter_map(|record| record.table("sine")).for_each(|sine| follow::sine(sine, faults));
     let parts = document.section("part").iter().map(|record| part(record, meshes, faults)).collect();
-    let obstacles = document.section("obstacle").iter().map(|record| contact::obstacle(record, meshes, faults)).collect();
-    let mut model = Model { name: name.to_string(), meshes: meshes.loaded.clone(), obstacles, ..Model::default() };
-    model.title = document.top.text("title");
-    model.run = run(&document.single("run"));
-    let material = |record: &Record| Material {
-        law: record.text("law"),
-        eos: record.text("eos"),
-        parameters: record.numbers(),
-        lists: record.lists(),
-        failure: record.table("failure").map(Record::numbers).unwrap_or_default(),
+    let obstacles = document.section("obstacle").iter().map(|record| obstacle(record, meshes, faults)).collect();
+    let mut model = Model {
+        name: name.to_string(),
+        title: document.top.text("title"),
+        run: all(document, "run", Run::read).pop().unwrap_or_default(),
+        materials: named(document, "material", Material::read),
+        parts,
+        meshes: meshes.loaded.clone(),
+        contacts: document.section("contact").iter().map(|record| contact::contact(record, faults)).collect(),
+        obstacles,
+        curves: named(document, "curve", Curve::read),
+        symmetries: all(document, "symmetry", Symmetry::read),
+        constraints: document.section("constraint").iter().map(|record| constraint(record, faults)).collect(),
+        loads: all(document, "load", Load::read),
+        non_reflecting: all(document, "non_reflecting", NonReflecting::read),
+        joins: all(document, "join", Join::read),
+        springs: all(document, "spring", Spring::read),
+        point_masses: all(document, "point_mass", PointMass::read),
+        probes: all(document, "probe", Probe::read),
+        output: all(document, "output", Output::read).pop().unwrap_or_default(),
     };
-    model.materials = document.section("material").iter().map(|record| (record.name.clone(), material(record))).collect();
-    model.parts = parts;
-    model.contacts = document.section("contact").iter().map(|record| contact::contact(record, faults)).collect();
-    model.curves = document.section("curve").iter().map(|record| (record.name.clone(), motion::curve(record, faults))).collect();
-    model.symmetries = document.section("symmetry").iter().map(symmetry).collect();
-    model.constraints = document.section("constraint").iter().map(|record| motion::constraint(record, faults)).collect();
-    model.loads = document.section("load").iter().map(|record| load::load(record, faults)).collect();
-    model.non_reflecting = document.section("non_reflecting").iter().map(load::non_reflecting).collect();
-    model.joins = document.section("join").iter().map(|record| load::join(record, faults)).collect();
-    model.springs = document.section("spring").iter().map(|record| discrete::spring(record, faults)).collect();
-    model.point_masses = document.section("point_mass").iter().map(|record| discrete::point_mass(record, faults)).collect();
-    model.probes = document.section("probe").iter().map(|record| probe(record, faults)).collect();
-    model.output = output(&document.single("output"));
     name_the_nameless(&mut model);
     model
 }
 
-fn run(record: &Record) -> Run {
-    let number = |name| record.number(name).unwrap_or(f64::NAN);
-    Run {
-        end: number("end"),
-        safety: number("safety"),
-        energy_limit: number("energy_limit"),
-        step_limit: record.number("step_limit"),
-        velocity_limit: record.number("velocity_limit"),
-        penetration_limit: record.number("penetration_limit"),
-        memory_limit: record.number("memory_limit"),
-        time_step: record.number("time_step"),
-        max_steps: record.integer("max_steps"),
-        checkpoint: record.number("checkpoint"),
-        checkpoint_steps: record.integer("checkpoint_steps"),
-        bulk_viscosity: record.vector("bulk_viscosity"),
-        relaxation: record
-            .table("relaxation")
-            .map(|it| Relaxation { tolerance: it.number("tolerance").unwrap_or(f64::NAN), from: it.number("from").unwrap_or(f64::NAN) }),
-        mass_scaling: record
-            .table("mass_scaling")
-            .map(|it| MassScaling { time_step: it.number("time_step").unwrap_or(f64::NAN), limit: it.number("limit").unwrap_or(f64::NAN) }),
-    }
+/// What the tables of a section describe.
+fn all<T>(document: &Document, section: &str, read: impl Fn(&dyn Values) -> T) -> Vec<T> {
+    document.section(section).iter().map(|record| read(record)).collect()
+}
+
+/// What the tables of a section describe, by their names.
+fn named<T>(document: &Document, section: &str, read: impl Fn(&dyn Values) -> T) -> BTreeMap<String, T> {
+    document.section(section).iter().map(|record| (record.name.clone(), read(record))).collect()
 }
 
 fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
-    Part {
-        name: record.text("name"),
-        material: record.text("material"),
-        element: record.text("element"),
-        area: record.number("area"),
-        hourglass: record.number("hourglass"),
-        stress_state: record.text("stress_state"),
-        element_triangles: Some(record.text("element_triangles"))
-            .filter(|name| !name.is_empty())
-            .unwrap_or(Part::default().element_triangles),
-        shape: shape(record, meshes, faults),
-        sweep: record.tables().find_map(|(name, table)| Sweep::read(name, table)),
-        placement: placement(record),
-        velocity: record.spatial("velocity"),
-        spin: record.number("spin").unwrap_or(f64::NAN),
-        stress_initial: record.table("stress_initial").map(stress_initial),
-        temperature_initial: record.number("temperature_initial"),
-        rigid: motion::rigid(record),
-        mass_scale: record.number("mass_scale").unwrap_or(f64::NAN),
+    let mut part = Part::read(record);
+    if let Shape::Group { mesh, group } = &mut part.shape {
+        match record.table("mesh").and_then(|it| Some((meshes.index(it, faults)?, it.text("group")))) {
+            Some(found) => (*mesh, *group) = found,
+            None => faults.cover(&record.key("mesh")),
+        }
     }
+    part
 }
 
-fn shape(part: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Shape {
-    if let Some(shape) = part.tables().find_map(|(name, table)| Shape::read(name, table)) {
-        return shape;
+fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
+    follow::constraint(record, faults);
+    let mut constraint = Constraint::read(record);
+    let given = [&constraint.velocity, &constraint.displacement, &constraint.acceleration];
+    if constraint.rotation.is_none() && given.iter().all(|drives| drives.iter().all(Option::is_none)) {
+        // Nothing sound was given: the reader has said so.
+        constraint.velocity[0] = Some(Drive::Constant(0.0));
     }
-    let mesh = part.table("mesh").and_then(|it| Some((meshes.index(it, faults)?, it.text("group"))));
-    if mesh.is_none() {
-        faults.cover(&part.key("mesh"));
-    }
-    let (mesh, group) = mesh.unwrap_or((usize::MAX, String::new()));
-    Shape::Group { mesh, group }
+    constraint
 }
 
-fn stress_initial(record: &Record) -> InitialStress {
-    let components = |it: &Record| ["xx", "yy", "zz", "xy"].map(|name| it.number(name).unwrap_or(f64::NAN));
-    let slope = |name| record.table(name).map_or([0.0; 4], components);
-    InitialStress { value: components(record), per_x: slope("per_x"), per_y: slope("per_y"), point: record.vector("point") }
-}
-
-fn placement(part: &Record) -> Placement {
-    let mut placement = Placement { translation: part.spatial("translation"), ..Placement::default() };
-    if let Some(it) = part.table("mirror") {
-        placement.mirror = Some(Mirror { point: it.spatial("point"), normal: it.spatial("normal") });
+fn obstacle(record: &Record, meshes: &Meshes<'_>, faults: &mut Faults) -> Obstacle {
+    let mut obstacle = Obstacle::read(record);
+    if !record.is_sound("plane") {
+        // It stands in where no other shape is sound.
+        faults.cover(&record.key("plane"));
     }
-    turn(part, &mut placement);
-    if let Some(it) = part.table("copies") {
-        let angle = it.number("angle").unwrap_or(f64::NAN);
-        let count = Values::count(it, "count");
-        let (translation, point, axis) = (it.spatial("translation"), it.spatial("point"), it.spatial("axis"));
-        placement.copies = Some(Copies { count, translation, angle, point, axis });
+    if let (ObstacleShape::Triangles(triangles), Some(it)) = (&mut obstacle.shape, record.table("stl")) {
+        let surface = meshes.surface(it, faults).unwrap_or_else(|| {
+            faults.cover(&it.path);
+            TriangleSurface::default()
+        });
+        let placed = surface.placed(&Placement::read(it));
+        *triangles = Arc::new(if it.get("hollow") { placed.turned_over() } else { placed });
     }
-    placement
-}
-
-fn turn(record: &Record, placement: &mut Placement) {
-    if let Some(it) = record.table("rotation") {
-        placement.rotation = it.number("angle").unwrap_or(f64::NAN);
-        placement.rotation_point = it.spatial("point");
-        placement.rotation_axis = it.spatial("axis");
-    }
+    obstacle
 }
 
 /// The mesh files of a model, each read once per scale, and where files of surfaces are.
@@ -171,7 +128,7 @@ impl<'a> Meshes<'a> {
     /// Index into the model's meshes; `None` with a fault noted if the file can't be read.
     fn index(&mut self, record: &Record, faults: &mut Faults) -> Option<usize> {
         let (file, scale) = (record.text("file"), record.number("scale")?);
-        let place = record.written("file").filter(|_| record.datum("file").is_some())?;
+        let place = record.written("file").filter(|_| record.is_sound("file"))?;
         let path = self.folder.join(&file);
         if let Some((.., index)) = self.read.iter().find(|(known, bits, _)| *known == path && *bits == scale.to_bits()) {
             return *index;
@@ -204,7 +161,7 @@ impl<'a> Meshes<'a> {
     /// The surface of an obstacle; `None` with a fault noted if the file can't be read.
     fn surface(&self, record: &Record, faults: &mut Faults) -> Option<TriangleSurface> {
         let (file, scale) = (record.text("file"), record.number("scale")?);
-        let place = record.written("file").filter(|_| record.datum("file").is_some())?;
+        let place = record.written("file").filter(|_| record.is_sound("file"))?;
         let path = self.folder.join(&file);
         if !self.is_there(&path, &file, (record, place), faults) {
             return None;
@@ -234,52 +191,6 @@ fn report(fault: Fault, file: &str, (record, place): (&Record, Place), faults: &
     let within = if fault.path.is_empty() { String::new() } else { format!(", {}", fault.path) };
     let message = format!("{}{within}: {}", shorten(file), fault.message);
     faults.value(fault.kind, &record.key("file"), place, (message, fault.help));
-}
-
-fn symmetry(record: &Record) -> Symmetry {
-    Symmetry { parts: record.texts("parts"), point: record.spatial("point"), normal: record.spatial("normal") }
-}
-
-fn probe(record: &Record, faults: &mut Faults) -> Probe {
-    let part = record.text("part");
-    let at = if record.written("point").is_some() {
-        ProbeAt::Point { part, point: record.spatial("point") }
-    } else if record.written("node").is_some() {
-        let node = record.integer("node").map_or(0, |node| usize::try_from(node).unwrap_or(usize::MAX));
-        ProbeAt::Node { part, node }
-    } else {
-        if record.written("set").is_none() {
-            faults.cover(&record.key("set"));
-        }
-        ProbeAt::Set { set: record.text("set") }
-    };
-    Probe { name: record.text("name"), at }
-}
-
-fn output(record: &Record) -> Output {
-    let default = Output::default();
-    let cadence = |name, default| if let Some(Datum::Cadence(cadence)) = record.datum(name) { *cadence } else { default };
-    let mirror = record.texts("mirror");
-    Output {
-        fields: cadence("fields", Cadence::Count(1)),
-        history: cadence("history", Cadence::Count(1)),
-        hash_steps: record.integer("hash_steps").filter(|&steps| steps > 0),
-        include: record.texts("include"),
-        mirror: ["x", "y", "z"].map(|axis| mirror.iter().any(|it| it == axis)),
-        pictures: if let Some(Datum::Flag(flag)) = record.datum("pictures") { *flag } else { default.pictures },
-        picture_field: record.text("picture_field"),
-        picture_view: record.table("picture_view").map(|it| PictureView { corner: it.vector("corner"), size: it.vector("size") }),
-        camera: record.table("camera").map(camera),
-    }
-}
-
-fn camera(record: &Record) -> Camera {
-    Camera {
-        from: record.spatial("from"),
-        at: record.written("at").map(|_| record.spatial("at")),
-        up: record.spatial("up"),
-        zoom: record.number("zoom").unwrap_or(1.0),
-    }
 }
 
 /// Names for contacts and obstacles that have none: the names of the surfaces or bodies, `all`, or

@@ -4,8 +4,8 @@ use super::{SOUND, changed, read};
 use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
 use embate_solver::input::sections::SECTIONS;
 use embate_solver::model::{
-    Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Partners, Penalty, PenaltySource,
-    PictureView, ProbeAt, Rectangle, Ring, Run, Shape, Symmetry,
+    Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Part, Partners, Penalty,
+    PenaltySource, PictureView, ProbeAt, Rectangle, Relaxation, Ring, Run, Shape, Symmetry,
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::{Path, PathBuf};
@@ -70,7 +70,12 @@ fn what_is_left_out_has_the_default_of_the_solver() {
     assert_eq!(sound(&changed("[output]\nfields = 10\n", "")).output, Output::default());
     let view = sound(&changed("fields = 10\n", "picture_view = { corner = [\"-2 mm\", 0], size = [1, \"5 cm\"] }\n")).output.picture_view;
     assert_eq!(view, Some(PictureView { corner: [-0.002, 0.0], size: [1.0, 0.05] }));
-    assert_eq!(model.parts[0].velocity, [0.0, 0.0, 0.0]);
+    let part = &model.parts[0];
+    let [name, material] = [&part.name, &part.material].map(String::clone);
+    assert_eq!(*part, Part { name, material, shape: part.shape.clone(), ..Part::default() });
+    let obstacle = &model.obstacles[0];
+    assert_eq!(*obstacle, Obstacle { parts: vec!["plate".into()], ..Obstacle::fixed("obstacle", obstacle.shape.clone()) });
+    assert_eq!(sound(&changed("end = \"1 ms\"\n", "end = \"1 ms\"\nrelaxation = {}\n")).run.relaxation, Some(Relaxation::default()));
     assert_eq!(model.contacts[0].interface, Interface::default());
     assert_eq!((model.contacts[0].name.as_str(), model.obstacles[0].name.as_str()), ("tube-plate", "obstacle"));
     assert_eq!(model.constraints[0].velocity, [Some(0.0.into()), None, None]);

@@ -50,8 +50,8 @@ static SECTION: Section = Section {
 
 impl BuiltIn<3> for Cuboid {
     fn read(values: &dyn Values) -> Self {
-        let spatial = |key| values.spatial(key);
-        Self { corner: spatial("corner"), size: spatial("size"), elements: values.three_counts(ELEMENTS), grading: spatial("grading") }
+        let spatial = |key| -> [f64; 3] { values.get(key) };
+        Self { corner: spatial("corner"), size: spatial("size"), elements: values.get(ELEMENTS), grading: spatial("grading") }
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {

@@ -72,14 +72,14 @@ static SECTION: Section = Section {
 
 impl BuiltIn<3> for Cylinder {
     fn read(values: &dyn Values) -> Self {
-        let number = |key| values.number(key);
+        let number = |key| -> f64 { values.get(key) };
         Self {
-            centre: values.spatial("centre"),
-            axis: values.spatial("axis"),
+            centre: values.get("centre"),
+            axis: values.get("axis"),
             radius: number("radius"),
             length: number("length"),
             angle: number("angle"),
-            elements: values.counts(ELEMENTS),
+            elements: values.get(ELEMENTS),
             grading: number("grading"),
         }
     }

@@ -39,7 +39,7 @@ static SECTION: Section = Section {
 
 impl BuiltIn<2> for Disk {
     fn read(values: &dyn Values) -> Self {
-        Self { centre: values.vector("centre"), radius: values.number("radius"), elements: values.count(ELEMENTS) }
+        Self { centre: values.get("centre"), radius: values.get("radius"), elements: values.get(ELEMENTS) }
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {

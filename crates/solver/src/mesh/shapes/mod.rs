@@ -21,7 +21,7 @@ use super::cell::{Cell, CellKind};
 use super::messages::UNMESHABLE;
 use super::surface::Facet;
 use crate::error::Fault;
-use crate::model::Part;
+use crate::model::{Part, Values};
 use crate::quantity::Dimension;
 use crate::quantity::Range::Positive;
 use crate::tensor::Dim;
@@ -119,37 +119,6 @@ impl Wrong {
     fn new(key: &'static str, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { key, message: message.into(), help: help.into() }
     }
-}
-
-/// The values of a table of the model file. What is not sound has become NaN or the largest count, or is
-/// empty: its fault is reported already.
-pub trait Values {
-    /// Whether the table has the key.
-    fn has(&self, key: &str) -> bool;
-    /// A number, SI.
-    fn number(&self, key: &str) -> f64;
-    /// Two numbers, SI.
-    fn vector(&self, key: &str) -> [f64; 2];
-    /// A vector in 2D or 3D, SI.
-    fn spatial(&self, key: &str) -> [f64; 3];
-    /// Numbers, SI.
-    fn numbers(&self, key: &str) -> Vec<f64>;
-    /// Points, m.
-    fn points(&self, key: &str) -> Vec<[f64; 2]>;
-    /// Lists of points, m.
-    fn outlines(&self, key: &str) -> Vec<Vec<[f64; 2]>>;
-    /// Lists of points in 3D, m.
-    fn spatial_outlines(&self, key: &str) -> Vec<Vec<[f64; 3]>>;
-    /// A whole number.
-    fn count(&self, key: &str) -> usize;
-    /// Two whole numbers.
-    fn counts(&self, key: &str) -> [usize; 2];
-    /// Three whole numbers.
-    fn three_counts(&self, key: &str) -> [usize; 3];
-    /// A text or a name.
-    fn text(&self, key: &str) -> String;
-    /// Whether a flag is up.
-    fn flag(&self, key: &str) -> bool;
 }
 
 /// Checks the values of a shape; keys are those of its table.

@@ -159,11 +159,11 @@ impl Path {
 impl BuiltIn<2> for Path {
     fn read(values: &dyn Values) -> Self {
         Self {
-            points: values.points("points"),
-            width: values.number("width"),
-            radius: values.number("radius"),
-            closed: values.flag("closed"),
-            elements: values.counts(ELEMENTS),
+            points: values.get("points"),
+            width: values.get("width"),
+            radius: values.get("radius"),
+            closed: values.get("closed"),
+            elements: values.get(ELEMENTS),
         }
     }
 

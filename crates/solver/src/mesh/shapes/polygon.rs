@@ -99,12 +99,12 @@ impl Polygon {
 impl BuiltIn<2> for Polygon {
     fn read(values: &dyn Values) -> Self {
         Self {
-            outline: values.points("outline"),
-            holes: values.outlines("holes"),
-            size: values.number("size"),
-            near: values.points("near"),
-            sizes: values.numbers("sizes"),
-            growth: values.number("growth"),
+            outline: values.get("outline"),
+            holes: values.get("holes"),
+            size: values.get("size"),
+            near: values.get("near"),
+            sizes: values.get("sizes"),
+            growth: values.get("growth"),
         }
     }
 

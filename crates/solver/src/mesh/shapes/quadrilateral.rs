@@ -88,15 +88,15 @@ impl BuiltIn<2> for Quadrilateral {
     fn read(values: &dyn Values) -> Self {
         let edge = |[line, arc]: [&str; 2]| {
             if values.has(arc) {
-                Edge::Arc(values.vector(arc))
+                Edge::Arc(values.get(arc))
             } else if values.has(line) {
-                Edge::Line(values.points(line))
+                Edge::Line(values.get(line))
             } else {
                 Edge::Straight
             }
         };
-        let (elements, grading) = (values.counts(ELEMENTS), values.vector("grading"));
-        Self { corners: values.points("corners"), edges: EDGES.map(edge), elements, grading }
+        let (elements, grading) = (values.get(ELEMENTS), values.get("grading"));
+        Self { corners: values.get("corners"), edges: EDGES.map(edge), elements, grading }
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {

@@ -42,8 +42,8 @@ static SECTION: Section = Section {
 
 impl BuiltIn<2> for Rectangle {
     fn read(values: &dyn Values) -> Self {
-        let vector = |key| values.vector(key);
-        Self { corner: vector("corner"), size: vector("size"), elements: values.counts(ELEMENTS), grading: vector("grading") }
+        let vector = |key| -> [f64; 2] { values.get(key) };
+        Self { corner: vector("corner"), size: vector("size"), elements: values.get(ELEMENTS), grading: vector("grading") }
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {

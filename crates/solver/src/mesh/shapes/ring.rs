@@ -91,15 +91,15 @@ impl Ring {
 
 impl BuiltIn<2> for Ring {
     fn read(values: &dyn Values) -> Self {
-        let number = |key| values.number(key);
+        let number = |key| -> f64 { values.get(key) };
         Self {
-            centre: values.vector("centre"),
+            centre: values.get("centre"),
             inner: number("inner"),
             outer: number("outer"),
             from: number("from"),
             to: number("to"),
-            elements: values.counts(ELEMENTS),
-            grading: values.vector("grading"),
+            elements: values.get(ELEMENTS),
+            grading: values.get("grading"),
         }
     }
 

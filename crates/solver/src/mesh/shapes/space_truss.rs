@@ -41,7 +41,7 @@ static SECTION: Section = Section {
 
 impl BuiltIn<3> for SpaceTruss {
     fn read(values: &dyn Values) -> Self {
-        Self { lines: values.spatial_outlines("lines"), elements: values.count(ELEMENTS) }
+        Self { lines: values.get("lines"), elements: values.get(ELEMENTS) }
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {

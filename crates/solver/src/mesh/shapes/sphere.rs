@@ -7,7 +7,7 @@ use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 use crate::vocabulary::Kind::{Choice, Integer, Quantity, Spatial};
 use crate::vocabulary::Need::{Default as Written, Required};
-use crate::vocabulary::{Key, Section, key};
+use crate::vocabulary::{Choices, Key, Section, key};
 
 /// A sphere of hexahedra, or the half, quarter or eighth of one where x, y and z are above those of its
 /// centre: a core of `elements`³ with bulged sides, and layers from each of its six sides to the surface.
@@ -51,7 +51,7 @@ static SECTION: Section = Section {
         key(ELEMENTS, Integer(1), Required, "Elements around a quarter of a great circle; an even number for a part of a sphere."),
         key(
             "portion",
-            Choice(portions),
+            Choice(Choices::Listed(portions)),
             Written("\"whole\""),
             "How much of it: the half above the centre's x, the quarter above its x and y, the eighth above its x, y and z.",
         ),
@@ -61,8 +61,8 @@ static SECTION: Section = Section {
 
 impl BuiltIn<3> for Sphere {
     fn read(values: &dyn Values) -> Self {
-        let (centre, radius) = (values.spatial("centre"), values.number("radius"));
-        Self { centre, radius, elements: values.count(ELEMENTS), portion: values.text("portion") }
+        let (centre, radius) = (values.get("centre"), values.get("radius"));
+        Self { centre, radius, elements: values.get(ELEMENTS), portion: values.get("portion") }
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {

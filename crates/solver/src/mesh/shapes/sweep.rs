@@ -189,14 +189,14 @@ impl Sweep {
     /// From its table in the model file.
     #[must_use]
     pub fn read(name: &str, values: &dyn Values) -> Option<Self> {
-        let number = |key| values.number(key);
+        let number = |key| -> f64 { values.get(key) };
         if name == EXTRUDE.name {
             let (from, length, grading) = (number("from"), number("length"), number("grading"));
-            return Some(Self::Extrude(Extrude { from, length, elements: values.count(ELEMENTS), grading }));
+            return Some(Self::Extrude(Extrude { from, length, elements: values.get(ELEMENTS), grading }));
         }
         let turned = || {
-            let (axis, point) = (values.vector("axis"), values.vector("point"));
-            Self::Revolve(Revolve { axis, point, angle: number("angle"), elements: values.count(ELEMENTS) })
+            let (axis, point) = (values.get("axis"), values.get("point"));
+            Self::Revolve(Revolve { axis, point, angle: number("angle"), elements: values.get(ELEMENTS) })
         };
         (name == REVOLVE.name).then(turned)
     }

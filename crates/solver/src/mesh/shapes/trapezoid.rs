@@ -50,15 +50,15 @@ static SECTION: Section = Section {
 
 impl BuiltIn<2> for Trapezoid {
     fn read(values: &dyn Values) -> Self {
-        let number = |key| values.number(key);
+        let number = |key| -> f64 { values.get(key) };
         Self {
-            corner: values.vector("corner"),
+            corner: values.get("corner"),
             bottom: number("bottom"),
             top: number("top"),
             height: number("height"),
-            shift: values.has("shift").then(|| number("shift")),
-            elements: values.counts(ELEMENTS),
-            grading: values.vector("grading"),
+            shift: values.get("shift"),
+            elements: values.get(ELEMENTS),
+            grading: values.get("grading"),
         }
     }
 

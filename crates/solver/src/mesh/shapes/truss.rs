@@ -134,7 +134,7 @@ where
 
 impl BuiltIn<2> for Truss {
     fn read(values: &dyn Values) -> Self {
-        Self { lines: values.outlines("lines"), elements: values.count(ELEMENTS) }
+        Self { lines: values.get("lines"), elements: values.get(ELEMENTS) }
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {

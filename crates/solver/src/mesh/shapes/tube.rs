@@ -70,16 +70,16 @@ static SECTION: Section = Section {
 
 impl BuiltIn<3> for Tube {
     fn read(values: &dyn Values) -> Self {
-        let number = |key| values.number(key);
+        let number = |key| -> f64 { values.get(key) };
         Self {
-            centre: values.spatial("centre"),
-            axis: values.spatial("axis"),
+            centre: values.get("centre"),
+            axis: values.get("axis"),
             inner: number("inner"),
             outer: number("outer"),
             length: number("length"),
             from: number("from"),
             to: number("to"),
-            elements: values.three_counts(ELEMENTS),
+            elements: values.get(ELEMENTS),
         }
     }
 

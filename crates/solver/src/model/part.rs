@@ -1,0 +1,95 @@
+//! Parts of a [`super::Model`]: `[[part]]`.
+
+use super::initial::STRESS_INITIAL;
+use super::placement::{COPIES, MIRROR, ROTATION};
+use super::{EXTRUDE, InitialStress, Motion, Placement, REVOLVE, SHAPES, Shape, Sweep, Values, section};
+use crate::quantity::Dimension;
+use crate::quantity::Range::{Finite, NotNegative, Positive};
+use crate::stress_state::STRESS_STATES;
+use crate::vocabulary::Kind::{Angle, Choice, Name, Quantity, Reference, Spatial, Table};
+use crate::vocabulary::{Choices, Form, Kind, Rule, Section};
+
+section! {
+    /// `[[part]]`: a body of one material and one element kind for each kind of cell.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Part in PART = Section {
+        name: "part",
+        doc: "A body of one material, and how it moves at the start. A shape, or a mesh file, says where its elements come from.",
+        form: Form::Repeated,
+        required: true,
+        groups: &[&SHAPES],
+        rules: &[
+            Rule::NotBoth("extrude", "revolve"),
+            Rule::NotBoth("mesh", "mirror"),
+            Rule::NotBoth("mesh", "rotation"),
+            Rule::NotBoth("mesh", "translation"),
+            Rule::NotBoth("mesh", "copies"),
+        ],
+        ..Section::EMPTY
+    };
+    name: String = Name, Required, "Unique name.";
+    material: String = Reference, Required, "Name of a `[material.NAME]` section.";
+    element: String = Choice(Choices::Elements), Default("\"quad4\""),
+        "Kind of element: what quadrilaterals are; `bar2` for bars.";
+    element_triangles: String = Choice(Choices::Triangles), Optional("`tri3`"),
+        "What triangles are, where the part has some.",
+        read |values| values.or("element_triangles", "tri3".to_string());
+    area: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("only with bars"),
+        "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre; \
+            between solids whole, `\"1e-4 m^2\"`.";
+    hourglass: Option<f64> = Quantity(Dimension::NONE, NotNegative), Optional("that of the control's source"),
+        "Coefficient of the hourglass control of elements that have one.";
+    stress_state: String = Choice(Choices::StressStates), Default("\"plane_strain\""),
+        "What the plane stands for. In an axisymmetric part x is the radius and y the axis; forces, masses and \
+            energies are those of the whole circumference.";
+    velocity: [f64; 3] = Spatial(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity.";
+    spin: f64 = Angle(Dimension::RATE, Finite), Default("0"),
+        "Initial angular velocity about the centre of mass, counter-clockwise; not of an axisymmetric part.";
+    stress_initial: Option<InitialStress> = Table(&STRESS_INITIAL), Optional("none"), "Stress at the start.";
+    temperature_initial: Option<f64> = Quantity(Dimension::TEMPERATURE, Positive), Optional("that of the material"),
+        "Temperature at the start, of laws that have one (`johnson_cook`).";
+    rigid: Option<Motion> = Kind::Rigid, Default("false"),
+        "Whether the part is rigid, free to move; or how it moves: `x` and `y` of its centre of mass, `rotation` \
+            about it. What is left out is free. An axisymmetric part moves along `y` only.";
+    mass_scale: f64 = Quantity(Dimension::NONE, Positive), Default("1"),
+        "Factor on the mass of the part where mass resists motion: 100 makes steps ten times as long. What \
+            gravity pulls at stays the true mass.";
+    "mirror" = Table(&MIRROR), Optional("not mirrored"),
+        "A line, in 3D a plane, that the shape is mirrored on, before it is turned.";
+    "rotation" = Table(&ROTATION), Optional("not turned"),
+        "An angle by which the shape is turned, before it is moved.";
+    "extrude" = Table(&EXTRUDE), Optional("the part stays 2D"),
+        "Extrudes a 2D shape along z: the part becomes a solid.";
+    "revolve" = Table(&REVOLVE), Optional("the part stays 2D"),
+        "Revolves a 2D shape about a line: the part becomes a solid.";
+    "translation" = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape is moved.";
+    "copies" = Table(&COPIES), Optional("one body"),
+        "More bodies of the same shape, in a row or around a point.";
+    /// Where its elements come from; of a group of a mesh file the reader of the file says which.
+    shape: Shape, read shape;
+    /// How a shape in 2D becomes a solid; `None`: it stays in 2D, or is a solid as it is.
+    sweep: Option<Sweep>, read |part| part.tables().into_iter().find_map(|(name, table)| Sweep::read(name, table));
+    /// Where the body of a built-in shape goes.
+    placement: Placement, read Placement::read;
+}
+
+/// The built-in shape; without one a group of no mesh file.
+fn shape(part: &dyn Values) -> Shape {
+    let built_in = part.tables().into_iter().find_map(|(name, table)| Shape::read(name, table));
+    built_in.unwrap_or(Shape::Group { mesh: usize::MAX, group: String::new() })
+}
+
+impl Part {
+    /// Whether x is its radius.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.state.is_axisymmetric)
+    }
+
+    /// 3 where it is swept or has a solid shape, else 2; of a group of a mesh file its model knows
+    /// ([`super::Model::dimension_of`]).
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        if self.sweep.is_some() || self.shape.solid().is_some() { 3 } else { 2 }
+    }
+}

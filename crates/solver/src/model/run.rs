@@ -1,0 +1,80 @@
+//! How long and how carefully a [`super::Model`] runs: `[run]`.
+
+use super::section;
+use crate::quantity::Dimension;
+use crate::quantity::Range::{NotNegative, Positive, UpTo};
+use crate::vocabulary::Kind::{Integer, Quantity, Table, Vector};
+use crate::vocabulary::{Form, Section};
+
+section! {
+    /// `[run]`: how long and how carefully.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Run in RUN = Section {
+        name: "run",
+        doc: "How long the simulation runs and what stops it.",
+        form: Form::Single,
+        required: true,
+        ..Section::EMPTY
+    };
+    end: f64 = Quantity(Dimension::TIME, Positive), Required, "End time.";
+    safety: f64 = Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("0.9"),
+        "Fraction of the stable time step that is used.";
+    energy_limit: f64 = Quantity(Dimension::NONE, Positive), Default("0.05"),
+        "Energy drift at which the run stops, as a fraction of the largest total energy.";
+    step_limit: Option<f64> = Quantity(Dimension::TIME, Positive), Optional("a thousandth of the first stable step"),
+        "Time step below which the run stops.";
+    velocity_limit: Option<f64> = Quantity(Dimension::VELOCITY, Positive), Optional("twenty times the fastest wave and the fastest node or obstacle at the start together"),
+        "Speed of a node above which the run stops: faster than waves, no body moves in a sound model.";
+    penetration_limit: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("the longest segment of the surfaces, and the local thickness of the thinner body"),
+        "Depth of a contact at which the run stops.";
+    memory_limit: Option<f64> = Quantity(Dimension::INFORMATION, Positive), Optional("what the machine has to spare, if the system reports it"),
+        "Memory that the model may need, such as `8 GB`: one that needs more is refused before it is meshed.";
+    time_step: Option<f64> = Quantity(Dimension::TIME, Positive), Optional("what the elements need"),
+        "Largest time step. A model of rigid parts alone takes just this one, and without it the step that their \
+            elements would need if they were not rigid.";
+    max_steps: Option<u64> = Integer(1), Optional("no limit"), "Largest number of steps.";
+    checkpoint: Option<f64> = Quantity(Dimension::TIME, Positive), Optional("none by the clock"),
+        "Wall time between two checkpoints, from which `embate resume` continues a run that was stopped; with it \
+            the last good state of a run that fails is kept as well.";
+    checkpoint_steps: Option<u64> = Integer(1), Optional("none by number"),
+        "Steps between two checkpoints, besides those by the clock.";
+    bulk_viscosity: [f64; 2] = Vector(Dimension::NONE, NotNegative), Default("[0, 0]"),
+        "Linear and quadratic coefficient of the pressure that resists compression: `[0.06, 1.2]` spreads shocks \
+            over a few elements and keeps them from ringing.";
+    relaxation: Option<Relaxation> = Table(&RELAXATION), Optional("none"),
+        "Damping that brings everything to rest, and an end of the run when it is.";
+    mass_scaling: Option<MassScaling> = Table(&MASS_SCALING), Optional("none"),
+        "Makes elements with a small stable step heavier, once at the start.";
+}
+
+section! {
+    /// Dynamic relaxation: damping that adapts itself, and an end when all is at rest.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Relaxation in RELAXATION = Section {
+        name: "relaxation",
+        doc: "Dynamic relaxation: a damping of mass that adapts itself to the slowest motion brings everything to rest, \
+            and the run ends when it is. For quasi-static states; what happens on the way means nothing.",
+        ..Section::EMPTY
+    };
+    tolerance: f64 = Quantity(Dimension::NONE, Positive), Default("1e-6"),
+        "Kinetic energy over internal energy at which the state counts as at rest; it must stay below for half a \
+            period of the slowest motion.";
+    from: f64 = Quantity(Dimension::TIME, NotNegative), Default("0"),
+        "Time from which rest ends the run: when loads that grow are complete.";
+}
+
+section! {
+    /// Makes elements with a small stable step heavier.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct MassScaling in MASS_SCALING = Section {
+        name: "mass_scaling",
+        doc: "Raises the density of elements whose stable step is too small, so that all allow one step at the start. \
+            The added mass resists motion; what gravity pulls at stays the true mass. Later steps may be smaller, as \
+            elements change their shape.",
+        ..Section::EMPTY
+    };
+    time_step: f64 = Quantity(Dimension::TIME, Positive), Required,
+        "Step that every element shall allow, `safety` included.";
+    limit: f64 = Quantity(Dimension::NONE, Positive), Default("0.05"),
+        "Largest mass that may be added, as a fraction of the mass of the deformable parts; more is a fault.";
+}

@@ -50,9 +50,7 @@ def unused(name: str, text: str, words: dict[str, re.Pattern[str]]) -> list[str]
     for prefix, lines in runs(text.split("\n")):
         if prefix is not None:
             plain = style.CODE.sub("``", "\n".join(line[len(prefix) :] for line in lines))
-            for word, pattern in words.items():
-                at = [first + plain.count("\n", 0, hit.start()) for hit in pattern.finditer(plain)]
-                faults += [f"{name}:{number}: \"{word}\" is not used here: docs/style.md" for number in at]
+            faults += [f"{name}:{first + line}: {fault}" for line, fault in style.uses(plain, words)]
         first += len(lines)
     return faults
 
@@ -63,7 +61,7 @@ def main(arguments: list[str]) -> int:
         listed = subprocess.run(["git", "ls-files"], cwd=style.ROOT, check=True, stdout=subprocess.PIPE, text=True)
         names = [name for name in listed.stdout.splitlines() if name.endswith(SUFFIXES) and "/bundle/" not in name]
     faults = []
-    words = {word: pattern for word, pattern in style.unused_words().items() if word not in style.GEOMETRY}
+    words = style.unused_words(geometry=True)
     for name in names:
         path = style.ROOT / name
         text = path.read_text(encoding="utf-8")

@@ -129,17 +129,26 @@ def wrap(text: str) -> str:
     return "\n".join(made) + "\n"
 
 
-def unused_words() -> dict[str, re.Pattern[str]]:
-    """The words that docs/style.md says are not used: the first column of the table below that heading."""
+def unused_words(geometry: bool = False) -> dict[str, re.Pattern[str]]:
+    """The words that docs/style.md says are not used: the first column of the table below that heading.
+
+    With `geometry` planes of the geometry may be named.
+    """
     text = STYLE.read_text(encoding="utf-8")
     table = re.search(r"^## Words not used\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)[1]
     cells = re.findall(r"^\| ([^|]+?) \|", table, re.MULTILINE)[1:]
     listed = [word.strip() for cell in cells for word in cell.split(",")]
     found = {}
-    for word in listed:
+    for word in (word for word in listed if not (geometry and word in GEOMETRY)):
         spaced = r"\s+".join(map(re.escape, word.split()))
         found[word] = re.compile(rf"(?<![\w-]){spaced}(?![\w-])", re.IGNORECASE)
     return found
+
+
+def uses(plain: str, unused: dict[str, re.Pattern[str]]) -> list[tuple[int, str]]:
+    """Where a text has words that are not used: its line from 0, and what is wrong."""
+    hits = [(hit, word) for word, pattern in unused.items() for hit in pattern.finditer(plain)]
+    return [(plain.count("\n", 0, hit.start()), f"\"{word}\" is not used here: docs/style.md") for hit, word in hits]
 
 
 def check(names: list[str]) -> list[str]:
@@ -162,26 +171,23 @@ def check(names: list[str]) -> list[str]:
         if name == str(STYLE.relative_to(ROOT)):
             continue
         plain = ADDRESS.sub("", CODE.sub("``", "\n".join(shown)))
-        for word, pattern in unused.items():
-            for hit in pattern.finditer(plain):
-                number = plain.count("\n", 0, hit.start()) + 1
-                faults.append(f"{name}:{number}: \"{word}\" is not used here: docs/style.md")
+        faults += [f"{name}:{line + 1}: {fault}" for line, fault in uses(plain, unused)]
     return faults
 
 
 def check_texts() -> list[str]:
     """The words that are not used, in the texts of the program, with file and line."""
     faults = []
-    unused = {word: pattern for word, pattern in unused_words().items() if word not in GEOMETRY}
+    unused = unused_words(geometry=True)
     for path in sorted(ROOT.glob("crates/*/src/**/*.rs")):
         if path.name == "tests.rs" or "tests" in path.parts:
             continue
         source = path.read_text(encoding="utf-8").split("#[cfg(test)]\nmod tests {")[0]
         for found in RUST.finditer(source):
             text = CODE.sub("``", found[2] or found[3] or "")
-            line = source.count("\n", 0, found.start()) + 1
-            hits = [word for word, pattern in unused.items() if pattern.search(text)] if text not in NAMES else []
-            faults += [f"{path.relative_to(ROOT)}:{line}: \"{word}\" is not used here: docs/style.md" for word in hits]
+            first = source.count("\n", 0, found.start()) + 1
+            hits = uses(text, unused) if text not in NAMES else []
+            faults += [f"{path.relative_to(ROOT)}:{first + line}: {fault}" for line, fault in hits]
     return faults
 
 

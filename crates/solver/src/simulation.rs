@@ -245,10 +245,15 @@ impl Simulation {
     /// # Errors
     /// [`Error::Model`] with all faults; the errors of a step, if the very first forces fail.
     pub fn new(model: &Model, options: &Options) -> Result<Self, Error> {
+        Self::made(model, options, None)
+    }
+
+    /// In the dimension of its model; in a state, if one is given.
+    fn made(model: &Model, options: &Options, state: Option<&[Section]>) -> Result<Self, Error> {
         Ok(Self(if model.dimension() == 3 {
-            Either::Space(Box::new(Run::new(model, options)?))
+            Either::Space(Box::new(Run::made(model, options, state)?))
         } else {
-            Either::Plane(Box::new(Run::new(model, options)?))
+            Either::Plane(Box::new(Run::made(model, options, state)?))
         }))
     }
 
@@ -259,11 +264,7 @@ impl Simulation {
     /// # Errors
     /// Those of [`Simulation::new`]; [`Error::State`] where the state is of another model.
     pub fn resumed(model: &Model, options: &Options, sections: &[Section]) -> Result<Self, Error> {
-        Ok(Self(if model.dimension() == 3 {
-            Either::Space(Box::new(Run::resumed(model, options, sections)?))
-        } else {
-            Either::Plane(Box::new(Run::resumed(model, options, sections)?))
-        }))
+        Self::made(model, options, Some(sections))
     }
 
     /// Components of a position: 2 in 2D, 3 in 3D.

@@ -26,7 +26,7 @@ pub trait Builds<const D: usize>: Dimension<D> + Penetrating<D> {
     fn with_axis(model: &Model, mesh: &Mesh<D>) -> Result<Option<Model>, Vec<Fault>>
     where
         Dim<D>: Builds<D>;
-    /// What is inside an obstacle at the start, and how it is pushed out.
+    /// What is inside an obstacle at the start, and how it is pushed out where that is wanted.
     fn obstacle_at_start(builder: &Builder<'_, D>, obstacle: &model::Obstacle, tolerance: f64) -> AtStart<D>
     where
         Dim<D>: Builds<D>;

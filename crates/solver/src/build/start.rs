@@ -41,7 +41,7 @@ where
 /// Gap (m) and normal of a point at an obstacle; `None` where the obstacle is not.
 pub(super) type Distance<const D: usize> = Box<dyn Fn([f64; D]) -> Option<(f64, [f64; D])>>;
 
-/// What is inside an obstacle at the start, and how it is pushed out.
+/// What is inside an obstacle at the start, and how it is pushed out where that is wanted.
 pub(super) type AtStart<const D: usize> = (Vec<Penetration<D>>, Vec<Meeting<D>>);
 
 impl<const D: usize> Builder<'_, D>
@@ -79,7 +79,7 @@ where
             };
             let (found, met) = <Dim<D>>::obstacle_at_start(self, obstacle, tolerance);
             lines.extend(initial::lines(&obstacle.name, &found, what));
-            meetings.extend(met.into_iter().filter(|_| what == PUSHED));
+            meetings.extend(met);
         }
         // In 2D nodes go out of shapes first.
         if D == 2 {

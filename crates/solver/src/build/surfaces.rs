@@ -67,17 +67,15 @@ where
         for (&node, own) in target.nodes().iter().zip(&mut nodes) {
             own.of_mass = self.of_mass(node, own.area);
         }
-        let of_mass: Vec<f64> = {
-            let at = |node: &u32| target.nodes().binary_search(node).map_or(0.0, |at| nodes[at].of_mass);
-            target.facets().iter().map(|facet| facet.corners().iter().map(at).fold(f64::INFINITY, f64::min)).collect()
-        };
+        let of_node = |node: &u32| target.nodes().binary_search(node).map_or(0.0, |at| nodes[at].of_mass);
+        let least = |facet: &Facet<D>| facet.corners().iter().map(of_node).fold(f64::INFINITY, f64::min);
+        let of_mass: Vec<f64> = target.facets().iter().map(least).collect();
         let is_by_step = source == PenaltySource::TimeStep;
         if is_by_step {
-            nodes.iter_mut().for_each(|own| own.stiffness = own.of_mass);
-            let at = |node: &u32| target.nodes().binary_search(node).map_or(0.0, |at| nodes[at].stiffness);
-            let mean = |facet: &Facet<D>| 0.5 * facet.corners().iter().map(at).sum::<f64>();
+            let mean = |facet: &Facet<D>| 0.5 * facet.corners().iter().map(of_node).sum::<f64>();
             // In 2D the mean of both nodes, in 3D the least of all.
             stiffness = if D == 2 { target.facets().iter().map(mean).collect() } else { of_mass.clone() };
+            nodes.iter_mut().for_each(|own| own.stiffness = own.of_mass);
         }
         let parts: Vec<usize> = under.iter().map(|under| under.as_ref().map_or(0, |under| self.mesh.groups[under.group].part)).collect();
         let softest = if D == 3 && is_by_step { stiffness.clone() } else { softest(&stiffness, &parts) };

@@ -266,6 +266,8 @@ where
             self.hashing.take(&self.system);
         }
         loop {
+            // Whatever follows, a state too, is of the present cells.
+            self.report_cells(observer)?;
             let time = self.system.time;
             let over = self.is_over();
             if over {
@@ -297,7 +299,6 @@ where
                 self.memory.take(state);
             }
             if observer.wants_glance() {
-                self.report_cells(observer)?;
                 observer.glance(&self.recorded.snapshot(&self.system));
             }
             let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));

@@ -70,6 +70,14 @@ where
         Ok(State { step: self.steps(), time: self.time(), sections })
     }
 
+    /// A run of a model: at its start, or resumed in a state.
+    ///
+    /// # Errors
+    /// Those of [`Run::new`] or [`Run::resumed`].
+    pub(crate) fn made(model: &Model, options: &Options, state: Option<&[Section]>) -> Result<Self, Error> {
+        state.map_or_else(|| Self::new(model, options), |sections| Self::resumed(model, options, sections))
+    }
+
     /// A run of a model in the state of another one of the same model.
     ///
     /// # Errors

@@ -55,8 +55,6 @@ pub struct Film {
     line_reader: LineReader,
     /// Of a film in 3D.
     space: Option<Space>,
-    /// Whether no frame of the present cells was added yet, and others before.
-    has_new_cells: bool,
     stored: Vec<Stored>,
     /// Every `stride`-th frame is kept; and the last.
     stride: usize,
@@ -69,20 +67,7 @@ const SECTION: &str = "film";
 
 impl Persist for Film {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self {
-            cells: _,
-            settings: _,
-            bytes_max: _,
-            space: _,
-            has_new_cells: _,
-            scalars,
-            missing,
-            origin,
-            line_reader,
-            stored,
-            stride,
-            added,
-        } = self;
+        let Self { cells: _, settings: _, bytes_max: _, space: _, scalars, missing, origin, line_reader, stored, stride, added } = self;
         // Another choice of colours makes another film.
         let own: Vec<String> = scalars.iter().map(Scalar::label).collect();
         let mut labels = own.clone();
@@ -110,7 +95,6 @@ impl Film {
             origin: None,
             line_reader: LineReader::default(),
             space: None,
-            has_new_cells: false,
             stored: Vec::new(),
             stride: 1,
             added: 0,
@@ -142,7 +126,6 @@ impl Film {
         let old = std::mem::replace(&mut self.cells, cells);
         let past = Arc::new(if self.is_in_3d() { Cells::default() } else { old });
         self.stored.iter_mut().filter(|stored| stored.past.is_none()).for_each(|stored| stored.past = Some(past.clone()));
-        self.has_new_cells = true;
     }
 
     /// All that it has so far.
@@ -154,7 +137,7 @@ impl Film {
 
     /// Prepares for frames in 3D, if this is one.
     fn enter_space(&mut self, frame: &Frame) {
-        let has_new_cells = std::mem::take(&mut self.has_new_cells);
+        let has_new_cells = self.stored.last().is_some_and(|last| last.past.is_some());
         if frame.dimension == 3 && (has_new_cells || self.space.is_none()) {
             let mut space = Space::new(&self.cells, frame);
             space.shapes = self.line_reader.surfaces(frame).iter().map(Shape::of).collect();

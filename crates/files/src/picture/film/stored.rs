@@ -62,32 +62,34 @@ impl Persist for Stored {
 /// Cells or skins of the frames of a film that are no more those of its present cells: each as often as it
 /// serves frames that follow each other, and once.
 pub(super) fn persist_past(stored: &mut [Stored], archive: &mut Archive<'_>) -> ArchiveResult {
-    let mut last: Option<Stored> = None;
+    // Cells and skin of the last frame that is so.
+    let mut last: Option<(Arc<Cells>, Option<Arc<Skin>>)> = None;
     for frame in stored {
         let mut is_past = frame.past.is_some();
         is_past.persist(archive)?;
         if !is_past {
             continue;
         }
-        let is_same = |last: &Stored| {
-            let same_cells = last.past.as_ref().zip(frame.past.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(a, b));
-            same_cells && last.skin.as_ref().zip(frame.skin.as_ref()).is_none_or(|(a, b)| Arc::ptr_eq(a, b))
+        let is_same = |(cells, skin): &(Arc<Cells>, Option<Arc<Skin>>)| {
+            frame.past.as_ref().is_some_and(|own| Arc::ptr_eq(own, cells))
+                && frame.skin.as_ref().zip(skin.as_ref()).is_none_or(|(own, skin)| Arc::ptr_eq(own, skin))
         };
         let mut is_shared = last.as_ref().is_some_and(is_same);
         is_shared.persist(archive)?;
-        if is_shared {
-            archive.check(last.is_some(), "a frame has cells of none before it")?;
-            (frame.past, frame.skin) = last.as_ref().map(|last| (last.past.clone(), last.skin.clone())).unwrap_or_default();
-        } else {
+        if !is_shared {
             let mut cells = frame.past.as_deref().cloned().unwrap_or_default();
             let mut skin = frame.skin.as_deref().cloned();
             cells.persist(archive)?;
             skin.persist(archive)?;
-            if archive.reads() {
-                (frame.past, frame.skin) = (Some(Arc::new(cells)), skin.map(Arc::new));
-            }
+            last = Some(if archive.reads() {
+                (Arc::new(cells), skin.map(Arc::new))
+            } else {
+                (frame.past.clone().unwrap_or_default(), frame.skin.clone())
+            });
         }
-        last = Some(Stored { past: frame.past.clone(), skin: frame.skin.clone(), ..Stored::default() });
+        archive.check(last.is_some(), "a frame has cells of none before it")?;
+        let (cells, skin) = last.clone().unzip();
+        (frame.past, frame.skin) = (cells, skin.flatten());
     }
     Ok(())
 }

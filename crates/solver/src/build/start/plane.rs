@@ -9,7 +9,7 @@ use crate::contact::obstacle::{ContactHistory, Shape, Way};
 use crate::contact::projection::node_segment::Target;
 use crate::contact::{Vector, length};
 use crate::mesh::surface::Surface;
-use crate::model::{Obstacle, ObstacleShape};
+use crate::model::{InitialPenetration, Obstacle, ObstacleShape};
 use crate::vector::{first, unit};
 
 impl Builder<'_, 2> {
@@ -20,6 +20,9 @@ impl Builder<'_, 2> {
         let distance = behind(obstacle, &outline.target.surface, &self.mesh.positions)?;
         let nodes = self.nodes_met(obstacle, &outline.target.surface);
         let found = penetrations(&nodes, &self.mesh.positions, &distance, tolerance);
+        if obstacle.interface.initial_penetration != InitialPenetration::PushOut {
+            return Some((found, Vec::new()));
+        }
         Some((found, std::iter::once(Meeting::Shape { nodes, distance }).chain(self.meeting(obstacle, outline)).collect()))
     }
 

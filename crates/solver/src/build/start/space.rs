@@ -10,9 +10,10 @@ impl Builder<'_, 3> {
     /// What is inside an obstacle at the start. Wrong parts and shapes are reported when obstacles are made.
     pub(crate) fn obstacle_at_start_in_3d(&self, obstacle: &Obstacle, tolerance: f64) -> Option<AtStart<3>> {
         let outside = self.outside_met(obstacle).ok()?;
+        let is_pushed = obstacle.interface.initial_penetration == InitialPenetration::PushOut;
         if let ObstacleShape::Triangles(surface) = &obstacle.shape {
             // What counts as zero is found when all else has been pushed out.
-            if obstacle.interface.initial_penetration != InitialPenetration::PushOut {
+            if !is_pushed {
                 return None;
             }
             let look = || self.look_at_triangles(surface, outside.clone(), obstacle.interface.thickness);
@@ -27,7 +28,8 @@ impl Builder<'_, 3> {
             (depth > tolerance).then_some(Penetration { what: Inside::Node, place, depth })
         };
         let found = nodes.iter().filter_map(inside).collect();
-        let distance = Box::new(move |x| Some(solid.distance(minus(x, reference))));
-        Some((found, vec![Meeting::Shape { nodes, distance }]))
+        let distance = move |x| Some(solid.distance(minus(x, reference)));
+        let meeting = is_pushed.then(|| Meeting::Shape { nodes, distance: Box::new(distance) });
+        Some((found, meeting.into_iter().collect()))
     }
 }

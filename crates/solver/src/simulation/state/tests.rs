@@ -1,7 +1,7 @@
 //! Runs on a mesh that is not that of their model: two blocks hit each other, and fail where they are hit.
 
 use super::*;
-use crate::model::{Contact, Cuboid, Material, Part, Partners, Rectangle, Shape};
+use crate::model::{Cadence, Contact, Cuboid, Material, Part, Partners, Rectangle, Shape};
 use crate::output::{Cells, Frame};
 use crate::simulation::{Control, Observer, ObserverError, Progress, Simulation};
 
@@ -108,6 +108,8 @@ fn a_simulation_resumes_on_another_mesh_than_its_models() {
 struct Given {
     cells: Vec<(usize, Cells)>,
     frames: Vec<[usize; 2]>,
+    /// How often cells had been given when each state came.
+    states: Vec<usize>,
 }
 
 impl Observer for Given {
@@ -123,18 +125,27 @@ impl Observer for Given {
     fn row(&mut self, _: &[f64]) -> Result<(), ObserverError> {
         Ok(())
     }
+    fn keeps_states(&self) -> bool {
+        true
+    }
+    fn state(&mut self, _: State) -> Result<(), ObserverError> {
+        self.states.push(self.cells.len());
+        Ok(())
+    }
     fn progress(&mut self, _: &Progress<'_>) -> Control {
         Control::Continue
     }
 }
 
 #[test]
-fn an_observer_is_given_other_cells_once_before_their_first_frame() {
-    let model = Model { output: crate::model::Output { fields: crate::model::Cadence::Count(10), ..Default::default() }, ..plane(2) };
+fn an_observer_is_given_other_cells_once_before_their_first_frame_or_state() {
+    let mut model = plane(2);
+    (model.output.fields, model.run.checkpoint_steps) = (Cadence::Count(10), Some(1));
     let mut run = Run::<2>::new(&model, &Options::default()).unwrap();
     let mut given = Given::default();
     run.run(0.07, u64::MAX, &mut given).unwrap();
     let (before, count) = (given.frames.clone(), run.cells().len());
+    let states = given.states.len();
     assert!(given.cells.is_empty() && before.len() == 4, "the cells of the start were known: {before:?}");
     // As if it had been meshed again here.
     let mut other = remeshed::<2>(&model, &plane(4));
@@ -144,6 +155,8 @@ fn an_observer_is_given_other_cells_once_before_their_first_frame() {
     run.run(f64::INFINITY, u64::MAX, &mut given).unwrap();
     let now = run.cells();
     assert_eq!(given.cells, [(4, now.clone())]);
+    assert!(given.states.len() > states + 20 && given.states[..states].iter().all(|&cells| cells == 0));
+    assert!(given.states[states..].iter().all(|&cells| cells == 1));
     assert!(given.frames.len() >= 10 && now.len() > count);
     let nodes = now.nodes.iter().max().unwrap() + 1;
     assert_eq!(given.frames[..4], before);

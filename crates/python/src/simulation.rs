@@ -247,8 +247,8 @@ impl Simulation {
             let shown = (inner.simulation.history_columns(), inner.simulation.cells());
             // No one can resume, or run again, a model that is in memory alone.
             let checkpoints = origin.clone().map(|origin| Checkpoints::of(model, origin));
-            let continue_run = Box::new(|_: &Progress<'_>| Control::Continue);
-            let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, continue_run);
+            let quiet = Box::new(|_: &Progress<'_>| Control::Continue);
+            let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, quiet);
             inner.recorder = Some(recorder.map_err(|error| fault::of_results(&error))?);
             Ok(())
         })

@@ -158,7 +158,7 @@ const DECK: &str = "*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*ELEMENT,TYPE=CPE4,ELSET=
     *MATERIAL,NAME=m\n*DENSITY\n1.e-9,\n*ELASTIC\n1000.,0.3\n*STEP\n*DYNAMIC,EXPLICIT\n,1.e-3\n{}*END STEP\n";
 
 #[test]
-fn a_deck_is_imported_with_a_report_and_the_exit_code_reports_whether_all_of_it_acts() {
+fn a_deck_is_imported_with_a_report_and_the_exit_code_says_whether_all_of_it_acts() {
     let folder = fresh("import");
     fs::write(folder.join("whole.inp"), DECK.replace("{}", "")).unwrap();
     fs::write(folder.join("partly.inp"), DECK.replace("{}", "*FOO\n")).unwrap();

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 enum Comes {
     /// The program refuses, with E0707.
     Refused,
-    /// It reports of what it could not write, and of the link, and continues.
+    /// It reports what it could not write, and the link, and continues.
     Told,
     /// It does its work, and this is no link any more.
     Replaced(&'static str),

@@ -237,7 +237,7 @@ fn a_stretch_is_shown_again_with_the_same_bits() {
 }
 
 #[test]
-fn a_run_that_fails_keeps_its_last_good_state_and_may_continue_run_with_another_limit() {
+fn a_run_that_fails_keeps_its_last_good_state_and_may_continue_with_another_limit() {
     let folder = fresh("last-good");
     model(&folder);
     let crush = [

@@ -178,7 +178,7 @@ fn the_table_is_the_same_for_any_number_of_jobs() {
 }
 
 #[test]
-fn a_run_that_fails_is_a_row_and_the_others_continue_run() {
+fn a_run_that_fails_is_a_row_and_the_others_continue() {
     // The second limit is longer than the first stable step.
     let (answer, folder) = sweep("sweep-failed", &["--vary", "run.step_limit=1e-12,9.9e-5,1e-11", "--output", "P.x"]);
     assert_eq!(answer.code, Some(1), "{}", answer.err);

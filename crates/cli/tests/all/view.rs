@@ -162,7 +162,7 @@ fn every_error_is_json_and_says_what_is_wrong() {
 
 #[test]
 #[cfg(unix)]
-fn pipes_and_links_to_devices_in_shown_folders_are_reported_of_and_keep_nobody_waiting() {
+fn pipes_and_links_to_devices_in_shown_folders_are_reported_and_keep_nobody_waiting() {
     let folder = results("view-pipes");
     let page = Page::open(&folder, &["view", "out"]);
     for (name, asked, wanted) in [

@@ -62,7 +62,7 @@ fn check_and_run_report_warnings_once_and_accept_the_model() {
 }
 
 #[test]
-fn a_model_with_faults_is_reported_those_alone() {
+fn of_a_model_with_faults_those_alone_are_reported() {
     let folder = fresh("warned-and-faulty");
     fs::write(folder.join("model.toml"), MODEL.replace("poisson = 0.3", "poisson = 0.5")).unwrap();
     let answer = embate(&folder, ["check", "model.toml"]);

@@ -64,7 +64,7 @@ fn a_run_leaves_its_results_and_says_where() {
 }
 
 #[test]
-fn a_run_reports_of_the_search_when_asked() {
+fn a_run_reports_the_search_when_asked() {
     let folder = fresh("search");
     let model = format!("{MODEL}\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n");
     fs::write(folder.join("model.toml"), model).unwrap();

@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn who_puts_in_waits_for_a_slow_writer_and_is_reported_how_long() {
+    fn who_puts_in_waits_for_a_slow_writer_and_knows_how_long() {
         let queue = Queue::new();
         let served = AtomicUsize::new(0);
         std::thread::scope(|scope| {

@@ -169,7 +169,7 @@ impl Sweep {
         }
         // The hook has reported the user about a panic; here it is a run that failed.
         let bug = |_| Ok(Some(self.failed(run, "this run ended with a bug in embate".to_string())));
-        let ended = catch_unwind(AssertUnwindSafe(|| self.provenance(run, running))).unwrap_or_else(bug);
+        let ended = catch_unwind(AssertUnwindSafe(|| self.run_one(run, running))).unwrap_or_else(bug);
         let mut shared = lock();
         let noted = ended.and_then(|entry| {
             let Some(entry) = entry else { return Ok(()) };
@@ -190,7 +190,7 @@ impl Sweep {
     }
 
     /// Runs to the end; `None` where the user stopped it.
-    fn provenance(&self, run: usize, running: &Running<'_>) -> Result<Option<Entry>, SweepError> {
+    fn run_one(&self, run: usize, running: &Running<'_>) -> Result<Option<Entry>, SweepError> {
         let (begin, cpu) = (Instant::now(), (running.user_cpu_seconds)());
         let used = || Some((running.user_cpu_seconds)()? - cpu?);
         let model = match self.model(run, running.keep) {

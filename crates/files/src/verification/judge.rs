@@ -6,7 +6,7 @@
 use super::case::{Accepted, Case, Check, Combination};
 use super::plot::Plot;
 use super::quantity::Samples;
-use super::run::{Provenance, VerifyError};
+use super::run::{ModelRun, VerifyError};
 use crate::numbers::{per_cent, significant};
 use embate_solver::simulation::{Control, Options, Progress};
 use serde::Serialize;
@@ -139,14 +139,14 @@ pub fn verify(
 ) -> Result<CaseOutcome, VerifyError> {
     let mut runs = Vec::new();
     for (name, model) in &case.models {
-        runs.push((name.as_str(), case.provenance((name, model), options, keep, on_progress)?));
+        runs.push((name.as_str(), case.run_model((name, model), options, keep, on_progress)?));
     }
     let checks = case.checks.iter().flat_map(|check| check.models.iter().map(|model| outcome(check, model, &runs))).collect();
-    let samples: Vec<(&str, &Samples)> = runs.iter().map(|(name, provenance)| (*name, &provenance.samples)).collect();
+    let samples: Vec<(&str, &Samples)> = runs.iter().map(|(name, run)| (*name, &run.samples)).collect();
     Ok(CaseOutcome { case: case.name.clone(), title: case.title.clone(), checks, plots: Plot::of(case, &samples) })
 }
 
-fn outcome(check: &Check, model: &str, runs: &[(&str, Provenance)]) -> CheckOutcome {
+fn outcome(check: &Check, model: &str, runs: &[(&str, ModelRun)]) -> CheckOutcome {
     let blank =
         CheckOutcome { check: check.name.clone(), model: model.to_string(), reason: check.reason.clone(), ..CheckOutcome::default() };
     let blank = match check.accepted.clone() {
@@ -195,12 +195,12 @@ fn compared(accepted: &Accepted, found: f64, coarser: Option<f64>) -> (Option<f6
 }
 
 /// The number of a check for one model.
-fn number(check: &Check, model: &str, runs: &[(&str, Provenance)]) -> Result<f64, String> {
+fn number(check: &Check, model: &str, runs: &[(&str, ModelRun)]) -> Result<f64, String> {
     let of = |name: &str, source| {
-        let (_, provenance) = runs.iter().find(|(known, _)| *known == name).ok_or_else(|| format!("`{name}` was not run"))?;
-        match &provenance.error {
+        let (_, run) = runs.iter().find(|(known, _)| *known == name).ok_or_else(|| format!("`{name}` was not run"))?;
+        match &run.error {
             Some(error) => Err(format!("`{name}`: {error}")),
-            None => provenance.samples.number(source),
+            None => run.samples.number(source),
         }
     };
     let own = of(model, &check.quantity.source)?;

@@ -337,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_report_how_near_the_border_is() {
+    fn shares_say_how_near_the_border_is() {
         let limit = |found, at_least, at_most| CheckOutcome { found: Some(found), at_least, at_most, ..CheckOutcome::default() }.share();
         assert_eq!(outcome(true).checks[0].share(), Some(0.5));
         assert_eq!(limit(0.5, None, Some(2.0)), Some(0.25));

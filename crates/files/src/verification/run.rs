@@ -39,7 +39,7 @@ pub enum VerifyError {
 
 /// What happened to a model of a case.
 #[derive(Debug)]
-pub(super) struct Provenance {
+pub(super) struct ModelRun {
     pub(super) samples: Samples,
     /// Why it did not reach its end.
     pub(super) error: Option<String>,
@@ -86,13 +86,13 @@ impl Case {
     }
 
     /// Runs one of its models.
-    pub(super) fn provenance(
+    pub(super) fn run_model(
         &self,
         (name, model): (&str, &Model),
         options: &Options,
         keep: Option<(&Path, bool)>,
         on_progress: &mut dyn FnMut(&Progress<'_>) -> Control,
-    ) -> Result<Provenance, VerifyError> {
+    ) -> Result<ModelRun, VerifyError> {
         let mut simulation = self.simulation(name, model, options)?;
         let frames = self.quantities(name).filter_map(|quantity| match quantity.source {
             Source::Field { at, .. } => Some(at.unwrap_or(f64::INFINITY)),
@@ -125,7 +125,7 @@ impl Case {
         }
         let early = (is_early && summary.rest.is_none()).then(|| format!("the run ended early, at {end:.4e} s"));
         let stopped = is_stopped.then(|| "the run was stopped".to_string());
-        Ok(Provenance { samples, error: error.or(stopped).or(early) })
+        Ok(ModelRun { samples, error: error.or(stopped).or(early) })
     }
 }
 

@@ -146,7 +146,7 @@ pub struct RunDescription {
 }
 
 impl RunDescription {
-    /// What the model reports of how it wants to be shown, with the fields that its frames have.
+    /// How the model wants to be shown, with the fields that its frames have.
     pub(super) fn show(&mut self, appearance: &Appearance, kinds: &[&'static FieldKind]) {
         let of_whole_bodies = appearance.axisymmetric || self.dimension == 3;
         let Appearance { title, axisymmetric, end, mirror, camera, .. } = appearance;

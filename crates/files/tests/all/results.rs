@@ -320,7 +320,7 @@ fn a_lost_folder_is_reported_with_its_path() {
 }
 
 #[test]
-fn a_writer_beside_the_run_reports_of_a_lost_folder_too() {
+fn a_writer_beside_the_run_reports_a_lost_folder_too() {
     let folder = ResultFolder::create(&fresh("lost-beside"), false).unwrap();
     let path = folder.path().to_path_buf();
     let mut recorder = Recorder::new(folder, &model(), columns(), cells(), 3, continue_run()).unwrap();

@@ -155,7 +155,7 @@ fn a_probe_is_the_value_in_every_frame_and_the_range_is_over_all_of_them() {
 }
 
 #[test]
-fn the_description_reports_what_the_model_is_and_how_it_wants_to_be_shown() {
+fn the_description_says_what_the_model_is_and_how_it_wants_to_be_shown() {
     let folder = fresh("view-description");
     run(PLANE, &folder);
     let description = ResultView::open(&folder).unwrap().description().unwrap();

@@ -77,7 +77,7 @@ fn two_symmetry_lines_with_one_normal_do_not_swallow_what_lies_between() {
 }
 
 #[test]
-fn fixed_sides_stay_and_driven_sides_move_as_reported() {
+fn fixed_sides_stay_and_driven_sides_move_as_given() {
     let mut model = model(5e-4);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, 4]), [0.0, 0.0]);
     fix(&mut model, "block.left", [Some(0.0), Some(0.0)]);

@@ -164,9 +164,9 @@ fn beams_that_hit_each_other_off_their_middles_part_again_and_keep_both_momenta_
             let case = format!("{named} {:?} {:?}", interface.friction.is_some(), interface.law);
             is_sound(&simulation, 1e-2, &case);
             assert!(history.largest(DEPTH) > 1e-5 && history.last(DEPTH) == 0.0, "{case} {}", history.last(DEPTH));
-            let [[before, approach], [after, divergence]] = [start_of(&model), simulation.frame()].map(|frame| at_crossing(&model, &frame));
-            println!("{before} {after} m, {approach} {divergence} m/s, {}", history.largest(DEPTH));
-            assert!((approach + 5.0).abs() < 1e-9 && after > before, "{case}: {before} {after} {divergence}");
+            let [[before, approach], [after, separation]] = [start_of(&model), simulation.frame()].map(|frame| at_crossing(&model, &frame));
+            println!("{before} {after} m, {approach} {separation} m/s, {}", history.largest(DEPTH));
+            assert!((approach + 5.0).abs() < 1e-9 && after > before, "{case}: {before} {after} {separation}");
             assert!(interface.friction.is_none() || history.last("energy.friction") > 0.0);
         }
     }

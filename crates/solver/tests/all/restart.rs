@@ -186,7 +186,7 @@ fn of_law(name: &str, more: &[(&str, f64)]) -> Material {
 }
 
 #[test]
-fn runs_of_every_law_continue_run() {
+fn runs_of_every_law_continue() {
     for kind in LAWS.iter().filter(|law| equation_of_state(law.name).is_some_and(|[needs, _]| !needs)) {
         for more in options(kind) {
             continues(&format!("{} {more:?}", kind.name), &block("quad4", of_law(kind.name, &more), ""), 90);
@@ -195,7 +195,7 @@ fn runs_of_every_law_continue_run() {
 }
 
 #[test]
-fn runs_of_every_equation_of_state_continue_run() {
+fn runs_of_every_equation_of_state_continue() {
     // Pressures of the order of YOUNG; a new equation is met with what its parameters are by themselves.
     let value = |parameter: &Parameter| match parameter.name {
         "gamma" => 1.4,
@@ -233,7 +233,7 @@ fn runs_of_every_equation_of_state_continue_run() {
 }
 
 #[test]
-fn runs_of_every_element_and_stress_state_continue_run() {
+fn runs_of_every_element_and_stress_state_continue() {
     for element in ELEMENTS {
         for state in STRESS_STATES {
             for law in ["j2", "neo_hookean"] {
@@ -253,7 +253,7 @@ fn runs_of_every_element_and_stress_state_continue_run() {
 }
 
 #[test]
-fn runs_of_bars_springs_and_point_masses_continue_run() {
+fn runs_of_bars_springs_and_point_masses_continue() {
     for bar in BARS {
         let mut model = block("quad4", elastic_of_patches(), "");
         let lines = vec![vec![[0.5, 1.2], [1.0, 1.9], [1.5, 1.2]], vec![[1.0, 1.9], [1.0, 2.6]]];
@@ -281,7 +281,7 @@ fn runs_of_bars_springs_and_point_masses_continue_run() {
 }
 
 #[test]
-fn runs_of_every_contact_continue_run() {
+fn runs_of_every_contact_continue() {
     let soft_layer = ContactLaw::PressureGap { gaps: vec![-1e-3, -2e-4, 1e-4], pressures: vec![3e8, 2e7, 0.0] };
     let laws = [ContactLaw::default(), soft_layer, ContactLaw::Multiplier];
     let friction = Friction { coefficient: 0.3, dynamic: Some(0.2), decay: 0.1, viscosity: 0.0, limit: f64::INFINITY };
@@ -304,7 +304,7 @@ fn runs_of_every_contact_continue_run() {
 }
 
 #[test]
-fn runs_with_every_search_continue_run() {
+fn runs_with_every_search_continue() {
     for search in registry::<2>() {
         let (_, mut model, _) = scenes().swap_remove(1);
         for contact in &mut model.contacts {
@@ -315,7 +315,7 @@ fn runs_with_every_search_continue_run() {
 }
 
 #[test]
-fn runs_of_bodies_in_themselves_continue_run() {
+fn runs_of_bodies_in_themselves_continue() {
     for formulation in [Formulation::DoublePass, Formulation::Segment, Formulation::Pinball] {
         let mut model = crushed_ring();
         model.parts.iter_mut().filter(|part| part.name != "ring").for_each(|plate| plate.velocity[1] *= 8.0);
@@ -326,7 +326,7 @@ fn runs_of_bodies_in_themselves_continue_run() {
 }
 
 #[test]
-fn runs_in_which_elements_are_eroded_continue_run() {
+fn runs_in_which_elements_are_eroded_continue() {
     for formulation in [Formulation::DoublePass, Formulation::Segment, Formulation::Pinball] {
         let mut model = bullet([6, 60]);
         model.contacts[0].formulation = formulation;
@@ -353,7 +353,7 @@ fn runs_in_which_elements_are_eroded_continue_run() {
 }
 
 #[test]
-fn runs_of_ties_that_break_and_contacts_that_begin_later_continue_run() {
+fn runs_of_ties_that_break_and_contacts_that_begin_later_continue() {
     for formulation in [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }] {
         for (active, strength) in [([0.0, f64::INFINITY], f64::INFINITY), ([0.0, 4e-4], 2e6), ([1e-4, 5e-4], 2e6)] {
             let mut model = model(1e-3);
@@ -367,7 +367,7 @@ fn runs_of_ties_that_break_and_contacts_that_begin_later_continue_run() {
 }
 
 #[test]
-fn runs_against_every_obstacle_continue_run() {
+fn runs_against_every_obstacle_continue() {
     let shapes = [
         ObstacleShape::Plane { point: [0.05, -0.006, 0.0], normal: [0.1, 1.0, 0.0], length: None },
         ObstacleShape::Plane { point: [0.05, -0.0008, 0.0], normal: [0.0, 1.0, 0.0], length: Some(0.12) },
@@ -392,7 +392,7 @@ fn runs_against_every_obstacle_continue_run() {
 }
 
 #[test]
-fn runs_with_loads_rigid_parts_joins_and_relaxation_continue_run() {
+fn runs_with_loads_rigid_parts_joins_and_relaxation_continue() {
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [1.0, -3.0]);
     add(&mut model, "rider", rectangle([0.0, 0.1], [0.1, 0.04], [5, 2]), [0.0, 0.0]);
@@ -421,7 +421,7 @@ fn runs_with_loads_rigid_parts_joins_and_relaxation_continue_run() {
 }
 
 #[test]
-fn runs_in_a_plane_of_symmetry_continue_run() {
+fn runs_in_a_plane_of_symmetry_continue() {
     let mut model = model(2e-3);
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.02], [10, 3]), [0.0, 4.0]);
     add(&mut model, "ball", Shape::Disk(Disk { centre: [0.05, 0.051], radius: 0.03, elements: 3 }), [-30.0, -12.0]);
@@ -432,7 +432,7 @@ fn runs_in_a_plane_of_symmetry_continue_run() {
 
 /// Many elements, so that threads share the work.
 #[test]
-fn large_runs_continue_run_with_another_number_of_threads() {
+fn large_runs_continue_with_another_number_of_threads() {
     for formulation in [Formulation::DoublePass, Formulation::Pinball] {
         let mut model = model(1e-3);
         add(&mut model, "left", rectangle([0.0, 0.0], [0.1, 0.1], [46, 46]), [18.0, 3.0]);

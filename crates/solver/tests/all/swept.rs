@@ -456,7 +456,7 @@ fn entered(target: &Target, [from, to]: [Vector; 2], old: &[Vector], new: &[Vect
 }
 
 #[test]
-fn over_a_vertex_every_side_that_is_gone_behind_reports() {
+fn over_a_vertex_every_side_that_is_gone_behind_says_so() {
     // Left 0, then the notch's sides 1 to 4 above (convex corner, notch, convex corner), right 5, below 6.
     let body = [[0.0, 0.0], [0.0, 6.0], [2.0, 6.0], [4.0, 2.0], [6.0, 6.0], [8.0, 6.0], [8.0, 0.0]];
     let target = closed(body.len());

@@ -161,7 +161,7 @@ fn ties_between_solids_that_bind_nothing_or_a_node_twice_are_reported() {
 }
 
 #[test]
-fn ties_between_solids_continue_run_from_a_kept_state_and_begin_at_their_birth() {
+fn ties_between_solids_continue_from_a_kept_state_and_begin_at_their_birth() {
     for active in [[0.0, f64::INFINITY], [3e-5, 1e-4]] {
         let mut model = tied_bars(4e6, ContactLaw::default(), 0.3);
         model.contacts[0].interface.active = active;

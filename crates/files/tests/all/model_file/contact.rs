@@ -255,7 +255,7 @@ fn loads_boundaries_and_joins_are_read() {
 }
 
 #[test]
-fn a_wall_is_reported_that_it_is_an_obstacle_now() {
+fn a_message_says_that_a_wall_is_an_obstacle_now() {
     let help = "walls are obstacles now: [[obstacle]] with plane = { point, normal }";
     each_has(&[
         (and("[[wall]]\nnormal = [1, 0]"), "wall", &format!("a model has no key `wall` | {help}")),

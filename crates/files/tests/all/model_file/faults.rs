@@ -212,7 +212,7 @@ fn each_malformed_model_has_exactly_its_messages() {
 }
 
 #[test]
-fn an_empty_file_is_reported_what_a_model_needs() {
+fn an_empty_file_gets_a_message_with_what_a_model_needs() {
     let all = shown("");
     assert_eq!(all[0], "0:0 the model has no [run] | How long the simulation runs and what stops it.");
     assert!(all.len() == 3 && all[1].contains("[material.NAME]") && all[2].contains("[[part]]"), "{all:?}");

@@ -191,7 +191,7 @@ fn what_only_space_knows_is_refused_in_2d_on_its_line() {
 }
 
 #[test]
-fn bars_beside_parts_of_another_dimension_are_called_bars_and_reported_their_shape() {
+fn bars_beside_parts_of_another_dimension_are_called_bars_with_their_shape() {
     let area = |unit: &str| format!("[[part]]\nname = \"net\"\nmaterial = \"steel\"\nelement = \"bar2\"\narea = \"1e-4 {unit}\"\n");
     // In 2D beside solids.
     let found = reported(&format!("{}truss.lines = [[[0, 0], [1, 0]]]", area("m^2")));

@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn regions_in_one_triangle_continue_run_each_from_its_own_in_whatever_order_they_are() {
+    fn regions_in_one_triangle_continue_each_from_its_own_in_whatever_order_they_are() {
         assert_eq!(lineage(&[&[1, 2, 3], &[3, 4, 5]], &[&[2, 3], &[3, 4, 5]]), [[0], [1]]);
         assert_eq!(lineage(&[&[3, 4, 5], &[1, 2, 3]], &[&[2, 3], &[3, 4, 5]]), [[1], [0]]);
     }

@@ -176,7 +176,7 @@ fn where_each_surface_overhangs_forces_are_the_slope_of_all_the_energy() {
 }
 
 /// The next step of a formulation whose springs hold 2 J/m a pair.
-fn continue_run(formulation: &mut dyn Formulation<2>, positions: &[Vector], springs: &mut Springs<2>) -> Vec<[u32; 2]> {
+fn step_on(formulation: &mut dyn Formulation<2>, positions: &[Vector], springs: &mut Springs<2>) -> Vec<[u32; 2]> {
     let segments: &mut Segment = (formulation as &mut dyn Any).downcast_mut().unwrap();
     segments.facing.iter_mut().for_each(|facing| facing.stored = 2.0);
     springs.clear();
@@ -193,7 +193,7 @@ fn a_pair_that_was_there_unseen_begins_without_energy() {
     assert!(springs.list.iter().all(|spring| (spring.gap + 1e-3).abs() < 1e-12), "the model has them");
     let segments: &mut Segment = (&mut *formulation as &mut dyn Any).downcast_mut().unwrap();
     let unseen = segments.facing.remove(2).pair;
-    let pairs = continue_run(&mut *formulation, &model.positions, &mut springs);
+    let pairs = step_on(&mut *formulation, &model.positions, &mut springs);
     for (&pair, two) in pairs.iter().zip(springs.list.chunks(2)) {
         let expected = if pair == unseen { 0.0 } else { -1e-3 };
         assert!(two.iter().all(|spring| (spring.gap - expected).abs() < 1e-12), "{pair:?} {two:?}");
@@ -207,10 +207,10 @@ fn pairs_that_are_not_found_again_let_go_unless_they_ran_out() {
     for (by, lets_go) in [([0.0, 0.5], true), ([5.0, 0.0], false)] {
         let mut formulation = formulation_of(&model, Penalty::Pressure(3e5), Depth::Plane);
         let mut springs = Springs::new(model.positions.len(), 0, Vec::new());
-        let pairs = continue_run(&mut *formulation, &model.positions, &mut springs).len();
+        let pairs = step_on(&mut *formulation, &model.positions, &mut springs).len();
         let mut apart = model.positions.clone();
         apart[5..].iter_mut().for_each(|x| *x = [x[0] + by[0], x[1] + by[1]]);
-        assert!(continue_run(&mut *formulation, &apart, &mut springs).is_empty());
+        assert!(step_on(&mut *formulation, &apart, &mut springs).is_empty());
         assert_eq!(formulation.lost_contact_energy(), if lets_go { 2.0 * pairs as f64 } else { 0.0 }, "{by:?}");
     }
 }

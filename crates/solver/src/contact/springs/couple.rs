@@ -21,14 +21,14 @@ const PAIRS: usize = 8;
 
 /// An arm at a slot.
 #[derive(Clone, Copy)]
-pub(super) struct ContactPoint<const D: usize> {
+pub(super) struct SlotArm<const D: usize> {
     pub(super) link: u32,
     pub(super) arm: u32,
     /// The force in its row: all that there is at a node.
     force: [f64; D],
 }
 
-impl<const D: usize> Default for ContactPoint<D> {
+impl<const D: usize> Default for SlotArm<D> {
     fn default() -> Self {
         Self { link: 0, arm: 0, force: [0.0; D] }
     }
@@ -41,7 +41,7 @@ where
     Dim<D>: TangentSpace<D>,
 {
     /// What touches each slot, in the order of the links.
-    touches: Rows<ContactPoint<D>>,
+    touches: Rows<SlotArm<D>>,
     /// Where the neighbours of each link end.
     rows: Vec<u32>,
     neighbours: Vec<u32>,
@@ -88,7 +88,7 @@ where
     /// Finds who touches which slot, which slots are hubs, and what springs do to each other; `slides`:
     /// whether any of them cares for slip.
     pub(super) fn find(&mut self, links: &mut [Link<D>], arms: &[Arm<D>], slips: &[Slips<D>], slots: &mut [Slot<D>], slides: bool) {
-        let touch = |i: usize, k: usize| ContactPoint { link: i as u32, arm: k as u32, force: Dim::<D>::force_of(&arms[k].row) };
+        let touch = |i: usize, k: usize| SlotArm { link: i as u32, arm: k as u32, force: Dim::<D>::force_of(&arms[k].row) };
         let at_arms = |(i, link): (usize, &Link<D>)| link.arms().map(move |k| (arms[k].slot, touch(i, k)));
         self.touches.fill(slots.len(), links.iter().enumerate().flat_map(at_arms));
         for (number, slot) in slots.iter_mut().enumerate() {
@@ -114,7 +114,7 @@ where
                 let respond = |row| Dim::<D>::response_of_node(&slot.mobility, Dim::<D>::force_of(row));
                 let response = respond(&row);
                 let response_along = Dim::<D>::vectors(|a| if slides { respond(&slips[k][a]) } else { [0.0; D] });
-                for &ContactPoint { link: j, arm: other, force } in touches.of(number) {
+                for &SlotArm { link: j, arm: other, force } in touches.of(number) {
                     // Ends that move as one leave a spring its own neighbour.
                     if j as usize == i && other as usize == k {
                         continue;
@@ -149,7 +149,7 @@ where
     }
 
     /// The arms at a slot.
-    pub(super) fn touches(&self, slot: usize) -> &[ContactPoint<D>] {
+    pub(super) fn touches(&self, slot: usize) -> &[SlotArm<D>] {
         self.touches.of(slot)
     }
 

@@ -14,7 +14,7 @@ pub(super) struct Ends<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
-    list: Vec<ArchiveResult>,
+    list: Vec<PackedEnd>,
     /// As far as any end has one.
     turns: Vec<<Dim<D> as TangentSpace<D>>::Tangents>,
     more: Vec<More<D>>,
@@ -22,7 +22,7 @@ where
 
 /// What every end has.
 #[derive(Clone, Copy)]
-struct ArchiveResult {
+struct PackedEnd {
     at: u32,
     /// Number of what it has beyond, or [`NONE`].
     more: u32,
@@ -73,18 +73,18 @@ where
         }
         self.turns.resize(self.list.len(), Default::default());
         self.turns.push(turn);
-        self.list.push(ArchiveResult { at, more: number, share });
+        self.list.push(PackedEnd { at, more: number, share });
     }
 
     /// Nodes with shares in the gap, and nothing else.
     #[inline]
     pub(super) fn extend(&mut self, shares: impl Iterator<Item = (u32, f64)>) {
-        self.list.extend(shares.map(|(at, share)| ArchiveResult { at, more: NONE, share }));
+        self.list.extend(shares.map(|(at, share)| PackedEnd { at, more: NONE, share }));
     }
 
     #[inline]
     pub(super) fn get(&self, k: usize) -> End<D> {
-        let ArchiveResult { at, more, share } = self.list[k];
+        let PackedEnd { at, more, share } = self.list[k];
         let turn = self.turns.get(k).copied().unwrap_or_default();
         let More { lean, point, image } = self.more.get(more as usize).copied().unwrap_or_default();
         End { at, share, lean, turn, point, image }

@@ -130,7 +130,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(400))]
         #[test]
-        fn islands_are_what_every_two_springs_report(
+        fn islands_are_those_of_all_pairs_of_springs(
             springs in prop::collection::vec(prop::collection::vec(0u32..24, 1..4), 0..20),
             moves in prop::collection::vec(prop::bool::weighted(0.7), 24),
         ) {

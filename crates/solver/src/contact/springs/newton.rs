@@ -16,7 +16,7 @@
 //! the forces are not unique (the motion is); [`SOFTNESS`] keeps the factors then. Nothing is trusted: sweeps
 //! confirm or continue.
 
-use super::couple::{ContactPoint, Forces, Rates};
+use super::couple::{Forces, Rates, SlotArm};
 use super::friction::FrictionInput;
 use super::link::Link;
 use super::relax::Island;
@@ -384,9 +384,9 @@ where
                 continue;
             }
             let (mobility, touches) = (island.slots[slot].mobility, island.couplings.touches(slot));
-            for &ContactPoint { link: j, arm: l, .. } in touches.iter().filter(|touch| self.state[touch.link as usize].is_unknown()) {
+            for &SlotArm { link: j, arm: l, .. } in touches.iter().filter(|touch| self.state[touch.link as usize].is_unknown()) {
                 let responses = island.rows(l as usize).map(|row| Dim::<D>::response(&mobility, &row));
-                for &ContactPoint { link: i, arm: k, .. } in touches {
+                for &SlotArm { link: i, arm: k, .. } in touches {
                     let states = [i, j].map(|link| &self.state[link as usize]);
                     add(
                         &mut self.matrix,
@@ -403,7 +403,7 @@ where
     fn fill_body(&mut self, island: &Island<'_, D>, slot: usize) {
         let half = 0.5 * island.time_steps[1];
         let unknowns = self.bodies[slot];
-        for &ContactPoint { link: i, arm: k, .. } in island.couplings.touches(slot) {
+        for &SlotArm { link: i, arm: k, .. } in island.couplings.touches(slot) {
             let (state, rows) = (self.state[i as usize], island.rows(k as usize));
             let row = |own: usize, axis: usize| match own {
                 0 => rows[0][axis],

@@ -107,7 +107,7 @@ impl Default for Pace {
 impl Pace {
     /// After a sweep over all springs that changed so much: predictions that lead nowhere are followed by
     /// shorter steps, which ends running in circles.
-    fn overlap_check(&mut self, change: f64) {
+    fn after_sweep(&mut self, change: f64) {
         self.fraction = if change < 0.7 * self.best { 1.0 } else { (0.6 * self.fraction).max(0.1) };
         self.best = self.best.min(change);
         if self.predictions >= EAGER {
@@ -168,7 +168,7 @@ where
     fn relax_live(&mut self, live: &mut Vec<u32>, before: f64, newton: &mut Newton<D>, pace: &mut Pace) {
         live.clear();
         live.extend((0..self.links.len() as u32).filter(|&i| self.forces[i as usize] != [0.0; D]));
-        pace.overlap_check(before);
+        pace.after_sweep(before);
         let mut last = before;
         for sweep in 1.. {
             let now = self.sweep_live(live);

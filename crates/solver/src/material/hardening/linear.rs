@@ -39,7 +39,7 @@ impl Hardening for Linear {
         ],
     };
 
-    type ArchiveResult<L: Lane> = [L; 0];
+    type StoredFlow<L: Lane> = [L; 0];
     const CURVED: bool = false;
 
     fn new(parameters: &Parameters<'_>, _shear: f64) -> Self {

@@ -75,7 +75,7 @@ impl Hardening for Ludwik {
         ],
     };
 
-    type ArchiveResult<L: Lane> = [L; 2];
+    type StoredFlow<L: Lane> = [L; 2];
 
     fn new(parameters: &Parameters<'_>, shear: f64) -> Self {
         let power = Power::new(parameters.value("strength"), parameters.value("hardening_exponent"), shear);

@@ -34,7 +34,7 @@ pub trait Hardening: Copy + Send + Sync + 'static {
     const KIND: LawKind;
     /// What a point keeps of [`Hardening::flow`] where it is: all of it, `[L; 2]`, or, where it costs next to
     /// nothing, nothing, `[L; 0]`.
-    type ArchiveResult<L: Lane>: ArchiveResult<L>;
+    type StoredFlow<L: Lane>: StoredFlow<L>;
     /// Whether [`Flow::reach`] is ever more than 0: the return then takes the curvature with it.
     const CURVED: bool = true;
 
@@ -100,14 +100,14 @@ impl<L: Lane> Flow<L> {
 
 /// The flow stress and its slope at the plastic strain that a point has, kept from the step that led there: a
 /// power or an exponential less in every step.
-pub trait ArchiveResult<L: Lane>: State<L> {
+pub trait StoredFlow<L: Lane>: State<L> {
     /// Keeps them.
     fn new(flow: [L; 2]) -> Self;
     /// Gives them back.
     fn flow<H: Hardening>(&self, hardening: &H, plastic: L) -> [L; 2];
 }
 
-impl<L: Lane> ArchiveResult<L> for [L; 0] {
+impl<L: Lane> StoredFlow<L> for [L; 0] {
     #[inline(always)]
     fn new(_flow: [L; 2]) -> Self {
         []
@@ -119,7 +119,7 @@ impl<L: Lane> ArchiveResult<L> for [L; 0] {
     }
 }
 
-impl<L: Lane> ArchiveResult<L> for [L; 2] {
+impl<L: Lane> StoredFlow<L> for [L; 2] {
     #[inline(always)]
     fn new(flow: [L; 2]) -> Self {
         flow

@@ -48,7 +48,7 @@ impl Hardening for Table {
         parameters: &[DENSITY, YOUNG, POISSON, PLASTIC_STRAIN, STRESS, RATE_REFERENCE, RATE_EXPONENT],
     };
 
-    type ArchiveResult<L: Lane> = [L; 2];
+    type StoredFlow<L: Lane> = [L; 2];
 
     fn new(parameters: &Parameters<'_>, _shear: f64) -> Self {
         let strains: [f64; POINTS] = parameters.array("plastic_strain", f64::INFINITY);

@@ -48,7 +48,7 @@ impl Hardening for Voce {
         ],
     };
 
-    type ArchiveResult<L: Lane> = [L; 2];
+    type StoredFlow<L: Lane> = [L; 2];
 
     fn new(parameters: &Parameters<'_>, _shear: f64) -> Self {
         let value = |name| parameters.value(name);

@@ -9,7 +9,7 @@
 //! way of the others. Source: Wilkins, Methods in Computational Physics 3 (1964); Simo and Hughes,
 //! Computational Inelasticity (1998), box 3.2.
 
-use super::hardening::{ArchiveResult, Flow, Hardening, Linear, Ludwik, Rate, Swift, Table, Voce};
+use super::hardening::{Flow, Hardening, Linear, Ludwik, Rate, StoredFlow, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{Family, History, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable};
 use crate::tensor::SymmetricTensor;
@@ -39,7 +39,7 @@ impl<H: Hardening> Law for J2With<H> {
     const KIND: LawKind = H::KIND;
     const FAMILY: Family = Family::Rate;
     /// Equivalent plastic strain; flow stress and slope there.
-    type State<L: Lane, T: SymmetricTensor<L>> = ([L; 1], H::ArchiveResult<L>);
+    type State<L: Lane, T: SymmetricTensor<L>> = ([L; 1], H::StoredFlow<L>);
     const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
 
     fn new(parameters: &Parameters<'_>) -> Self {
@@ -68,7 +68,7 @@ impl<H: Hardening> Law for J2With<H> {
     fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {
         let plastic = L::splat(0.0);
         let Flow { stress, slope, .. } = self.hardening.flow(plastic);
-        ([plastic], H::ArchiveResult::new([stress, slope]))
+        ([plastic], H::StoredFlow::new([stress, slope]))
     }
 
     #[inline(always)]
@@ -96,7 +96,7 @@ impl<H: Hardening> Law for J2With<H> {
                 (step, flow_new, stiffness * step * inverse)
             };
             deviator = trial.scaled(L::splat(1.0) - lost, yields);
-            *state = ([plastic + step], H::ArchiveResult::new(flow_new));
+            *state = ([plastic + step], H::StoredFlow::new(flow_new));
         }
         Response::rate(deviator.plus_isotropic(trial.mean), dissipated, [self.bulk, self.shear])
     }

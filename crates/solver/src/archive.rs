@@ -164,12 +164,26 @@ macro_rules! numbers {
     )*};
 }
 
-numbers!(u8, u16, u32, u64, i32, f32, f64);
+numbers!(u8, u16, u32, i32, f32, f64);
+
+/// Numbers of eight bytes are counts, to which a run adds.
+const COUNT_MAX: u64 = 1 << 62;
+
+impl Persist for u64 {
+    #[inline(always)]
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let mut bytes = self.to_le_bytes();
+        archive.pass(&mut bytes)?;
+        *self = Self::from_le_bytes(bytes);
+        archive.check(*self < COUNT_MAX, "a count is too large")
+    }
+}
 
 impl Persist for usize {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let mut number = *self as u64;
-        number.persist(archive)?;
+        let mut bytes = (*self as u64).to_le_bytes();
+        archive.pass(&mut bytes)?;
+        let number = u64::from_le_bytes(bytes);
         *self = Self::try_from(number).map_err(|_| ArchiveError::new(format!("{number} is too large a number")))?;
         Ok(())
     }
@@ -323,6 +337,14 @@ mod tests {
         all.persist(&mut archive)?;
         archive.finish()?;
         Ok(all)
+    }
+
+    #[test]
+    fn a_count_to_which_nothing_can_be_added_is_refused() {
+        let sections = [Section { name: "all".into(), bytes: u64::MAX.to_le_bytes().to_vec() }];
+        let mut archive = Archive::of(&sections);
+        archive.section("all").unwrap();
+        assert!(0_u64.persist(&mut archive).unwrap_err().0.contains("too large"));
     }
 
     #[test]

@@ -137,9 +137,10 @@ impl Writer {
         let mut frames = Frames::new(&cells, &threads);
         frames.recall(reported);
         let hashes = reported.hashes.map(|mark| Lines::reopen(&folder.join(HASHES), mark)).transpose()?.map(|(lines, _)| lines);
-        own.cut(reported.frames.len(), hashes.is_some(), past.state.step)?;
         let folder = own;
+        // Who is killed in between leaves frames that no collection names, and none that one misses.
         frames.write_collection(&folder)?;
+        folder.cut(reported.frames.len(), hashes.is_some(), past.state.step)?;
         let mut plot_rows = ThinnedRows::default();
         let film = model.output.pictures.then(|| {
             rows.iter().for_each(|row| plot_rows.add(row));

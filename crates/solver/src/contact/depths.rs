@@ -84,7 +84,7 @@ impl Depths {
         let way = scene.sweep.travel - self.travel;
         (self.travel, self.way) = (scene.sweep.travel, if way.is_finite() { way } else { 0.0 });
         self.findings.begin();
-        self.overlap_check.steps += 1;
+        self.overlap_check.steps = self.overlap_check.steps.saturating_add(1);
         // What was too deep is looked at in each step: its springs alone may not see it.
         let least = if scene.sweep.travel >= self.overlap_check.next { 1 } else { MOST_STEPS }.max(self.overlap_check.looked / PER_STEP);
         let is_due = self.was_deep || self.overlap_check.steps >= least;

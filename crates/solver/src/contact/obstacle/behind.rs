@@ -160,7 +160,7 @@ where
     /// Looks at the facets, if it is time: how deep and where each is deepest in the obstacle, in the frame
     /// of its `body`.
     pub fn see_facets(&mut self, body: &Body<D>, deepest: impl Fn(&[[f64; D]]) -> Option<(f64, [f64; D])>, scene: &Scene<'_, D>) {
-        self.steps += 1;
+        self.steps = self.steps.saturating_add(1);
         if body.is_fixed() && !self.was_deep && scene.sweep.travel < self.next && self.steps < MOST_STEPS {
             return;
         }

@@ -246,7 +246,7 @@ impl OverlapCheck {
     /// Looks at the step, if it is time. In between, regions that have volume springs are found again where
     /// these can't continue with their nodes.
     pub fn look(&mut self, sweep: Sweep<'_, 3>, time: f64) {
-        self.steps += 1;
+        self.steps = self.steps.saturating_add(1);
         self.has_looked = !(sweep.travel < self.next && self.steps < MOST_STEPS);
         if !self.has_looked && self.follow(sweep) {
             return;

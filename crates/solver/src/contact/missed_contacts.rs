@@ -34,11 +34,16 @@ use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::tensor::dot;
 use crate::vector::{length, minus};
+use rayon::prelude::*;
+use std::iter::Peekable;
+use std::slice::Iter;
 
 /// How far is searched, as a fraction of the mean edge.
 const MARGIN: f64 = 1.0;
 /// The global search is asked for a little more than is needed: it may round.
 const SLACK: f64 = 1.001;
+/// Groups that one task looks at.
+const CHUNK: usize = 512;
 /// A sleeper wakes a little before it has to.
 const EARLY: f64 = 1.0 - 1e-9;
 /// Who is no farther before a facet than this fraction of its size is on it: what lies on a rim is reported
@@ -206,14 +211,16 @@ impl MissedContactCheck {
         let mut pass = std::mem::take(&mut self.passes[number]);
         let target = &tracker.surfaces()[pass.target];
         let placed = Placed { surface: target, positions: sweep.new };
-        let mut touches = touches.iter().peekable();
         self.certificate.pairs_swept += pass.candidates.len() as u64;
-        let bodies = &self.bodies;
+        let (bodies, has_begun) = (&self.bodies, self.has_begun);
         let key = |touch: &ContactPoint| {
             let node = target.facets[touch.projection.facet as usize][0];
             (touch.slave, bodies.get(node as usize).copied().unwrap_or(u32::MAX))
         };
-        for group in &mut pass.groups {
+        let (slave, all) = (pass.slave, &pass.candidates[..]);
+        // What is seen of a group, where the touches before it have been passed.
+        let look_at = |group: &mut Group<Known>, touches: &mut Peekable<Iter<'_, ContactPoint>>| {
+            let mut seen = Certificate::default();
             while touches.next_if(|touch| key(touch) < group.key()).is_some() {}
             let touch = touches.next_if(|touch| key(touch) == group.key());
             let side = touch.map_or([0.0; 3], |touch| tracker.kept(touch).side);
@@ -221,20 +228,20 @@ impl MissedContactCheck {
             let was_inside = was != [0.0; 3];
             if side != [0.0; 3] {
                 // What is there at the start did not go in.
-                self.certificate.crossings_found += u64::from(!was_inside && self.has_begun);
+                seen.crossings_found += u64::from(!was_inside && has_begun);
                 group.known.wake = AWAKE;
-                continue;
+                return seen;
             }
             if group.known.wake > sweep.travel {
-                continue;
+                return seen;
             }
             // Who continues with its face has not passed.
             if touch.is_some_and(|touch| dot(tracker.kept(touch).spring.normal, touch.projection.normal) > 0.0) {
                 group.known.wake = AWAKE;
-                continue;
+                return seen;
             }
-            let candidates = &pass.candidates[group.candidates()];
-            let own = if group.own { tracker.own_normal(pass.slave, group.slave, sweep.new) } else { [0.0; 3] };
+            let candidates = &all[group.candidates()];
+            let own = if group.own { tracker.own_normal(slave, group.slave, sweep.new) } else { [0.0; 3] };
             let (passages, clear) = sweep_through(group, candidates, &placed, own, sweep);
             let is_missed = is_missed(passages.fate(was), touch, sweep.new[group.node as usize], candidates, &placed);
             let is_lost = || {
@@ -242,8 +249,25 @@ impl MissedContactCheck {
                 let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };
                 nearest.is_some_and(|nearest| nearest.gap < -ROUNDING * placed.size(nearest.facet))
             };
-            self.certificate.unverified += u64::from(is_missed || is_lost());
+            seen.unverified += u64::from(is_missed || is_lost());
             group.known.wake = if touch.is_some() { AWAKE } else { wake_at(clear, sweep.travel) };
+            seen
+        };
+        let look_at_all = |groups: &mut [Group<Known>]| {
+            let first = groups.first().map_or(0, |group| touches.partition_point(|touch| key(touch) < group.key()));
+            let (mut touches, mut seen) = (touches[first..].iter().peekable(), Certificate::default());
+            groups.iter_mut().for_each(|group| seen += look_at(group, &mut touches));
+            seen
+        };
+        // Within a pool of threads the groups are shared among them; counts have no order.
+        if rayon::current_thread_index().is_some() && pass.groups.len() > CHUNK {
+            let seen = pass.groups.par_chunks_mut(CHUNK).map(look_at_all);
+            self.certificate += seen.reduce(Certificate::default, |mut sum, seen| {
+                sum += seen;
+                sum
+            });
+        } else {
+            self.certificate += look_at_all(&mut pass.groups);
         }
         self.passes[number] = pass;
     }

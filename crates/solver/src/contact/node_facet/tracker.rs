@@ -54,6 +54,10 @@ const BAND: f64 = 0.02;
 /// Cosine of the angle between the normal that a node felt and that of the face that holds it.
 const SAME_FACE: f64 = 0.9;
 
+/// Groups that one task looks at, and how many have to be awake for more than one task.
+const CHUNK: usize = 256;
+const SERIAL: usize = 2 * CHUNK;
+
 /// What is kept of a slave and a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactHistory {
@@ -156,6 +160,53 @@ pub struct Tracker {
     /// Travel of the last step, m.
     travel: f64,
     touches: Vec<ContactPoint>,
+    /// What was found in each chunk of groups of a pass.
+    chunks: Vec<Found>,
+}
+
+/// Groups that one task looks at, and what is known of them.
+struct Chunk<'a> {
+    /// Number of the first group, and of the first candidate, among those of the pass.
+    first: [usize; 2],
+    groups: &'a mut [Group<Known>],
+    wakes: &'a mut [f64],
+    clear: &'a mut [f64],
+}
+
+impl Chunk<'_> {
+    /// The groups before number `middle`, and the others.
+    fn split(&mut self, middle: usize) -> [Chunk<'_>; 2] {
+        let Self { first: [first, begin], groups, wakes, clear } = self;
+        // Groups without candidates may stand anywhere.
+        let to = groups[middle..].iter().find(|group| group.begin < group.end).map_or(clear.len(), |group| group.begin as usize - *begin);
+        let (groups, wakes, clear) = (groups.split_at_mut(middle), wakes.split_at_mut(middle), clear.split_at_mut(to));
+        [
+            Chunk { first: [*first, *begin], groups: groups.0, wakes: wakes.0, clear: clear.0 },
+            Chunk { first: [*first + middle, *begin + to], groups: groups.1, wakes: wakes.1, clear: clear.1 },
+        ]
+    }
+}
+
+/// What was found in a chunk.
+#[derive(Default)]
+struct Found {
+    touches: Vec<ContactPoint>,
+    /// Depth of the deepest touch, m.
+    deepest: f64,
+}
+
+/// The step as all groups of a pass see it.
+#[derive(Clone, Copy)]
+struct Look<'a> {
+    /// Number of the pass.
+    pass: usize,
+    sweep: Sweep<'a, 3>,
+    /// Distance up to which touches are wanted beside what the motion asks for, and the longest way of a node
+    /// in the step, m.
+    extra: f64,
+    way: f64,
+    /// Groups that wake beyond it are not looked at, m.
+    asleep: f64,
 }
 
 impl Tracker {
@@ -191,7 +242,7 @@ impl Tracker {
         let bodies = bodies_of(&surfaces, bodies);
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, touches: Vec::new(),
+            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, touches: Vec::new(), chunks: Vec::new(),
         };
         tracker
     }
@@ -305,18 +356,26 @@ impl Tracker {
         }
         self.touches.clear();
         self.deepest = 0.0;
-        let mut clear = Vec::new();
+        let mut chunks = std::mem::take(&mut self.chunks);
         for number in 0..self.passes.len() {
             let pass = &mut self.passes[number];
             let asleep = awake(extra + START * self.reach.skin + pass.band, LOOK_AHEAD, sweep.travel, way);
-            std::mem::swap(&mut clear, &mut pass.clear);
-            for index in 0..pass.groups.len() {
-                if self.passes[number].wakes[index] <= asleep {
-                    self.look_at([number, index], sweep, [extra, way, asleep], &mut clear);
-                }
+            let (mut groups, mut wakes, mut clear) =
+                (std::mem::take(&mut pass.groups), std::mem::take(&mut pass.wakes), std::mem::take(&mut pass.clear));
+            // Within a pool of threads the groups are shared among them; each is looked at by itself.
+            let is_shared = rayon::current_thread_index().is_some() && wakes.iter().filter(|wake| **wake <= asleep).count() >= SERIAL;
+            let count = if is_shared { groups.len().div_ceil(CHUNK) } else { 1 };
+            chunks.resize_with(count.max(chunks.len()), Found::default);
+            let all = Chunk { first: [0; 2], groups: &mut groups, wakes: &mut wakes, clear: &mut clear };
+            self.look_at(Look { pass: number, sweep, extra, way, asleep }, all, &mut chunks[..count]);
+            for found in &chunks[..count] {
+                self.touches.extend_from_slice(&found.touches);
+                self.deepest = self.deepest.max(found.deepest);
             }
-            std::mem::swap(&mut clear, &mut self.passes[number].clear);
+            let pass = &mut self.passes[number];
+            (pass.groups, pass.wakes, pass.clear) = (groups, wakes, clear);
         }
+        self.chunks = chunks;
         &self.touches
     }
 
@@ -374,31 +433,48 @@ impl Tracker {
         self.reach.settle(sweep);
     }
 
-    /// Where the node of group `index` of pass `number` is with respect to its body; `clear` is what is known
-    /// of the distances of the pass's candidates.
-    fn look_at(&mut self, [number, index]: [usize; 2], sweep: Sweep<'_, 3>, [extra, way, asleep]: [f64; 3], clear: &mut [f64]) {
-        let pass = &self.passes[number];
-        let group = pass.groups[index];
-        let range = group.candidates();
-        let mut candidates = Candidates { facets: &pass.candidates[range.clone()], clear: &mut clear[range], travel: sweep.travel, way };
-        let place = self.locate(pass, &group, &mut candidates, sweep, extra);
-        let wake = match place {
+    /// Looks at the groups of a chunk that are awake, in `found.len()` smaller ones, halves of them at the
+    /// same time.
+    fn look_at(&self, look: Look<'_>, mut chunk: Chunk<'_>, found: &mut [Found]) {
+        if let [found] = found {
+            found.touches.clear();
+            found.deepest = 0.0;
+            for index in 0..chunk.groups.len() {
+                if chunk.wakes[index] <= look.asleep {
+                    self.look_at_group(look, &mut chunk, index, found);
+                }
+            }
+            return;
+        }
+        let middle = found.len() / 2;
+        let (low, high) = found.split_at_mut(middle);
+        let [before, after] = chunk.split(middle * CHUNK);
+        rayon::join(|| self.look_at(look, before, low), || self.look_at(look, after, high));
+    }
+
+    /// Where the node of a group is with respect to its body.
+    fn look_at_group(&self, look: Look<'_>, chunk: &mut Chunk<'_>, index: usize, found: &mut Found) {
+        let Look { pass: number, sweep, extra, way, asleep } = look;
+        let (pass, [first, begin]) = (&self.passes[number], chunk.first);
+        let group = &mut chunk.groups[index];
+        let facets = &pass.candidates[group.candidates()];
+        let clear = if facets.is_empty() { &mut [] } else { &mut chunk.clear[group.begin as usize - begin..group.end as usize - begin] };
+        let mut candidates = Candidates { facets, clear, travel: sweep.travel, way };
+        let place = self.locate(pass, group, &mut candidates, sweep, extra);
+        chunk.wakes[index] = match place {
             Place::Away => {
                 let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
                 candidates.bound(&placed, sweep.new[group.node as usize], asleep)
             }
             _ => AWAKE,
         };
-        let pass = &mut self.passes[number];
-        pass.wakes[index] = wake;
-        let group = &mut pass.groups[index];
         group.known.touches = false;
         if let Place::Touches(projection, side, is_led) = place {
             group.known.touches = true;
             (group.known.memory.side, group.known.memory.is_led) = (side, is_led);
-            self.deepest = self.deepest.max(-projection.gap);
+            found.deepest = found.deepest.max(-projection.gap);
             let Group { slave, node, own, .. } = *group;
-            self.touches.push(ContactPoint { pass: number as u32, slave, node, projection, own, group: index as u32 });
+            found.touches.push(ContactPoint { pass: number as u32, slave, node, projection, own, group: (first + index) as u32 });
         } else {
             group.known.memory = ContactHistory::default();
         }
@@ -517,6 +593,10 @@ impl Tracker {
                     && (memory.facet == NONE || (memory.facet as usize) < facets)
                     && memory.rest.iter().all(|&node| node == NONE || target.binary_search(&node).is_ok())
             };
+            // Chunks of groups are looked at with their own candidates.
+            let mut ends = pass.groups.iter().filter(|group| group.begin < group.end).map(|group| [group.begin, group.end]);
+            let follow = ends.next().is_none_or(|first| ends.try_fold(first[1], |end, [begin, to]| (begin == end).then_some(to)).is_some());
+            archive.check(follow, "candidates of a contact's nodes are out of order")?;
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
         }

@@ -42,6 +42,19 @@ where
 {
     /// What touches each slot, in the order of the links.
     touches: Rows<SlotArm<D>>,
+    /// Parts of the links, each but the last of 2^`shift`.
+    parts: Vec<Part<D>>,
+    shift: u32,
+    /// Whether anything cares for slip.
+    slides: bool,
+}
+
+/// What is at the links of a part, row by row.
+#[derive(Default)]
+struct Part<const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
     /// Where the neighbours of each link end.
     rows: Vec<u32>,
     neighbours: Vec<u32>,
@@ -49,8 +62,23 @@ where
     normal: Vec<f64>,
     /// What has to do with friction and slip; empty where nothing cares for slip.
     along: Vec<Cross<D>>,
-    /// Where each link was last found among the neighbours.
+    /// Where each link of the island was last found among the neighbours.
     found: Vec<u32>,
+}
+
+/// An island as all parts see it.
+#[derive(Clone, Copy)]
+struct Whole<'a, const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    touches: &'a Rows<SlotArm<D>>,
+    arms: &'a [Arm<D>],
+    slips: &'a [Slips<D>],
+    slots: &'a [Slot<D>],
+    links: usize,
+    /// Links of a part.
+    length: usize,
 }
 
 /// What friction does to a gap, and what forces do to slips.
@@ -85,22 +113,116 @@ impl<const D: usize> Couplings<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Finds who touches which slot, which slots are hubs, and what springs do to each other; `slides`:
-    /// whether any of them cares for slip.
-    pub(super) fn find(&mut self, links: &mut [Link<D>], arms: &[Arm<D>], slips: &[Slips<D>], slots: &mut [Slot<D>], slides: bool) {
+    /// Finds who touches which slot, which slots are hubs, and what springs do to each other, in parts of
+    /// `length` links, a power of two; `slips` are empty where none of them cares for slip.
+    pub(super) fn find(&mut self, links: &mut [Link<D>], arms: &[Arm<D>], slips: &[Slips<D>], slots: &mut [Slot<D>], length: usize) {
         let touch = |i: usize, k: usize| SlotArm { link: i as u32, arm: k as u32, force: Dim::<D>::force_of(&arms[k].row) };
         let at_arms = |(i, link): (usize, &Link<D>)| link.arms().map(move |k| (arms[k].slot, touch(i, k)));
         self.touches.fill(slots.len(), links.iter().enumerate().flat_map(at_arms));
         for (number, slot) in slots.iter_mut().enumerate() {
             slot.is_hub = slot.is_body || self.touches.of(number).len() > PAIRS;
         }
-        let Self { touches, rows, neighbours, normal, along, found } = self;
+        (self.shift, self.slides) = (length.trailing_zeros(), !slips.is_empty());
+        let count = links.len().div_ceil(length);
+        if self.parts.len() < count {
+            self.parts.resize_with(count, Part::default);
+        }
+        let whole = Whole { touches: &self.touches, arms, slips, slots, links: links.len(), length };
+        whole.fill(0, links, &mut self.parts[..count]);
+    }
+
+    /// The arms at a slot.
+    pub(super) fn touches(&self, slot: usize) -> &[SlotArm<D>] {
+        self.touches.of(slot)
+    }
+
+    /// The part of a link, and where its neighbours are there.
+    #[inline]
+    fn row(&self, i: usize) -> (&Part<D>, Range<usize>) {
+        let (part, own) = (&self.parts[i >> self.shift], i & ((1 << self.shift) - 1));
+        let begin = if own == 0 { 0 } else { part.rows[own - 1] };
+        (part, begin as usize..part.rows[own] as usize)
+    }
+
+    /// The links that share a slot with link `i`, but for hubs.
+    pub(super) fn neighbours(&self, i: usize) -> &[u32] {
+        let (part, row) = self.row(i);
+        &part.neighbours[row]
+    }
+
+    /// What the forces of its neighbours do to the rates of link `i`: rows of the gap's and the slips' rates.
+    pub(super) fn pairs(&self, i: usize) -> impl Iterator<Item = (usize, [[f64; D]; D])> {
+        let (part, row) = self.row(i);
+        row.map(|place| {
+            let Cross { gap, slip, along } = part.along.get(place).copied().unwrap_or_default();
+            let mut pair = [[0.0; D]; D];
+            pair[0][0] = part.normal[place];
+            for a in 0..D - 1 {
+                (pair[0][a + 1], pair[a + 1][0]) = (gap[a], slip[a]);
+                (0..D - 1).for_each(|b| pair[a + 1][b + 1] = along[a][b]);
+            }
+            (part.neighbours[place] as usize, pair)
+        })
+    }
+
+    /// What the forces of its neighbours add to the rates of link `i`.
+    #[inline]
+    pub(super) fn rates(&self, i: usize, forces: &[Forces<D>]) -> Rates<D> {
+        let (part, row) = self.row(i);
+        let (neighbours, normal) = (&part.neighbours[row.clone()], &part.normal[row.clone()]);
+        let mut rates = [0.0; D];
+        if !self.slides {
+            for (&j, normal) in neighbours.iter().zip(normal) {
+                rates[0] += normal * forces[j as usize][0];
+            }
+            return rates;
+        }
+        for ((&j, normal), cross) in neighbours.iter().zip(normal).zip(&part.along[row]) {
+            let forces = &forces[j as usize];
+            let mut sum = normal * forces[0];
+            for b in 0..D - 1 {
+                sum += cross.gap[b] * forces[b + 1];
+            }
+            rates[0] += sum;
+            for a in 0..D - 1 {
+                let mut sum = cross.slip[a] * forces[0];
+                for b in 0..D - 1 {
+                    sum += cross.along[a][b] * forces[b + 1];
+                }
+                rates[a + 1] += sum;
+            }
+        }
+        rates
+    }
+}
+
+impl<const D: usize> Whole<'_, D>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// Fills the parts of links, of which the first has the number `first`; halves of them at the same time.
+    fn fill(self, first: usize, links: &mut [Link<D>], parts: &mut [Part<D>]) {
+        if let [part] = parts {
+            self.fill_part(first, links, part);
+            return;
+        }
+        let middle = parts.len() / 2;
+        let (low, high) = links.split_at_mut(middle * self.length);
+        let (parts, others) = parts.split_at_mut(middle);
+        rayon::join(|| self.fill(first, low, parts), || self.fill(first + middle * self.length, high, others));
+    }
+
+    /// What the springs of a part have to do with others.
+    fn fill_part(self, first: usize, links: &mut [Link<D>], part: &mut Part<D>) {
+        let Self { touches, arms, slips, slots, .. } = self;
+        let slides = !slips.is_empty();
+        let Part { rows, neighbours, normal, along, found } = part;
         rows.clear();
         neighbours.clear();
         normal.clear();
         along.clear();
         found.clear();
-        found.resize(links.len(), 0);
+        found.resize(self.links, 0);
         for (i, link) in links.iter_mut().enumerate() {
             let begin = neighbours.len();
             for k in link.arms() {
@@ -116,7 +238,7 @@ where
                 let response_along = Dim::<D>::vectors(|a| if slides { respond(&slips[k][a]) } else { [0.0; D] });
                 for &SlotArm { link: j, arm: other, force } in touches.of(number) {
                     // Ends that move as one leave a spring its own neighbour.
-                    if j as usize == i && other as usize == k {
+                    if j as usize == first + i && other as usize == k {
                         continue;
                     }
                     let known = found[j as usize] as usize;
@@ -146,64 +268,5 @@ where
             }
             rows.push(neighbours.len() as u32);
         }
-    }
-
-    /// The arms at a slot.
-    pub(super) fn touches(&self, slot: usize) -> &[SlotArm<D>] {
-        self.touches.of(slot)
-    }
-
-    fn row(&self, i: usize) -> Range<usize> {
-        let begin = if i == 0 { 0 } else { self.rows[i - 1] };
-        begin as usize..self.rows[i] as usize
-    }
-
-    /// The links that share a slot with link `i`, but for hubs.
-    pub(super) fn neighbours(&self, i: usize) -> &[u32] {
-        &self.neighbours[self.row(i)]
-    }
-
-    /// What the forces of its neighbours do to the rates of link `i`: rows of the gap's and the slips' rates.
-    pub(super) fn pairs(&self, i: usize) -> impl Iterator<Item = (usize, [[f64; D]; D])> {
-        self.row(i).map(|place| {
-            let Cross { gap, slip, along } = self.along.get(place).copied().unwrap_or_default();
-            let mut pair = [[0.0; D]; D];
-            pair[0][0] = self.normal[place];
-            for a in 0..D - 1 {
-                (pair[0][a + 1], pair[a + 1][0]) = (gap[a], slip[a]);
-                (0..D - 1).for_each(|b| pair[a + 1][b + 1] = along[a][b]);
-            }
-            (self.neighbours[place] as usize, pair)
-        })
-    }
-
-    /// What the forces of its neighbours add to the rates of link `i`.
-    #[inline]
-    pub(super) fn rates(&self, i: usize, forces: &[Forces<D>]) -> Rates<D> {
-        let row = self.row(i);
-        let (neighbours, normal) = (&self.neighbours[row.clone()], &self.normal[row.clone()]);
-        let mut rates = [0.0; D];
-        if self.along.is_empty() {
-            for (&j, normal) in neighbours.iter().zip(normal) {
-                rates[0] += normal * forces[j as usize][0];
-            }
-            return rates;
-        }
-        for ((&j, normal), cross) in neighbours.iter().zip(normal).zip(&self.along[row]) {
-            let forces = &forces[j as usize];
-            let mut sum = normal * forces[0];
-            for b in 0..D - 1 {
-                sum += cross.gap[b] * forces[b + 1];
-            }
-            rates[0] += sum;
-            for a in 0..D - 1 {
-                let mut sum = cross.slip[a] * forces[0];
-                for b in 0..D - 1 {
-                    sum += cross.along[a][b] * forces[b + 1];
-                }
-                rates[a + 1] += sum;
-            }
-        }
-        rates
     }
 }

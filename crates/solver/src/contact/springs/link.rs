@@ -96,7 +96,7 @@ where
 }
 
 /// A spring's row of the gap on something that moves.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Arm<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
@@ -188,6 +188,9 @@ where
     /// Slot of each place in its island; [`NONE`]: it does not move.
     pub(super) slots: &'a [u32],
     pub(super) update: &'a Update<'a, M, D>,
+    /// What acts in springs, by number, and the number of each spring.
+    pub(super) terms: &'a [Terms],
+    pub(super) terms_of: &'a [u32],
 }
 
 /// An island while it is solved. It stays in the caches where islands are small.
@@ -203,52 +206,121 @@ where
     pub(super) slots: Vec<Slot<D>>,
     pub(super) forces: Vec<Forces<D>>,
     pub(super) couplings: Couplings<D>,
-    /// Whether a spring cares for slip.
-    slides: bool,
     /// What is in each slot.
     movables: Vec<Movable<D>>,
+}
+
+/// Links of an island that one task fills, with the arms that are theirs.
+struct Part<'a, const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    links: &'a mut [Link<D>],
+    /// Number of the first arm.
+    first: usize,
+    arms: &'a mut [Arm<D>],
+    slips: &'a mut [Slips<D>],
+}
+
+impl<const D: usize> Part<'_, D>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// The links before number `middle`, and the others.
+    fn split(self, middle: usize) -> [Self; 2] {
+        let Part { links, first, arms, slips } = self;
+        let to = links.get(middle).map_or(arms.len(), |link| link.first as usize - first);
+        let (links, arms, slips) = (links.split_at_mut(middle), arms.split_at_mut(to), slips.split_at_mut(to.min(slips.len())));
+        [
+            Part { links: links.0, first, arms: arms.0, slips: slips.0 },
+            Part { links: links.1, first: first + to, arms: arms.1, slips: slips.1 },
+        ]
+    }
 }
 
 impl<const D: usize> Bench<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    pub(super) fn clear(&mut self) {
+    /// The links of the `springs` of an island, their arms, what is in the slots, and what springs do to each
+    /// other; no force acts yet. Parts of `length` links each are filled at the same time.
+    pub(super) fn fill<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, springs: &[u32], length: usize) {
         self.links.clear();
-        self.arms.clear();
-        self.slips.clear();
         self.slots.clear();
         self.movables.clear();
-        self.slides = false;
-    }
-
-    /// Once all links are there: what they do to each other; no force acts yet.
-    pub(super) fn close(&mut self) {
+        let slides = springs.iter().any(|&number| !matches!(joints.terms(number).tangential, Tangential::Free));
+        let mut arms = 0;
+        for &number in springs {
+            let mut link = Link::new(number, arms);
+            for k in joints.list[number as usize].ends() {
+                let slot = joints.slots[joints.places[k] as usize];
+                if slot == NONE {
+                    continue;
+                }
+                arms += 1;
+                // Slots are met in the order of their numbers.
+                if slot as usize == self.movables.len() {
+                    let movable = joints.movable(k);
+                    let (mobility, is_body) = (movable.mobility, movable.centre.is_some());
+                    self.slots.push(Slot { change: Default::default(), mobility, is_body, is_hub: false });
+                    self.movables.push(movable);
+                }
+            }
+            link.count = arms - link.first;
+            self.links.push(link);
+        }
+        self.arms.resize(arms as usize, Arm::default());
+        self.slips.resize(if slides { arms as usize } else { 0 }, Slips::<D>::default());
+        joints.fill(Part { links: &mut self.links, first: 0, arms: &mut self.arms, slips: &mut self.slips }, &self.movables, length);
         self.forces.clear();
         self.forces.resize(self.links.len(), [0.0; D]);
-        self.couplings.find(&mut self.links, &self.arms, &self.slips, &mut self.slots, self.slides);
+        self.couplings.find(&mut self.links, &self.arms, &self.slips, &mut self.slots, length);
     }
 }
 
-impl<M: NodeResponses<D>, const D: usize> Joints<'_, M, D>
+impl<M: NodeResponses<D> + Sync, const D: usize> Joints<'_, M, D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Adds the link of a spring, with its arms and the slots that come with it.
-    pub(super) fn link(&self, number: u32, terms: &Terms, bench: &mut Bench<D>) {
-        let (spring, tangential) = (&self.list[number as usize], terms.tangential);
-        let [before, after] = self.update.time_steps;
-        let has_slip = !matches!(tangential, Tangential::Free);
-        let tangents = if has_slip { spring.tangents() } else { Default::default() };
-        let mut held = Movable::default();
-        if has_slip && !bench.slides {
-            bench.slides = true;
-            bench.slips.resize(bench.arms.len(), Slips::<D>::default());
+    /// What acts in a spring.
+    #[inline]
+    pub(super) fn terms(&self, number: u32) -> &Terms {
+        &self.terms[self.terms_of[number as usize] as usize]
+    }
+
+    /// What is at the end `k`.
+    fn movable(&self, k: usize) -> Movable<D> {
+        Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update)
+    }
+
+    /// Fills links and their arms, in parts of `length` links that are shared among the threads.
+    fn fill(&self, part: Part<'_, D>, movables: &[Movable<D>], length: usize) {
+        let count = part.links.len().div_ceil(length);
+        if count > 1 {
+            let [low, high] = part.split(count / 2 * length);
+            rayon::join(|| self.fill(low, movables, length), || self.fill(high, movables, length));
+            return;
         }
-        let mut link = Link::new(number, bench.arms.len() as u32);
+        let Part { links, first, arms, slips } = part;
+        for link in links {
+            let own = link.first as usize - first..(link.first + link.count) as usize - first;
+            let slips = if slips.is_empty() { &mut [][..] } else { &mut slips[own.clone()] };
+            self.link(link, &mut arms[own], slips, movables);
+        }
+    }
+
+    /// Fills the link of a spring and its arms.
+    fn link(&self, link: &mut Link<D>, arms: &mut [Arm<D>], slips: &mut [Slips<D>], movables: &[Movable<D>]) {
+        let number = link.spring;
+        let (spring, terms) = (&self.list[number as usize], self.terms(number));
+        let [before, after] = self.update.time_steps;
+        let has_slip = !matches!(terms.tangential, Tangential::Free);
+        let tangents = if has_slip { spring.tangents() } else { Default::default() };
+        let mut next = 0;
         for k in spring.ends() {
             let (end, slot) = (self.ends.get(k), self.slots[self.places[k] as usize]);
-            let movable = self.movable(k, slot, &mut held, bench);
+            let held = (slot == NONE).then(|| self.movable(k));
+            let movable = held.as_ref().unwrap_or_else(|| &movables[slot as usize]);
             let row = movable.row(end.gap_row(spring.normal), &end);
             let mut slip_row = Slips::<D>::default();
             link.rate_old += Dim::<D>::dot(&row, &movable.velocity_old);
@@ -277,11 +349,11 @@ where
                     }
                 }
             }
-            bench.arms.push(Arm { slot, row });
-            if bench.slides {
-                bench.slips.push(slip_row);
+            arms[next] = Arm { slot, row };
+            if let Some(slips) = slips.get_mut(next) {
+                *slips = slip_row;
             }
-            link.count += 1;
+            next += 1;
         }
         link.compliance = 0.5 * after * link.own[0];
         let begins = spring.gap - 0.5 * before * link.rate_old;
@@ -294,28 +366,6 @@ where
             _ => (spring.gap, begins),
         };
         link.gap_free = link.gap + 0.5 * after * link.rate_free;
-        bench.links.push(link);
-    }
-
-    /// What is at the end `k`. Slots are filled in the order in which they are met, which is that of their
-    /// numbers.
-    fn movable<'b>(&self, k: usize, slot: u32, held: &'b mut Movable<D>, bench: &'b mut Bench<D>) -> &'b Movable<D> {
-        let make = || Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update);
-        if slot == NONE {
-            *held = make();
-            return held;
-        }
-        if slot as usize == bench.movables.len() {
-            let movable = make();
-            bench.slots.push(Slot {
-                change: Default::default(),
-                mobility: movable.mobility,
-                is_body: movable.centre.is_some(),
-                is_hub: false,
-            });
-            bench.movables.push(movable);
-        }
-        &bench.movables[slot as usize]
     }
 }
 

@@ -15,6 +15,7 @@ use crate::contact::law;
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 use embate_lanes::math;
+use rayon::prelude::*;
 
 /// An island is solved when a sweep changes no force by more than this fraction of the island's largest.
 pub(super) const TOLERANCE: f64 = 1e-12;
@@ -388,9 +389,19 @@ where
         self.report_hubs(i, step);
     }
 
-    /// Reports what was found, with the rates that the forces lead to.
-    pub(super) fn settle(&self, solved: &mut [Solved<D>]) {
-        for (i, (link, solved)) in self.links.iter().zip(solved).enumerate() {
+    /// Reports what was found, with the rates that the forces lead to; parts of `length` springs each at the
+    /// same time.
+    pub(super) fn settle(&self, solved: &mut [Solved<D>], length: usize) {
+        if solved.len() <= length {
+            return self.settle_part(0, solved);
+        }
+        solved.par_chunks_mut(length).enumerate().for_each(|(part, solved)| self.settle_part(part * length, solved));
+    }
+
+    /// The same of the springs from number `first` on.
+    fn settle_part(&self, first: usize, solved: &mut [Solved<D>]) {
+        for (i, solved) in (first..).zip(solved) {
+            let link = &self.links[i];
             let is_free = matches!(self.terms_of(i).tangential, Tangential::Free);
             let (others, forces) = (self.rates(i), self.forces[i]);
             let own = |axis: usize| (1..D).fold(link.own(axis, 0) * forces[0], |sum, by| sum + link.own(axis, by) * forces[by]);

@@ -57,7 +57,7 @@ impl Skyline {
                 let common = first.max(first_j);
                 let (here, there) = (common - first..j - first, start_j + common - first_j..start_j + j - first_j);
                 // Of a row that is above, the entries are in the parts before this row's.
-                let sums = [product(&lower[here.clone()], &upper_above[there.clone()]), product(&lower_above[there], &upper[here])];
+                let sums = products([&lower[here.clone()], &lower_above[there.clone()]], [&upper_above[there], &upper[here]]);
                 lower[j - first] = (lower[j - first] - sums[0]) / self.diagonal[j];
                 upper[j - first] -= sums[1];
             }
@@ -83,6 +83,18 @@ impl Skyline {
             }
         }
     }
+}
+
+/// Two products at once: each waits for its own last sum alone.
+#[inline]
+fn products([a, c]: [&[f64]; 2], [b, d]: [&[f64]; 2]) -> [f64; 2] {
+    // Where the sum of an iterator begins.
+    let mut sums = [-0.0; 2];
+    for (((a, b), c), d) in a.iter().zip(b).zip(c).zip(d) {
+        sums[0] += a * b;
+        sums[1] += c * d;
+    }
+    sums
 }
 
 #[inline]

@@ -1,14 +1,15 @@
 //! The solution of a step: what the springs act on, islands, and forces.
 //!
 //! Springs come from the contacts, the state of the step from [`crate::step`]; what was found stays until the
-//! next one. Within a pool of threads the islands are shared among them. An island is solved by one thread,
-//! in its own order, so results do not depend on their number.
+//! next one. Within a pool of threads the islands are shared among them. The sweeps over an island are made
+//! by one thread, in its own order; the rows and couplings of its springs, each for itself, by all where the
+//! island is large. So results do not depend on the number of threads.
 
 use super::islands::{Islands, NONE};
 use super::link::{Bench, Joints, Movable};
 use super::newton::Newton;
 use super::relax::{Effort, Island};
-use super::{NodeResponses, Solved, Springs, Terms, Update};
+use super::{NodeResponses, Solved, Springs, Update};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 
@@ -152,8 +153,9 @@ where
             desks.resize_with(count, Desk::default);
         }
         desks.iter_mut().for_each(|desk| desk.effort = Effort::default());
-        let joints = Joints { list: &self.list, ended: &self.ended, ends: &self.ends, places, at, slots, update };
-        let plan = Plan { joints, islands, chunks, terms: &self.terms, terms_of: &self.terms_of };
+        let (terms, terms_of) = (&self.terms[..], &self.terms_of[..]);
+        let joints = Joints { list: &self.list, ended: &self.ended, ends: &self.ends, places, at, slots, update, terms, terms_of };
+        let plan = Plan { joints, islands, chunks };
         if parallel {
             plan.solve(0..chunks.len(), solved, &mut desks[..count]);
         } else {
@@ -178,8 +180,6 @@ where
     joints: Joints<'a, M, D>,
     islands: &'a Islands,
     chunks: &'a [u32],
-    terms: &'a [Terms],
-    terms_of: &'a [u32],
 }
 
 impl<M: NodeResponses<D> + Sync, const D: usize> Plan<'_, M, D>
@@ -219,17 +219,20 @@ where
         let base = self.before(self.begin(chunk));
         for island in self.begin(chunk)..self.chunks[chunk] as usize {
             let range = self.before(island)..self.before(island + 1);
-            bench.clear();
-            for &spring in &self.islands.order[range.clone()] {
-                self.joints.link(spring, &self.terms[self.terms_of[spring as usize] as usize], bench);
-            }
-            bench.close();
+            let length = part_length(range.len());
+            bench.fill(&self.joints, &self.islands.order[range.clone()], length);
             let Bench { links, arms, slips, slots, couplings, forces, .. } = bench;
-            let (list, time_steps) = (self.joints.list, self.joints.update.time_steps);
-            let mut island =
-                Island { links, arms, slips, slots, couplings, forces, list, terms_of: self.terms_of, terms: self.terms, time_steps };
+            let Joints { list, terms, terms_of, update, .. } = self.joints;
+            let time_steps = update.time_steps;
+            let mut island = Island { links, arms, slips, slots, couplings, forces, list, terms_of, terms, time_steps };
             effort.join(island.solve(newton, live));
-            island.settle(&mut solved[range.start - base..range.end - base]);
+            island.settle(&mut solved[range.start - base..range.end - base], length);
         }
     }
+}
+
+/// Links of an island of so many that one task fills: a power of two, which decides no result.
+fn part_length(links: usize) -> usize {
+    let tasks = if rayon::current_thread_index().is_some() { rayon::current_num_threads() } else { 1 };
+    (links / tasks.min(links / CHUNK).max(1)).max(1).next_power_of_two()
 }

@@ -83,6 +83,15 @@ impl ResultFolder {
         Ok(Self { path: path.to_path_buf(), _lock: Arc::new(FolderLock::take(path)?) })
     }
 
+    /// Of results that continue, with `hashes` or not: removes what was being written when the run ended, but
+    /// for tables.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub(super) fn clear_unfinished(&self, hashes: bool) -> Result<(), ResultsError> {
+        self.remove_files(|file, name| name.ends_with(".part") && !self.is_table(file, hashes))
+    }
+
     /// Results that continue from a checkpoint of `step`, with so many `frames`, and with `hashes` or not:
     /// what came later is removed, and what only a run that has ended has.
     ///
@@ -90,22 +99,34 @@ impl ResultFolder {
     /// What the system says.
     pub(super) fn cut(&self, frames: usize, hashes: bool, step: u64) -> Result<(), ResultsError> {
         let path = self.path.as_path();
-        let later = |name: &str| frame_number(name).is_some_and(|number| number >= frames) || name.ends_with(".part");
-        let is = |file: &Path, name: &str| file == path.join(name) || file == part_path(&path.join(name));
-        let is_table = |file: &Path| is(file, "history.csv") || (hashes && is(file, HASHES));
-        let is_later = |file: &Path| match file.file_name().and_then(|name| name.to_str()) {
-            Some(name) if file.parent() == Some(&path.join(FRAMES)) => later(name),
-            Some(name) if file.parent() == Some(&path.join(FOLDER)) => is_checkpoint(name).is_none_or(|own| own > step),
-            // Collections and what ran are written again; tables are cut.
-            Some(name) => !is_table(file) && !["fields.pvd", "obstacles.pvd", RAN].contains(&name),
-            None => false,
-        };
-        for file in existing(path)?.into_iter().filter(|file| is_later(file)) {
-            fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
-        }
+        self.remove_files(|file, name| {
+            if file.parent() == Some(&path.join(FRAMES)) {
+                frame_number(name).is_some_and(|number| number >= frames)
+            } else if file.parent() == Some(&path.join(FOLDER)) {
+                is_checkpoint(name).is_none_or(|own| own > step)
+            } else {
+                // Collections and what ran are written again; tables are cut.
+                !self.is_table(file, hashes) && !["fields.pvd", "obstacles.pvd", RAN].contains(&name)
+            }
+        })?;
         post_mortem::remove(path)?;
         let folder = path.join(FRAMES);
         plain::folder(&folder).map_err(ResultsError::file("create", &folder))
+    }
+
+    /// Whether a file is a table that grows with the run, whole or being written.
+    fn is_table(&self, file: &Path, hashes: bool) -> bool {
+        let is = |name: &str| [self.path.join(name), part_path(&self.path.join(name))].iter().any(|path| path == file);
+        is("history.csv") || (hashes && is(HASHES))
+    }
+
+    /// Removes those of its own files of which `goes` says so, by path and name.
+    fn remove_files(&self, goes: impl Fn(&Path, &str) -> bool) -> Result<(), ResultsError> {
+        let goes = |file: &PathBuf| file.file_name().and_then(|name| name.to_str()).is_some_and(|name| goes(file, name));
+        for file in existing(&self.path)?.into_iter().filter(goes) {
+            fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
+        }
+        Ok(())
     }
 
     /// Takes the results of a run away: files with the names that embate gives, and the folder if nothing

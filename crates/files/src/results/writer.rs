@@ -138,6 +138,7 @@ impl Writer {
         frames.recall(reported);
         let hashes = reported.hashes.map(|mark| Lines::reopen(&folder.join(HASHES), mark)).transpose()?.map(|(lines, _)| lines);
         let folder = own;
+        folder.clear_unfinished(hashes.is_some())?;
         // Who is killed in between leaves frames that no collection names, and none that one misses.
         frames.write_collection(&folder)?;
         folder.cut(reported.frames.len(), hashes.is_some(), past.state.step)?;

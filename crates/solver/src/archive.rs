@@ -169,21 +169,27 @@ numbers!(u8, u16, u32, i32, f32, f64);
 /// Numbers of eight bytes are counts, to which a run adds.
 const COUNT_MAX: u64 = 1 << 62;
 
+impl Archive<'_> {
+    /// A number of eight bytes: written, or what is read in its place.
+    #[inline(always)]
+    fn number(&mut self, number: u64) -> Result<u64, ArchiveError> {
+        let mut bytes = number.to_le_bytes();
+        self.pass(&mut bytes)?;
+        Ok(u64::from_le_bytes(bytes))
+    }
+}
+
 impl Persist for u64 {
     #[inline(always)]
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let mut bytes = self.to_le_bytes();
-        archive.pass(&mut bytes)?;
-        *self = Self::from_le_bytes(bytes);
+        *self = archive.number(*self)?;
         archive.check(*self < COUNT_MAX, "a count is too large")
     }
 }
 
 impl Persist for usize {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let mut bytes = (*self as u64).to_le_bytes();
-        archive.pass(&mut bytes)?;
-        let number = u64::from_le_bytes(bytes);
+        let number = archive.number(*self as u64)?;
         *self = Self::try_from(number).map_err(|_| ArchiveError::new(format!("{number} is too large a number")))?;
         Ok(())
     }

@@ -35,8 +35,6 @@ use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::tensor::dot;
 use crate::vector::{length, minus};
 use rayon::prelude::*;
-use std::iter::Peekable;
-use std::slice::Iter;
 
 /// How far is searched, as a fraction of the mean edge.
 const MARGIN: f64 = 1.0;
@@ -208,68 +206,23 @@ impl MissedContactCheck {
 
     /// Sweeps the nodes of a pass that do not sleep, `touches` are theirs.
     fn look_at_nodes(&mut self, number: usize, tracker: &Tracker, touches: &[ContactPoint], sweep: Sweep<'_, 3>) {
-        let mut pass = std::mem::take(&mut self.passes[number]);
-        let target = &tracker.surfaces()[pass.target];
-        let placed = Placed { surface: target, positions: sweep.new };
-        self.certificate.pairs_swept += pass.candidates.len() as u64;
-        let (bodies, has_begun) = (&self.bodies, self.has_begun);
-        let key = |touch: &ContactPoint| {
-            let node = target.facets[touch.projection.facet as usize][0];
-            (touch.slave, bodies.get(node as usize).copied().unwrap_or(u32::MAX))
-        };
-        let (slave, all) = (pass.slave, &pass.candidates[..]);
-        // What is seen of a group, where the touches before it have been passed.
-        let look_at = |group: &mut Group<Known>, touches: &mut Peekable<Iter<'_, ContactPoint>>| {
-            let mut seen = Certificate::default();
-            while touches.next_if(|touch| key(touch) < group.key()).is_some() {}
-            let touch = touches.next_if(|touch| key(touch) == group.key());
-            let side = touch.map_or([0.0; 3], |touch| tracker.kept(touch).side);
-            let was = std::mem::replace(&mut group.known.side, side);
-            let was_inside = was != [0.0; 3];
-            if side != [0.0; 3] {
-                // What is there at the start did not go in.
-                seen.crossings_found += u64::from(!was_inside && has_begun);
-                group.known.wake = AWAKE;
-                return seen;
-            }
-            if group.known.wake > sweep.travel {
-                return seen;
-            }
-            // Who continues with its face has not passed.
-            if touch.is_some_and(|touch| dot(tracker.kept(touch).spring.normal, touch.projection.normal) > 0.0) {
-                group.known.wake = AWAKE;
-                return seen;
-            }
-            let candidates = &all[group.candidates()];
-            let own = if group.own { tracker.own_normal(slave, group.slave, sweep.new) } else { [0.0; 3] };
-            let (passages, clear) = sweep_through(group, candidates, &placed, own, sweep);
-            let is_missed = is_missed(passages.fate(was), touch, sweep.new[group.node as usize], candidates, &placed);
-            let is_lost = || {
-                let left = was_inside && !group.own && touch.is_none();
-                let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };
-                nearest.is_some_and(|nearest| nearest.gap < -ROUNDING * placed.size(nearest.facet))
-            };
-            seen.unverified += u64::from(is_missed || is_lost());
-            group.known.wake = if touch.is_some() { AWAKE } else { wake_at(clear, sweep.travel) };
-            seen
-        };
-        let look_at_all = |groups: &mut [Group<Known>]| {
-            let first = groups.first().map_or(0, |group| touches.partition_point(|touch| key(touch) < group.key()));
-            let (mut touches, mut seen) = (touches[first..].iter().peekable(), Certificate::default());
-            groups.iter_mut().for_each(|group| seen += look_at(group, &mut touches));
-            seen
-        };
+        let mut groups = std::mem::take(&mut self.passes[number].groups);
+        let pass = &self.passes[number];
+        let (bodies, has_begun) = (&self.bodies[..], self.has_begun);
+        let step = Step { tracker, slave: pass.slave, target: pass.target, candidates: &pass.candidates, bodies, sweep, has_begun };
         // Within a pool of threads the groups are shared among them; counts have no order.
-        if rayon::current_thread_index().is_some() && pass.groups.len() > CHUNK {
-            let seen = pass.groups.par_chunks_mut(CHUNK).map(look_at_all);
-            self.certificate += seen.reduce(Certificate::default, |mut sum, seen| {
+        let seen = if rayon::current_thread_index().is_some() && groups.len() > CHUNK {
+            let seen = groups.par_chunks_mut(CHUNK).map(|groups| step.look_at(groups, touches));
+            seen.reduce(Certificate::default, |mut sum, seen| {
                 sum += seen;
                 sum
-            });
+            })
         } else {
-            self.certificate += look_at_all(&mut pass.groups);
-        }
-        self.passes[number] = pass;
+            step.look_at(&mut groups, touches)
+        };
+        self.certificate += seen;
+        self.certificate.pairs_swept += self.passes[number].candidates.len() as u64;
+        self.passes[number].groups = groups;
     }
 
     /// Sweeps the pairs of ridges that do not sleep.
@@ -350,6 +303,66 @@ impl MissedContactCheck {
             pass.groups = Group::moved(inside, &surfaces[pass.slave].nodes);
         }
         (self.certificate, self.has_begun) = (old.certificate, old.has_begun);
+    }
+}
+
+/// A step as all nodes of a pass see it.
+struct Step<'a> {
+    tracker: &'a Tracker,
+    slave: usize,
+    target: usize,
+    candidates: &'a [u32],
+    bodies: &'a [u32],
+    sweep: Sweep<'a, 3>,
+    /// Whether it is known who was inside in the last step.
+    has_begun: bool,
+}
+
+impl Step<'_> {
+    /// Sweeps those of some groups that do not sleep; `touches` are those of the pass, in the order of its
+    /// groups.
+    fn look_at(&self, groups: &mut [Group<Known>], touches: &[ContactPoint]) -> Certificate {
+        let Self { tracker, slave, sweep, .. } = *self;
+        let placed = Placed { surface: &tracker.surfaces()[self.target], positions: sweep.new };
+        let key = |touch: &ContactPoint| {
+            let node = placed.surface.facets[touch.projection.facet as usize][0];
+            (touch.slave, self.bodies.get(node as usize).copied().unwrap_or(u32::MAX))
+        };
+        let first = groups.first().map_or(0, |group| touches.partition_point(|touch| key(touch) < group.key()));
+        let (mut touches, mut seen) = (touches[first..].iter().peekable(), Certificate::default());
+        for group in groups {
+            while touches.next_if(|touch| key(touch) < group.key()).is_some() {}
+            let touch = touches.next_if(|touch| key(touch) == group.key());
+            let side = touch.map_or([0.0; 3], |touch| tracker.kept(touch).side);
+            let was = std::mem::replace(&mut group.known.side, side);
+            let was_inside = was != [0.0; 3];
+            if side != [0.0; 3] {
+                // What is there at the start did not go in.
+                seen.crossings_found += u64::from(!was_inside && self.has_begun);
+                group.known.wake = AWAKE;
+                continue;
+            }
+            if group.known.wake > sweep.travel {
+                continue;
+            }
+            // Who continues with its face has not passed.
+            if touch.is_some_and(|touch| dot(tracker.kept(touch).spring.normal, touch.projection.normal) > 0.0) {
+                group.known.wake = AWAKE;
+                continue;
+            }
+            let candidates = &self.candidates[group.candidates()];
+            let own = if group.own { tracker.own_normal(slave, group.slave, sweep.new) } else { [0.0; 3] };
+            let (passages, clear) = sweep_through(group, candidates, &placed, own, sweep);
+            let is_missed = is_missed(passages.fate(was), touch, sweep.new[group.node as usize], candidates, &placed);
+            let is_lost = || {
+                let left = was_inside && !group.own && touch.is_none();
+                let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };
+                nearest.is_some_and(|nearest| nearest.gap < -ROUNDING * placed.size(nearest.facet))
+            };
+            seen.unverified += u64::from(is_missed || is_lost());
+            group.known.wake = if touch.is_some() { AWAKE } else { wake_at(clear, sweep.travel) };
+        }
+        seen
     }
 }
 

@@ -43,19 +43,14 @@ const GROWTH: u64 = 64 << 20;
 /// State hashes of the first models, a line each: the number and the hash.
 const HASHES: &str = include_str!("hashes.txt");
 
-/// The state hashes that are kept, by the number of the model.
-fn kept_hashes() -> BTreeMap<u64, String> {
-    let lines = HASHES.lines().filter_map(|line| line.split_once(' '));
-    lines.filter_map(|(seed, hash)| Some((seed.parse().ok()?, hash.to_string()))).collect()
-}
-
 /// Models whose energy is known to drift though a quarter of the step would not help: the number and the
 /// drift.
 const DRIFTS: &str = include_str!("drifts.txt");
 
-/// Whether a model is among them.
-fn is_known_to_drift(seed: u64) -> bool {
-    DRIFTS.lines().filter_map(|line| line.split_once(' ')).any(|(known, _)| known.parse() == Ok(seed))
+/// What a table says, by the number of the model.
+fn known(table: &str) -> BTreeMap<u64, String> {
+    let lines = table.lines().filter_map(|line| line.split_once(' '));
+    lines.filter_map(|(seed, what)| Some((seed.parse().ok()?, what.to_string()))).collect()
 }
 
 /// How one model ended.
@@ -82,7 +77,7 @@ fn main() {
     let begin = Instant::now();
     let (mut ends, mut found) = (BTreeMap::<String, u64>::new(), Vec::new());
     let (mut steps, mut warm, mut done, mut drifting, mut stepping) = (0, 0, 0, 0u64, 0u64);
-    let mut hashes = kept_hashes();
+    let (mut hashes, drifts) = (known(HASHES), known(DRIFTS));
     std::panic::set_hook(Box::new(|_| {}));
     let numbers = (first..u64::MAX).filter(|seed| dimension == 0 || dimension == dimension_of(*seed));
     for seed in numbers.take(count.try_into().unwrap_or(usize::MAX)) {
@@ -95,7 +90,7 @@ fn main() {
                 stepping += u64::from(by_step);
                 let drift = drift.filter(|_| !by_step);
                 drifting += u64::from(drift.is_some());
-                match (drift, is_known_to_drift(seed)) {
+                match (drift, drifts.contains_key(&seed)) {
                     (Some(Drift { reported, left }), false) => {
                         faults.push(format!("{reported}, {left:.2} of it with a quarter of the step"));
                     }

@@ -155,12 +155,11 @@ pub struct Tracker {
     band: f64,
     /// Everything nearer was found by the last search, m.
     radius: f64,
-    /// Deepest touch of the last step, m.
-    deepest: f64,
     /// Travel of the last step, m.
     travel: f64,
-    touches: Vec<ContactPoint>,
-    /// What was found in each chunk of groups of a pass.
+    /// What was found in the last step.
+    found: Found,
+    /// The same of each chunk of groups, where these are shared among threads.
     chunks: Vec<Found>,
 }
 
@@ -175,24 +174,31 @@ struct Chunk<'a> {
 
 impl Chunk<'_> {
     /// The groups before number `middle`, and the others.
-    fn split(&mut self, middle: usize) -> [Chunk<'_>; 2] {
-        let Self { first: [first, begin], groups, wakes, clear } = self;
+    fn split(self, middle: usize) -> [Self; 2] {
+        let Chunk { first: [first, begin], groups, wakes, clear } = self;
         // Groups without candidates may stand anywhere.
-        let to = groups[middle..].iter().find(|group| group.begin < group.end).map_or(clear.len(), |group| group.begin as usize - *begin);
+        let to = groups[middle..].iter().find(|group| group.begin < group.end).map_or(clear.len(), |group| group.begin as usize - begin);
         let (groups, wakes, clear) = (groups.split_at_mut(middle), wakes.split_at_mut(middle), clear.split_at_mut(to));
         [
-            Chunk { first: [*first, *begin], groups: groups.0, wakes: wakes.0, clear: clear.0 },
-            Chunk { first: [*first + middle, *begin + to], groups: groups.1, wakes: wakes.1, clear: clear.1 },
+            Chunk { first: [first, begin], groups: groups.0, wakes: wakes.0, clear: clear.0 },
+            Chunk { first: [first + middle, begin + to], groups: groups.1, wakes: wakes.1, clear: clear.1 },
         ]
     }
 }
 
-/// What was found in a chunk.
+/// What was found in a step.
 #[derive(Default)]
 struct Found {
     touches: Vec<ContactPoint>,
     /// Depth of the deepest touch, m.
     deepest: f64,
+}
+
+impl Found {
+    fn clear(&mut self) {
+        self.touches.clear();
+        self.deepest = 0.0;
+    }
 }
 
 /// The step as all groups of a pass see it.
@@ -242,7 +248,7 @@ impl Tracker {
         let bodies = bodies_of(&surfaces, bodies);
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0, deepest: 0.0, travel: 0.0, touches: Vec::new(), chunks: Vec::new(),
+            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0, travel: 0.0, found: Found::default(), chunks: Vec::new(),
         };
         tracker
     }
@@ -327,7 +333,7 @@ impl Tracker {
     /// What [`Tracker::track`] found last.
     #[must_use]
     pub fn touches(&self) -> &[ContactPoint] {
-        &self.touches
+        &self.found.touches
     }
 
     /// What is kept of a touch: nothing where slave and body did not touch in the last step.
@@ -354,9 +360,8 @@ impl Tracker {
         if self.reach.is_left(sweep) {
             self.find_candidates(sweep, extra);
         }
-        self.touches.clear();
-        self.deepest = 0.0;
-        let mut chunks = std::mem::take(&mut self.chunks);
+        let (mut found, mut chunks) = (std::mem::take(&mut self.found), std::mem::take(&mut self.chunks));
+        found.clear();
         for number in 0..self.passes.len() {
             let pass = &mut self.passes[number];
             let asleep = awake(extra + START * self.reach.skin + pass.band, LOOK_AHEAD, sweep.travel, way);
@@ -364,19 +369,25 @@ impl Tracker {
                 (std::mem::take(&mut pass.groups), std::mem::take(&mut pass.wakes), std::mem::take(&mut pass.clear));
             // Within a pool of threads the groups are shared among them; each is looked at by itself.
             let is_shared = rayon::current_thread_index().is_some() && wakes.iter().filter(|wake| **wake <= asleep).count() >= SERIAL;
-            let count = if is_shared { groups.len().div_ceil(CHUNK) } else { 1 };
-            chunks.resize_with(count.max(chunks.len()), Found::default);
+            let look = Look { pass: number, sweep, extra, way, asleep };
+            let count = groups.len().div_ceil(CHUNK);
             let all = Chunk { first: [0; 2], groups: &mut groups, wakes: &mut wakes, clear: &mut clear };
-            self.look_at(Look { pass: number, sweep, extra, way, asleep }, all, &mut chunks[..count]);
-            for found in &chunks[..count] {
-                self.touches.extend_from_slice(&found.touches);
-                self.deepest = self.deepest.max(found.deepest);
+            if is_shared {
+                chunks.resize_with(count.max(chunks.len()), Found::default);
+                chunks[..count].iter_mut().for_each(Found::clear);
+                self.share(look, all, &mut chunks[..count]);
+                for chunk in &chunks[..count] {
+                    found.touches.extend_from_slice(&chunk.touches);
+                    found.deepest = found.deepest.max(chunk.deepest);
+                }
+            } else {
+                self.look_at(look, all, &mut found);
             }
             let pass = &mut self.passes[number];
             (pass.groups, pass.wakes, pass.clear) = (groups, wakes, clear);
         }
-        self.chunks = chunks;
-        &self.touches
+        (self.found, self.chunks) = (found, chunks);
+        &self.found.touches
     }
 
     /// Forgets what is known of the past.
@@ -388,13 +399,13 @@ impl Tracker {
             wakes.clear();
         }
         self.reach.forget();
-        (self.is_new, self.radius, self.deepest, self.travel) = (true, 0.0, 0.0, 0.0);
+        (self.is_new, self.radius, self.found.deepest, self.travel) = (true, 0.0, 0.0, 0.0);
     }
 
     /// Groups and candidates again; what groups remember continues.
     fn find_candidates(&mut self, sweep: Sweep<'_, 3>, extra: f64) {
         let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
-        let radius = 2.0 * self.reach.skin + extra + LOOK_AHEAD * self.reach.fastest(way) + self.deepest;
+        let radius = 2.0 * self.reach.skin + extra + LOOK_AHEAD * self.reach.fastest(way) + self.found.deepest;
         let Self { surfaces, passes, triangles, bodies, band, reach: Reach { search, pairs, skin, .. }, .. } = self;
         let skin = *skin;
         for pass in passes {
@@ -433,23 +444,24 @@ impl Tracker {
         self.reach.settle(sweep);
     }
 
-    /// Looks at the groups of a chunk that are awake, in `found.len()` smaller ones, halves of them at the
-    /// same time.
-    fn look_at(&self, look: Look<'_>, mut chunk: Chunk<'_>, found: &mut [Found]) {
+    /// Looks at a chunk in `found.len()` smaller ones, halves of them at the same time.
+    fn share(&self, look: Look<'_>, chunk: Chunk<'_>, found: &mut [Found]) {
         if let [found] = found {
-            found.touches.clear();
-            found.deepest = 0.0;
-            for index in 0..chunk.groups.len() {
-                if chunk.wakes[index] <= look.asleep {
-                    self.look_at_group(look, &mut chunk, index, found);
-                }
-            }
-            return;
+            return self.look_at(look, chunk, found);
         }
         let middle = found.len() / 2;
         let (low, high) = found.split_at_mut(middle);
         let [before, after] = chunk.split(middle * CHUNK);
-        rayon::join(|| self.look_at(look, before, low), || self.look_at(look, after, high));
+        rayon::join(|| self.share(look, before, low), || self.share(look, after, high));
+    }
+
+    /// Looks at the groups of a chunk that are awake.
+    fn look_at(&self, look: Look<'_>, mut chunk: Chunk<'_>, found: &mut Found) {
+        for index in 0..chunk.groups.len() {
+            if chunk.wakes[index] <= look.asleep {
+                self.look_at_group(look, &mut chunk, index, found);
+            }
+        }
     }
 
     /// Where the node of a group is with respect to its body.
@@ -600,7 +612,7 @@ impl Tracker {
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
         }
-        persist_each!(archive; &mut self.reach, &mut self.is_new, &mut self.radius, &mut self.deepest, &mut self.travel);
+        persist_each!(archive; &mut self.reach, &mut self.is_new, &mut self.radius, &mut self.found.deepest, &mut self.travel);
         Ok(())
     }
 
@@ -615,7 +627,7 @@ impl Tracker {
             pass.wakes = vec![AWAKE; pass.groups.len()];
         }
         self.is_new = old.is_new;
-        (self.travel, self.deepest) = (old.travel, old.deepest);
+        (self.travel, self.found.deepest) = (old.travel, old.found.deepest);
         self.reach.inherit(&old.reach);
     }
 }

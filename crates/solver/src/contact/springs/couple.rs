@@ -14,6 +14,7 @@ use crate::rigid::RigidMotion;
 use crate::rows::Rows;
 use crate::tensor::Dim;
 use crate::vector::dot;
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Springs at a node that know each other one by one; with more it is a hub.
@@ -77,8 +78,6 @@ where
     slips: &'a [Slips<D>],
     slots: &'a [Slot<D>],
     links: usize,
-    /// Links of a part.
-    length: usize,
 }
 
 /// What friction does to a gap, and what forces do to slips.
@@ -127,8 +126,14 @@ where
         if self.parts.len() < count {
             self.parts.resize_with(count, Part::default);
         }
-        let whole = Whole { touches: &self.touches, arms, slips, slots, links: links.len(), length };
-        whole.fill(0, links, &mut self.parts[..count]);
+        let whole = Whole { touches: &self.touches, arms, slips, slots, links: links.len() };
+        match &mut self.parts[..count] {
+            [part] => whole.fill(0, links, part),
+            parts => {
+                let parts = links.par_chunks_mut(length).zip(parts).enumerate();
+                parts.for_each(|(number, (links, part))| whole.fill(number * length, links, part));
+            }
+        }
     }
 
     /// The arms at a slot.
@@ -200,20 +205,8 @@ impl<const D: usize> Whole<'_, D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Fills the parts of links, of which the first has the number `first`; halves of them at the same time.
-    fn fill(self, first: usize, links: &mut [Link<D>], parts: &mut [Part<D>]) {
-        if let [part] = parts {
-            self.fill_part(first, links, part);
-            return;
-        }
-        let middle = parts.len() / 2;
-        let (low, high) = links.split_at_mut(middle * self.length);
-        let (parts, others) = parts.split_at_mut(middle);
-        rayon::join(|| self.fill(first, low, parts), || self.fill(first + middle * self.length, high, others));
-    }
-
-    /// What the springs of a part have to do with others.
-    fn fill_part(self, first: usize, links: &mut [Link<D>], part: &mut Part<D>) {
+    /// What the springs of a part, the first of which has the number `first`, have to do with others.
+    fn fill(self, first: usize, links: &mut [Link<D>], part: &mut Part<D>) {
         let Self { touches, arms, slips, slots, .. } = self;
         let slides = !slips.is_empty();
         let Part { rows, neighbours, normal, along, found } = part;

@@ -303,7 +303,7 @@ where
         }
         let Part { links, first, arms, slips } = part;
         for link in links {
-            let own = link.first as usize - first..(link.first + link.count) as usize - first;
+            let own = link.arms().start - first..link.arms().end - first;
             let slips = if slips.is_empty() { &mut [][..] } else { &mut slips[own.clone()] };
             self.link(link, &mut arms[own], slips, movables);
         }

@@ -231,8 +231,9 @@ where
     }
 }
 
-/// Links of an island of so many that one task fills: a power of two, which decides no result.
+/// Links of an island of so many that one task fills: a power of two, which decides no result; no task has
+/// more than its thread's share.
 fn part_length(links: usize) -> usize {
-    let tasks = if rayon::current_thread_index().is_some() { rayon::current_num_threads() } else { 1 };
-    (links / tasks.min(links / CHUNK).max(1)).max(1).next_power_of_two()
+    let tasks = rayon::current_thread_index().map_or(1, |_| rayon::current_num_threads()).min(links / CHUNK);
+    if tasks > 1 { 1 << (links / tasks).ilog2() } else { links.max(1).next_power_of_two() }
 }

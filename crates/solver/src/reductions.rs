@@ -130,14 +130,48 @@ fn power(exponent: i32) -> f64 {
 
 /// The sum of numbers, rounded once: the same for every order.
 #[must_use]
-pub fn sum(values: impl IntoIterator<Item = f64>) -> f64 {
-    let mut values = values.into_iter();
+pub fn sum<Values>(values: Values) -> f64
+where
+    Values: IntoIterator<Item = f64>,
+    Values::IntoIter: Clone,
+{
+    let all = values.into_iter();
+    let mut values = all.clone();
     let Some(first) = values.next() else { return 0.0 };
     let Some(second) = values.next() else { return first };
-    let Some(third) = values.next() else { return first + second };
-    let mut sum = ExactSum::default();
-    [first, second, third].into_iter().chain(values).for_each(|value| sum.add(value));
-    sum.value()
+    let Some(_) = values.next() else { return first + second };
+    sum_of_similar(all.clone()).unwrap_or_else(|| {
+        let mut sum = ExactSum::default();
+        all.for_each(|value| sum.add(value));
+        sum.value()
+    })
+}
+
+/// The sum of numbers that are zero, or 2^-32 to 2^28 times as large as the first that is not: an integer of
+/// 128 bits, rounded once. `None` where they are of other sizes, or too many. Most sums of a step are such.
+fn sum_of_similar(values: impl Iterator<Item = f64>) -> Option<f64> {
+    const BELOW: i32 = 32;
+    const RANGE: i32 = 60;
+    // Each is less than 2^(53 + 60): so many stay below 2^126.
+    const MANY: usize = 1 << 13;
+    let exponent = |value: f64| (value.to_bits() >> 52) as i32 & 0x7ff;
+    let mut values = values.filter(|value| *value != 0.0).peekable();
+    let Some(&first) = values.peek() else { return Some(0.0) };
+    let lowest = exponent(first) - BELOW;
+    // Neither the unit nor the sum is near the ends of the numbers.
+    if !(64..=1900).contains(&lowest) {
+        return None;
+    }
+    let mut sum = 0;
+    for (count, value) in values.enumerate() {
+        let shift = exponent(value) - lowest;
+        if !(0..=RANGE).contains(&shift) || count == MANY {
+            return None;
+        }
+        let mantissa = i128::from(value.to_bits() & ((1 << 52) - 1) | 1 << 52) << shift;
+        sum += if value < 0.0 { -mantissa } else { mantissa };
+    }
+    Some(sum as f64 * power(lowest + LEAST - 1))
 }
 
 /// A sum in the order in which its terms come, rounded after each: what moves nodes and has always been added
@@ -232,6 +266,14 @@ mod tests {
             // With all of it taken away again nothing is left.
             values.iter().for_each(|&value| all.add(-value));
             prop_assert_eq!(all.value(), 0.0);
+        }
+
+        #[test]
+        fn sums_of_similar_numbers_are_those_of_all_digits(values in proptest::collection::vec(prop_oneof![-1e3..1e3, Just(0.0)], 3..60), power in -900..900) {
+            let values: Vec<f64> = values.iter().map(|value| value * 2f64.powi(power)).collect();
+            let mut wanted = ExactSum::default();
+            values.iter().for_each(|&value| wanted.add(value));
+            prop_assert_eq!(sum(values.iter().copied()), wanted.value());
         }
 
         #[test]

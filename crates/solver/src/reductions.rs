@@ -135,11 +135,11 @@ where
     Values: IntoIterator<Item = f64>,
     Values::IntoIter: Clone,
 {
-    let all = values.into_iter();
-    let mut values = all.clone();
+    let mut values = values.into_iter();
     let Some(first) = values.next() else { return 0.0 };
     let Some(second) = values.next() else { return first };
-    let Some(_) = values.next() else { return first + second };
+    let Some(third) = values.next() else { return first + second };
+    let all = [first, second, third].into_iter().chain(values);
     sum_of_similar(all.clone()).unwrap_or_else(|| {
         let mut sum = ExactSum::default();
         all.for_each(|value| sum.add(value));

@@ -57,9 +57,7 @@ impl ResultFolder {
     pub fn create(path: &Path, force: bool) -> Result<Self, ResultsError> {
         let own = Self::take(path)?;
         if force {
-            for file in existing(path)? {
-                fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
-            }
+            remove_existing(path, |_, _| true)?;
             for folder in [path.join(PICTURES), path.join(FOLDER)] {
                 // Stays if something foreign lies in it.
                 let _ = fs::remove_dir(folder);
@@ -89,7 +87,7 @@ impl ResultFolder {
     /// # Errors
     /// What the system says.
     pub(super) fn clear_unfinished(&self, hashes: bool) -> Result<(), ResultsError> {
-        self.remove_files(|file, name| name.ends_with(".part") && !self.is_table(file, hashes))
+        remove_existing(&self.path, |file, name| name.ends_with(".part") && !self.is_table(file, hashes))
     }
 
     /// Results that continue from a checkpoint of `step`, with so many `frames`, and with `hashes` or not:
@@ -99,7 +97,7 @@ impl ResultFolder {
     /// What the system says.
     pub(super) fn cut(&self, frames: usize, hashes: bool, step: u64) -> Result<(), ResultsError> {
         let path = self.path.as_path();
-        self.remove_files(|file, name| {
+        remove_existing(path, |file, name| {
             if file.parent() == Some(&path.join(FRAMES)) {
                 frame_number(name).is_some_and(|number| number >= frames)
             } else if file.parent() == Some(&path.join(FOLDER)) {
@@ -120,15 +118,6 @@ impl ResultFolder {
         is("history.csv") || (hashes && is(HASHES))
     }
 
-    /// Removes those of its own files of which `goes` says so, by path and name.
-    fn remove_files(&self, goes: impl Fn(&Path, &str) -> bool) -> Result<(), ResultsError> {
-        let goes = |file: &PathBuf| file.file_name().and_then(|name| name.to_str()).is_some_and(|name| goes(file, name));
-        for file in existing(&self.path)?.into_iter().filter(goes) {
-            fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
-        }
-        Ok(())
-    }
-
     /// Takes the results of a run away: files with the names that embate gives, and the folder if nothing
     /// else is in it.
     ///
@@ -137,9 +126,7 @@ impl ResultFolder {
     pub(crate) fn remove(path: &Path) -> Result<(), ResultsError> {
         Self::refuse_link(path)?;
         let lock = FolderLock::take(path)?;
-        for file in existing(path)? {
-            fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
-        }
+        remove_existing(path, |_, _| true)?;
         post_mortem::remove(path)?;
         drop(lock);
         for folder in [path.join(PICTURES), path.join(FRAMES), path.join(FOLDER), path.to_path_buf()] {
@@ -195,6 +182,15 @@ fn is_there(path: &Path) -> Result<bool, ResultsError> {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
         Err(error) => Err(ResultsError::file("open", path)(error)),
     }
+}
+
+/// Removes those files in `path` that a run of embate makes and of which `goes` says so, by path and name.
+fn remove_existing(path: &Path, goes: impl Fn(&Path, &str) -> bool) -> Result<(), ResultsError> {
+    let goes = |file: &PathBuf| file.file_name().and_then(|name| name.to_str()).is_some_and(|name| goes(file, name));
+    for file in existing(path)?.into_iter().filter(goes) {
+        fs::remove_file(&file).map_err(ResultsError::file("remove", &file))?;
+    }
+    Ok(())
 }
 
 /// All files in `path` that a run of embate makes, in a fixed order.

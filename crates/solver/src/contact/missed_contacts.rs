@@ -55,13 +55,11 @@ const ROUNDING: f64 = 1e-9;
 /// What is known of a slave node and a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Known {
-    /// Side on which it was inside after the last step; zero: it was not.
+    /// Side on which it was inside after the last step; zero: it was not. Who was does not sleep.
     side: Vector,
-    /// Sleeps up to this travel, m.
-    wake: f64,
 }
 
-persist_all!(Known { side, wake });
+persist_all!(Known { side });
 
 /// Nodes of one surface against another one, or the same.
 #[derive(Default)]
@@ -70,6 +68,10 @@ struct Pass {
     target: usize,
     triangles: Vec<[u32; 3]>,
     groups: Vec<Group<Known>>,
+    /// Travel up to which each sleeps, m.
+    wakes: Vec<f64>,
+    /// By which each stands where it is ([`order_of`]); made again where it is empty.
+    order: Vec<u64>,
     candidates: Vec<u32>,
 }
 
@@ -137,7 +139,7 @@ impl MissedContactCheck {
         }
         let mut touches = tracker.touches();
         for number in 0..self.passes.len() {
-            let count = touches.iter().take_while(|touch| touch.pass as usize == number).count();
+            let count = touches.partition_point(|touch| touch.pass as usize <= number);
             let (own, rest) = touches.split_at(count);
             touches = rest;
             self.look_at_nodes(number, tracker, own, sweep);
@@ -168,21 +170,30 @@ impl MissedContactCheck {
             let old = std::mem::take(&mut pass.groups);
             let mut old = old.iter().filter(|group| group.known.side != [0.0; 3]).peekable();
             pass.candidates.clear();
-            let is_near = |node: u32, facet: u32| placed.distance(sweep.new[node as usize], facet).is_none_or(|found| found <= farthest);
+            pass.wakes.clear();
+            pass.order.clear();
+            // What is no number is not far from anything.
+            let distance = |node: u32, facet: u32| placed.distance(sweep.new[node as usize], facet).unwrap_or(0.0);
+            let is_near = |found: &f64| *found <= farthest;
             let meeting = Meeting { slaves, target, is_one: pass.slave == pass.target };
             meeting.each(
                 &mut *self.search,
                 &query,
                 &mut self.pairs,
                 body,
-                |node, facet| is_near(node, facet).then_some(()),
+                |node, facet| Some(distance(node, facet)).filter(is_near),
                 |[slave, node, there], facets| {
-                    let begin = pass.candidates.len() as u32;
-                    pass.candidates.extend(facets.map(|(facet, ())| facet));
+                    let (begin, mut clear) = (pass.candidates.len() as u32, f64::INFINITY);
+                    pass.candidates.extend(facets.map(|(facet, apart)| {
+                        clear = clear.min(apart);
+                        facet
+                    }));
                     let side = Group::known_of(&mut old, (slave, there)).map_or([0.0; 3], |known| known.side);
                     let (end, own) = (pass.candidates.len() as u32, body(node) == there);
-                    let known = Known { side, wake: AWAKE };
-                    pass.groups.push(Group { slave, node, body: there, begin, end, own, known });
+                    pass.groups.push(Group { slave, node, body: there, begin, end, own, known: Known { side } });
+                    // Who was outside and is farther than both can have gone did not meet anything.
+                    let sleeps = side == [0.0; 3] && clear > 2.0 * fastest * SLACK;
+                    pass.wakes.push(if sleeps { wake_at(clear, sweep.travel) } else { AWAKE });
                 },
             );
         }
@@ -206,23 +217,27 @@ impl MissedContactCheck {
 
     /// Sweeps the nodes of a pass that do not sleep, `touches` are theirs.
     fn look_at_nodes(&mut self, number: usize, tracker: &Tracker, touches: &[ContactPoint], sweep: Sweep<'_, 3>) {
-        let mut groups = std::mem::take(&mut self.passes[number].groups);
-        let pass = &self.passes[number];
+        let pass = &mut self.passes[number];
+        if pass.order.len() != pass.groups.len() {
+            pass.order.clear();
+            pass.order.extend(pass.groups.iter().map(|group| order_of(group.key())));
+        }
         let (bodies, has_begun) = (&self.bodies[..], self.has_begun);
-        let step = Step { tracker, slave: pass.slave, target: pass.target, candidates: &pass.candidates, bodies, sweep, has_begun };
+        let Pass { slave, target, groups, wakes, order, candidates, .. } = pass;
+        let step = Step { tracker, slave: *slave, target: *target, candidates, bodies, sweep, has_begun };
         // Within a pool of threads the groups are shared among them; counts have no order.
         let seen = if rayon::current_thread_index().is_some() && groups.len() > CHUNK {
-            let seen = groups.par_chunks_mut(CHUNK).map(|groups| step.look_at(groups, touches));
+            let chunks = (groups.par_chunks_mut(CHUNK), wakes.par_chunks_mut(CHUNK), order.par_chunks(CHUNK));
+            let seen = chunks.into_par_iter().map(|chunk| step.look_at(chunk, touches));
             seen.reduce(Certificate::default, |mut sum, seen| {
                 sum += seen;
                 sum
             })
         } else {
-            step.look_at(&mut groups, touches)
+            step.look_at((groups, wakes, order), touches)
         };
         self.certificate += seen;
-        self.certificate.pairs_swept += self.passes[number].candidates.len() as u64;
-        self.passes[number].groups = groups;
+        self.certificate.pairs_swept += candidates.len() as u64;
     }
 
     /// Sweeps the pairs of ridges that do not sleep.
@@ -281,7 +296,9 @@ impl MissedContactCheck {
     pub(super) fn persist(&mut self, archive: &mut Archive<'_>, surfaces: &[SpaceSurface]) -> ArchiveResult {
         let Self { passes, bodies: _, search: _, pairs: _, edges, wakes, margin: _, searched, has_begun, certificate } = self;
         for pass in passes {
-            persist_each!(archive; &mut pass.groups, &mut pass.candidates);
+            persist_each!(archive; &mut pass.groups, &mut pass.wakes, &mut pass.candidates);
+            pass.order.clear();
+            archive.check(pass.wakes.len() == pass.groups.len(), "a proof knows when others wake")?;
             let (slaves, facets) = (&surfaces[pass.slave].nodes, surfaces[pass.target].facets.len());
             let is_there = |group: &Group<Known>| group.is_there(slaves, pass.candidates.len());
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
@@ -301,6 +318,8 @@ impl MissedContactCheck {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
             let inside = before.groups.iter().filter(|group| group.known.side != [0.0; 3]);
             pass.groups = Group::moved(inside, &surfaces[pass.slave].nodes);
+            pass.wakes = vec![AWAKE; pass.groups.len()];
+            pass.order.clear();
         }
         (self.certificate, self.has_begun) = (old.certificate, old.has_begun);
     }
@@ -321,49 +340,83 @@ struct Step<'a> {
 impl Step<'_> {
     /// Sweeps those of some groups that do not sleep; `touches` are those of the pass, in the order of its
     /// groups.
-    fn look_at(&self, groups: &mut [Group<Known>], touches: &[ContactPoint]) -> Certificate {
-        let Self { tracker, slave, sweep, .. } = *self;
-        let placed = Placed { surface: &tracker.surfaces()[self.target], positions: sweep.new };
-        let key = |touch: &ContactPoint| {
-            let node = placed.surface.facets[touch.projection.facet as usize][0];
-            (touch.slave, self.bodies.get(node as usize).copied().unwrap_or(u32::MAX))
+    fn look_at(&self, (groups, wakes, order): (&mut [Group<Known>], &mut [f64], &[u64]), touches: &[ContactPoint]) -> Certificate {
+        let Self { tracker, sweep, .. } = *self;
+        let target = &tracker.surfaces()[self.target];
+        let order_of = |touch: &ContactPoint| {
+            let node = target.facets[touch.projection.facet as usize][0];
+            order_of((touch.slave, self.bodies.get(node as usize).copied().unwrap_or(u32::MAX)))
         };
-        let first = groups.first().map_or(0, |group| touches.partition_point(|touch| key(touch) < group.key()));
-        let (mut touches, mut seen) = (touches[first..].iter().peekable(), Certificate::default());
-        for group in groups {
-            while touches.next_if(|touch| key(touch) < group.key()).is_some() {}
-            let touch = touches.next_if(|touch| key(touch) == group.key());
-            let side = touch.map_or([0.0; 3], |touch| tracker.kept(touch).side);
-            let was = std::mem::replace(&mut group.known.side, side);
-            let was_inside = was != [0.0; 3];
-            if side != [0.0; 3] {
-                // What is there at the start did not go in.
-                seen.crossings_found += u64::from(!was_inside && self.has_begun);
-                group.known.wake = AWAKE;
-                continue;
+        let mut seen = Certificate::default();
+        let (Some(&first), Some(&last)) = (order.first(), order.last()) else { return seen };
+        let mut at = 0;
+        for touch in &touches[touches.partition_point(|touch| order_of(touch) < first)..] {
+            let own = order_of(touch);
+            if own > last {
+                break;
             }
-            if group.known.wake > sweep.travel {
-                continue;
+            // Those before it have no touch.
+            while order[at] < own {
+                if !(wakes[at] > sweep.travel) {
+                    self.look_at_one(&mut groups[at], &mut wakes[at], None, &mut seen);
+                }
+                at += 1;
             }
-            // Who continues with its face has not passed.
-            if touch.is_some_and(|touch| dot(tracker.kept(touch).spring.normal, touch.projection.normal) > 0.0) {
-                group.known.wake = AWAKE;
-                continue;
+            if order[at] == own {
+                self.look_at_one(&mut groups[at], &mut wakes[at], Some(touch), &mut seen);
+                at += 1;
             }
-            let candidates = &self.candidates[group.candidates()];
-            let own = if group.own { tracker.own_normal(slave, group.slave, sweep.new) } else { [0.0; 3] };
-            let (passages, clear) = sweep_through(group, candidates, &placed, own, sweep);
-            let is_missed = is_missed(passages.fate(was), touch, sweep.new[group.node as usize], candidates, &placed);
-            let is_lost = || {
-                let left = was_inside && !group.own && touch.is_none();
-                let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };
-                nearest.is_some_and(|nearest| nearest.gap < -ROUNDING * placed.size(nearest.facet))
-            };
-            seen.unverified += u64::from(is_missed || is_lost());
-            group.known.wake = if touch.is_some() { AWAKE } else { wake_at(clear, sweep.travel) };
+            if at == order.len() {
+                return seen;
+            }
+        }
+        for at in at..order.len() {
+            if !(wakes[at] > sweep.travel) {
+                self.look_at_one(&mut groups[at], &mut wakes[at], None, &mut seen);
+            }
         }
         seen
     }
+
+    /// Sweeps a group with its touch, if it has one, unless it sleeps.
+    #[inline(always)]
+    fn look_at_one(&self, group: &mut Group<Known>, wake: &mut f64, touch: Option<&ContactPoint>, seen: &mut Certificate) {
+        let Self { tracker, slave, sweep, .. } = *self;
+        let side = touch.map_or([0.0; 3], |touch| tracker.kept(touch).side);
+        let was = std::mem::replace(&mut group.known.side, side);
+        let was_inside = was != [0.0; 3];
+        if side != [0.0; 3] {
+            // What is there at the start did not go in.
+            seen.crossings_found += u64::from(!was_inside && self.has_begun);
+            *wake = AWAKE;
+            return;
+        }
+        if *wake > sweep.travel {
+            return;
+        }
+        // Who continues with its face has not passed.
+        if touch.is_some_and(|touch| dot(tracker.kept(touch).spring.normal, touch.projection.normal) > 0.0) {
+            *wake = AWAKE;
+            return;
+        }
+        let placed = Placed { surface: &tracker.surfaces()[self.target], positions: sweep.new };
+        let candidates = &self.candidates[group.candidates()];
+        let own = if group.own { tracker.own_normal(slave, group.slave, sweep.new) } else { [0.0; 3] };
+        let (passages, clear) = sweep_through(group, candidates, &placed, own, sweep);
+        let is_missed = is_missed(passages.fate(was), touch, sweep.new[group.node as usize], candidates, &placed);
+        let is_lost = || {
+            let left = was_inside && !group.own && touch.is_none();
+            let nearest = if left { placed.project(sweep.new[group.node as usize], candidates.iter().copied()) } else { None };
+            nearest.is_some_and(|nearest| nearest.gap < -ROUNDING * placed.size(nearest.facet))
+        };
+        seen.unverified += u64::from(is_missed || is_lost());
+        *wake = if touch.is_some() { AWAKE } else { wake_at(clear, sweep.travel) };
+    }
+}
+
+/// A number by which groups stand in their order: that of slaves, then of bodies.
+fn order_of((slave, body): (u32, u32)) -> u64 {
+    u64::from(slave) << 32 | u64::from(body)
 }
 
 /// The travel up to which what is `clear` (m) apart can't meet.
@@ -402,7 +455,7 @@ fn sweep_through(group: &Group<Known>, candidates: &[u32], placed: &Placed<'_>, 
         let corners = placed.surface.facets[facet as usize];
         let fastest = corners.corners().iter().map(|&node| way(node)).fold(0.0, f64::max);
         if apart <= (own_way + fastest) * SLACK {
-            passages.add(placed, sweep, group.node, facet);
+            passages.add(placed, sweep, group.node, (facet, 0));
         }
     }
     (passages, clear)

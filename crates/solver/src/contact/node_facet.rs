@@ -11,6 +11,7 @@ mod ends;
 mod far;
 pub(super) mod groups;
 pub mod make;
+mod measured;
 pub(super) mod passage;
 mod tied;
 pub mod tracker;
@@ -192,16 +193,16 @@ impl NodeFacet {
     /// The spring of a node that touches.
     fn push_node(&mut self, index: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         let touch = self.tracker.touches()[index];
-        let memory = *self.tracker.kept(&touch);
-        let (gap, offset) = self.continuity.beyond(self.gap(&touch), touch.own, &memory.spring);
+        let history = self.tracker.kept(&touch).spring;
+        let (gap, offset) = self.continuity.beyond(self.gap(&touch), touch.own, &history);
         let mut more = std::mem::take(&mut self.more);
         let (pass, node, slave) = (&self.passes[touch.pass as usize], touch.node, touch.slave as usize);
         let Projection { normal, facet, weights, .. } = touch.projection;
         let target = self.tracker.target(touch.pass);
         let rest = Placed { surface: target, positions: scene.sweep.new }.rests_on(&touch.projection);
-        let (stiffness, area) = (pass.softest(slave, Face::WHOLE, target.sharing(facet, rest)), pass.slaves[slave].area);
-        let thickness = pass.thickness(slave, target.sharing(facet, rest));
-        let of_mass = pass.of_mass(slave, target.sharing(facet, rest));
+        let facets = target.sharing(facet, rest);
+        let (stiffness, area) = (pass.softest(slave, Face::WHOLE, facets.clone()), pass.slaves[slave].area);
+        let (thickness, of_mass) = (pass.thickness(slave, facets.clone()), pass.of_mass(slave, facets));
         let (stiffening, side) = (stiffening(thickness, pass.factor(stiffness, of_mass)), self.tracker.side(touch.pass));
         let spring = Spring { normal, gap, stiffness, area, stiffening, side, ..Spring::default() };
         if !self.slips && weights.iter().all(|weight| *weight >= 0.0) {
@@ -210,19 +211,19 @@ impl NodeFacet {
             let shares = corners.filter(|(_, weight)| *weight != 0.0).map(|(corner, weight)| (corner, -weight));
             springs.push_plain(spring, std::iter::once((node, 1.0)).chain(shares));
         } else {
-            self.push_whole(&touch, &memory, (spring, rest), scene, (springs, &mut more));
+            self.push_whole(&touch, (spring, rest), scene, (springs, &mut more));
         }
-        self.continuity.resume(&memory.spring, springs);
+        self.continuity.resume(&history, springs);
         self.more = more;
-        let spring = SpringHistory { offset, normal, stored: 0.0, ..memory.spring };
-        *self.tracker.kept_mut(&touch) = ContactHistory { spring, facet, rest, ..memory };
+        let kept = self.tracker.kept_mut(&touch);
+        (kept.spring.offset, kept.spring.normal, kept.spring.stored) = (offset, normal, 0.0);
+        (kept.facet, kept.rest) = (facet, rest);
     }
 
     /// The same with slip and rims.
     fn push_whole(
         &self,
         touch: &ContactPoint,
-        memory: &ContactHistory,
         (spring, rest): (Spring<3>, [u32; 2]),
         scene: &Scene<'_, 3>,
         (springs, more): (&mut Springs<3>, &mut Vec<End<3>>),
@@ -237,7 +238,7 @@ impl NodeFacet {
         let facets = placed.surface.sharing(facet, rest);
         let tangent = tangent(normal, first_edge(&placed, facet));
         let (ends, known) = ends_with(&placed, (touch.node, &touch.projection), &tangent, facets.clone(), more);
-        let slip = cone::carried(slip(&placed, memory.slip, facets, scene.sweep), Dim::<3>::tangents(normal, &tangent));
+        let slip = cone::carried(slip(&placed, self.tracker.kept(touch).slip, facets, scene.sweep), Dim::<3>::tangents(normal, &tangent));
         springs.push_with(Spring { slip, tangent, ..spring }, ends[..known].iter().chain(&*more));
     }
 
@@ -296,11 +297,11 @@ impl NodeFacet {
             if self.passes[touch.pass as usize].slaves[touch.slave as usize].area == 0.0 {
                 continue;
             }
-            let memory = *self.tracker.kept(&touch);
-            if !self.superseded.is_empty() && memory.spring.half() >= reach && self.is_superseded(&touch, scene) {
+            let SpringHistory { stored, .. } = self.tracker.kept(&touch).spring;
+            if !self.superseded.is_empty() && self.tracker.kept(&touch).spring.half() >= reach && self.is_superseded(&touch, scene) {
                 continue;
             }
-            again.add(memory.spring.stored);
+            again.add(stored);
             self.push_node(index, scene, springs);
             self.used.push(index as u32);
         }

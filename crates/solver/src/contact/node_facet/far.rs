@@ -8,14 +8,19 @@
 //! step be looked at for a passage; a node all of whose candidates are beyond what touches sleeps. Bounds are
 //! part of the state, so that a run that is resumed sleeps as the one that continued.
 
+use super::super::projection::node_facet::eight::Plane;
 use super::super::projection::node_facet::{Found, Placed, Vector};
 use super::super::tracker::sleep::{self, AWAKE};
+use super::measured::Known;
 
 /// Bounds are taken as so much smaller, as a fraction of what they are made of: they may round.
 const ROUNDING: f64 = 1e-12;
 /// A node can't go through a facet that is farther than so many times the longest way of a node in the step:
 /// twice that, with room for facets that turn.
-const PASSAGE: f64 = 8.0;
+pub(super) const PASSAGE: f64 = 8.0;
+
+/// All triangles of a facet of four nodes.
+pub(super) const ALL: u32 = 0b1111;
 
 /// Candidates of a node in a body, with what is known of their distances.
 pub(super) struct Candidates<'a> {
@@ -26,34 +31,60 @@ pub(super) struct Candidates<'a> {
     /// Travel of this step, and the longest way of a node in it, m.
     pub(super) travel: f64,
     pub(super) way: f64,
+    /// Those that have been measured already.
+    pub(super) known: Known<'a>,
 }
 
 /// How far away something is at least, m.
-fn least(clear: f64, travel: f64) -> f64 {
+pub(super) fn least(clear: f64, travel: f64) -> f64 {
     clear - 2.0 * travel - ROUNDING * (clear.abs() + 2.0 * travel)
 }
 
 impl Candidates<'_> {
-    /// Those that a node may have gone through in the step.
-    pub(super) fn in_passage(&self) -> impl Iterator<Item = u32> {
+    /// Those that a node may have gone through in the step, each with those of its triangles that it did not
+    /// go through, a bit for each.
+    pub(super) fn in_passage(&self) -> impl Iterator<Item = (u32, u32)> {
         let is_far = |clear: f64| least(clear, self.travel) > PASSAGE * self.way;
-        self.facets.iter().zip(&*self.clear).filter(move |(_, clear)| !is_far(**clear)).map(|(facet, _)| *facet)
+        let near = self.facets.iter().zip(&*self.clear).enumerate().filter(move |(_, (_, clear))| !is_far(**clear));
+        near.map(|(k, (facet, _))| (*facet, self.known.stays(k))).filter(|(_, stays)| *stays != ALL)
     }
 
     /// What is nearest to x among the facets that count, see [`Placed::is_nearer`]; `likely` is asked first.
-    pub(super) fn nearest(&mut self, placed: &Placed<'_>, x: Vector, likely: u32, counts: impl Fn(u32) -> bool) -> Option<Found> {
+    /// With its plane, if that is known.
+    #[inline]
+    pub(super) fn nearest(
+        &mut self,
+        placed: &Placed<'_>,
+        x: Vector,
+        likely: u32,
+        counts: impl Fn(u32) -> bool,
+    ) -> Option<(Found, Option<Plane>)> {
         let first = self.facets.iter().position(|&facet| facet == likely).unwrap_or(0);
-        let mut best: Option<Found> = None;
-        for k in std::iter::once(first).filter(|_| !self.facets.is_empty()).chain((0..self.facets.len()).filter(|&k| k != first)) {
+        let mut best: Option<(Found, Option<Plane>)> = None;
+        for number in 0..self.facets.len() {
+            // The likely one, those before it, and those after it.
+            let k = match number {
+                0 => first,
+                _ if number <= first => number - 1,
+                _ => number,
+            };
             let facet = self.facets[k];
             let known = least(self.clear[k], self.travel);
-            if best.is_some_and(|(best, ..)| known > 0.0 && known * known > best.square) || !counts(facet) {
+            if best.as_ref().is_some_and(|((best, ..), _)| known > 0.0 && known * known > best.square) || !counts(facet) {
                 continue;
             }
-            let Some((found, triangle)) = placed.nearest(x, facet) else { continue };
-            self.clear[k] = sleep::wake_at(found.square.sqrt(), self.travel);
-            let found = (found, facet, triangle);
-            if best.is_none_or(|best| placed.is_nearer(x, &found, &best)) {
+            let found = match self.known.of(k, facet) {
+                Some((found, plane)) => (found, Some(plane)),
+                None => match placed.nearest(x, facet) {
+                    Some((found, triangle)) => ((found, facet, triangle), None),
+                    None => continue,
+                },
+            };
+            let (nearest, ..) = found.0;
+            self.clear[k] = sleep::wake_at(nearest.square.sqrt(), self.travel);
+            let is_nearer =
+                |(best, plane): &(Found, Option<Plane>)| placed.is_nearer_of((x, &found.0, found.1.as_ref()), (best, plane.as_ref()));
+            if best.as_ref().is_none_or(is_nearer) {
                 best = Some(found);
             }
         }
@@ -106,12 +137,12 @@ mod tests {
             positions.iter_mut().for_each(moved);
             let placed = Placed { surface: &surface, positions: &positions };
             let measured = std::cell::Cell::new(0);
-            let mut candidates = Candidates { facets: &facets, clear: &mut clear, travel, way };
+            let mut candidates = Candidates { facets: &facets, clear: &mut clear, travel, way, known: Known::NONE };
             let counts = |_| {
                 measured.set(measured.get() + 1);
                 true
             };
-            let found = candidates.nearest(&placed, x, 5, counts).map(|(nearest, facet, k)| (nearest.square, facet, k));
+            let found = candidates.nearest(&placed, x, 5, counts).map(|((nearest, facet, k), _)| (nearest.square, facet, k));
             let all = facets.iter().filter_map(|&facet| placed.nearest(x, facet).map(|(nearest, k)| (nearest, facet, k)));
             let best = all.reduce(|a, b| if placed.is_nearer(x, &b, &a) { b } else { a });
             assert_eq!(found, best.map(|(nearest, facet, k)| (nearest.square, facet, k)));

@@ -8,12 +8,14 @@
 //! which it came in leads it.
 
 use super::super::Sweep;
-use super::super::projection::node_facet::{Placed, Projection, Vector};
+use super::super::projection::node_facet::eight::RIM;
+use super::super::projection::node_facet::{Placed, Projection, Vector, square_to_triangle};
 use super::super::projection::swept::{is_beside, passages};
 use super::far::Candidates;
 use super::tracker::SAME_SIDE;
 use crate::mesh::surface::Corners;
 use crate::tensor::dot;
+use crate::vector::{length, minus};
 
 /// Cosine of the angle between the side from which a node came in and the normals of facets of the face
 /// there.
@@ -21,11 +23,14 @@ pub(in crate::contact) const ALONG: f64 = 0.5;
 /// Times of one step that differ by less are the same, and who goes in and out at the same time is out.
 const SAME_TIME: f64 = 1e-12;
 
+/// Ways may round.
+const SLACK: f64 = 1.001;
+
 /// How far beyond the box of a facet a node passes it by for sure, as a fraction of the size of the box.
 const BESIDE: f64 = 1e-3;
 
 /// A node goes through a facet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Passage {
     /// When, 0 to 1.
     time: f64,
@@ -35,9 +40,17 @@ struct Passage {
     normal: Vector,
 }
 
-/// What a node did in a step. Nearly always nothing, which costs no storage.
+/// So many passages of a node in a step need no storage of their own.
+const FEW: usize = 8;
+
+/// What a node did in a step.
 #[derive(Debug, Default)]
-pub(in crate::contact) struct Passages(Vec<Passage>);
+pub(in crate::contact) struct Passages {
+    few: [Passage; FEW],
+    count: usize,
+    /// All, where they are more.
+    more: Vec<Passage>,
+}
 
 /// What becomes of a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,21 +64,33 @@ pub(in crate::contact) struct Outcome {
 }
 
 impl Passages {
-    /// Of a node through some facets.
-    pub(in crate::contact) fn of(placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facets: impl IntoIterator<Item = u32>) -> Self {
+    /// Of a node through some facets, each with those of its triangles that it goes through in no case, a bit
+    /// for each.
+    pub(in crate::contact) fn of(
+        placed: &Placed<'_>,
+        sweep: Sweep<'_, 3>,
+        node: u32,
+        facets: impl IntoIterator<Item = (u32, u32)>,
+    ) -> Self {
         let mut all = Self::default();
         facets.into_iter().for_each(|facet| all.add(placed, sweep, node, facet));
         all
     }
 
     /// Adds those through one facet.
-    pub(in crate::contact) fn add(&mut self, placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, facet: u32) {
+    pub(in crate::contact) fn add(&mut self, placed: &Placed<'_>, sweep: Sweep<'_, 3>, node: u32, (facet, stays): (u32, u32)) {
         if are_apart(placed, sweep, node, facet) {
             return;
         }
         let before = Placed { surface: placed.surface, positions: sweep.old };
         let path = [sweep.old[node as usize], sweep.new[node as usize]];
-        for k in 0..if placed.surface.facets[facet as usize].corners().len() == 3 { 1 } else { 4 } {
+        let triangles = if placed.surface.facets[facet as usize].corners().len() == 3 { 1 } else { 4 };
+        // A triangle that is farther than both have gone is passed in no case.
+        let gone = |of: u32| minus(sweep.new[of as usize], sweep.old[of as usize]);
+        let way = |corner: &u32| length(minus(gone(node), gone(*corner)));
+        let reach = SLACK * placed.surface.facets[facet as usize].iter().map(way).fold(0.0, f64::max) + RIM * placed.size(facet);
+        let is_far = |k: usize| square_to_triangle(path[1], placed.triangle(facet, k)) > reach * reach;
+        for k in (0..triangles).filter(|&k| stays >> k & 1 == 0 && !is_far(k)) {
             // A symmetry plane keeps a node over a side that lies on it, whatever rounds.
             let is_over = |x: Vector, triangle: [Vector; 3]| {
                 (0..3).all(|side| match placed.mirror_at(facet, k, side) {
@@ -75,22 +100,35 @@ impl Passages {
             };
             let ways = passages(path, before.triangle(facet, k), placed.triangle(facet, k), is_over);
             for (times, is_out) in ways.iter().zip([false, true]) {
-                self.0.extend(times.iter().map(|time| Passage { time, is_out, normal: placed.facet_normal(facet) }));
+                times.iter().for_each(|time| self.push(Passage { time, is_out, normal: placed.facet_normal(facet) }));
             }
         }
     }
 
+    fn push(&mut self, passage: Passage) {
+        if let Some(room) = self.few.get_mut(self.count) {
+            *room = passage;
+        } else {
+            if self.count == FEW {
+                self.more.extend_from_slice(&self.few);
+            }
+            self.more.push(passage);
+        }
+        self.count += 1;
+    }
+
     /// What becomes of a node that was inside on this side, or outside (zero).
     pub(in crate::contact) fn fate(mut self, side: Vector) -> Outcome {
+        let all = if self.count <= FEW { &mut self.few[..self.count] } else { &mut self.more[..] };
         // Facets come in their order: a stable order of what is at one time.
-        self.0.sort_by(|a, b| a.time.total_cmp(&b.time));
-        for k in 1..self.0.len() {
-            if self.0[k - 1].is_out && !self.0[k].is_out && self.0[k].time - self.0[k - 1].time < SAME_TIME {
-                self.0.swap(k - 1, k);
+        all.sort_by(|a, b| a.time.total_cmp(&b.time));
+        for k in 1..all.len() {
+            if all[k - 1].is_out && !all[k].is_out && all[k].time - all[k - 1].time < SAME_TIME {
+                all.swap(k - 1, k);
             }
         }
         let mut fate = Outcome { side, ..Outcome::default() };
-        for passage in self.0 {
+        for passage in all {
             let is_inside = fate.side != [0.0; 3];
             match (is_inside, passage.is_out) {
                 (false, false) => fate = Outcome { side: passage.normal, enters: true, is_through: false },
@@ -136,7 +174,7 @@ pub(super) fn led(
         return None;
     }
     let of_face = |facet: u32| faces(facet) && dot(side, placed.facet_normal(facet)) > ALONG;
-    let (led, along) = placed.behind(x, candidates.nearest(placed, x, likely, of_face)?)?;
+    let (led, along) = placed.behind(x, candidates.nearest(placed, x, likely, of_face)?.0)?;
     (inside.is_none() || dot(led.normal, along) > ALONG).then_some((led, along))
 }
 
@@ -157,7 +195,7 @@ mod tests {
         old.push(from);
         new.push(to);
         let placed = Placed { surface: &surface, positions: &new };
-        Passages::of(&placed, Sweep::between(&old, &new), 8, 0..6).fate([0.0; 3])
+        Passages::of(&placed, Sweep::between(&old, &new), 8, (0..6).map(|facet| (facet, 0))).fate([0.0; 3])
     }
 
     #[test]

@@ -22,19 +22,22 @@
 //! half the skin; what is far among them is not looked at (`far.rs`). Order is fixed: passes, slave nodes,
 //! bodies ascending.
 
+mod locate;
+mod steady;
+
 use super::super::Sweep;
 use super::super::continuity::SpringHistory;
 use super::super::projection::node_facet::{Placed, Projection, Vector};
 use super::super::search::{Query, Search};
 use super::super::tracker::sleep::{AWAKE, awake, wake_at};
 use super::super::tracker::{Reach, SKIN, SLACK, SearchReport};
-use super::far::Candidates;
 use super::groups::{Group, Meeting, bend, bodies_of, halves, mean_edge};
-use super::passage::{Passages, led};
+use super::measured::Measures;
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::{NONE, SpaceSurface};
-use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
+use embate_lanes::Level;
+use locate::{Chunk, Look};
 
 /// Cosine of the angle between the side from which a node came and those of facets that it sees while it is
 /// inside.
@@ -128,16 +131,6 @@ struct Pass {
     band: f64,
 }
 
-/// Where a node is with respect to a body.
-enum Place {
-    /// It touches: its projection, the side from which it came in, and whether the face there leads it.
-    Touches(Projection, Vector, bool),
-    /// Not near.
-    Away,
-    /// So deep inside, without having been seen to come in, that it is not taken for a touch.
-    Lost,
-}
-
 /// Follows the nodes of surfaces in 3D along the bodies of other surfaces, or of their own.
 pub struct Tracker {
     surfaces: Vec<SpaceSurface>,
@@ -158,32 +151,11 @@ pub struct Tracker {
     /// Travel of the last step, m.
     travel: f64,
     /// What was found in the last step.
-    found: Found,
+    task: Task,
     /// The same of each chunk of groups, where these are shared among threads.
-    chunks: Vec<Found>,
-}
-
-/// Groups that one task looks at, and what is known of them.
-struct Chunk<'a> {
-    /// Number of the first group, and of the first candidate, among those of the pass.
-    first: [usize; 2],
-    groups: &'a mut [Group<Known>],
-    wakes: &'a mut [f64],
-    clear: &'a mut [f64],
-}
-
-impl Chunk<'_> {
-    /// The groups before number `middle`, and the others.
-    fn split(self, middle: usize) -> [Self; 2] {
-        let Chunk { first: [first, begin], groups, wakes, clear } = self;
-        // Groups without candidates may stand anywhere.
-        let to = groups[middle..].iter().find(|group| group.begin < group.end).map_or(clear.len(), |group| group.begin as usize - begin);
-        let (groups, wakes, clear) = (groups.split_at_mut(middle), wakes.split_at_mut(middle), clear.split_at_mut(to));
-        [
-            Chunk { first: [first, begin], groups: groups.0, wakes: wakes.0, clear: clear.0 },
-            Chunk { first: [first + middle, begin + to], groups: groups.1, wakes: wakes.1, clear: clear.1 },
-        ]
-    }
+    chunks: Vec<Task>,
+    /// With which groups that touch are measured together; nothing: each by itself.
+    level: Option<Level>,
 }
 
 /// What was found in a step.
@@ -194,25 +166,21 @@ struct Found {
     deepest: f64,
 }
 
+/// What looks at groups: what it found, and room for what is measured on the way.
+#[derive(Default)]
+struct Task {
+    found: Found,
+    measures: Measures,
+    /// How many groups continued as they were in the last step.
+    #[cfg(test)]
+    stayed: usize,
+}
+
 impl Found {
     fn clear(&mut self) {
         self.touches.clear();
         self.deepest = 0.0;
     }
-}
-
-/// The step as all groups of a pass see it.
-#[derive(Clone, Copy)]
-struct Look<'a> {
-    /// Number of the pass.
-    pass: usize,
-    sweep: Sweep<'a, 3>,
-    /// Distance up to which touches are wanted beside what the motion asks for, and the longest way of a node
-    /// in the step, m.
-    extra: f64,
-    way: f64,
-    /// Groups that wake beyond it are not looked at, m.
-    asleep: f64,
 }
 
 impl Tracker {
@@ -248,7 +216,7 @@ impl Tracker {
         let bodies = bodies_of(&surfaces, bodies);
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0, travel: 0.0, found: Found::default(), chunks: Vec::new(),
+            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0, travel: 0.0, task: Task::default(), chunks: Vec::new(), level: Some(Level::best()),
         };
         tracker
     }
@@ -333,7 +301,7 @@ impl Tracker {
     /// What [`Tracker::track`] found last.
     #[must_use]
     pub fn touches(&self) -> &[ContactPoint] {
-        &self.found.touches
+        &self.task.found.touches
     }
 
     /// What is kept of a touch: nothing where slave and body did not touch in the last step.
@@ -360,8 +328,8 @@ impl Tracker {
         if self.reach.is_left(sweep) {
             self.find_candidates(sweep, extra);
         }
-        let (mut found, mut chunks) = (std::mem::take(&mut self.found), std::mem::take(&mut self.chunks));
-        found.clear();
+        let (mut task, mut chunks) = (std::mem::take(&mut self.task), std::mem::take(&mut self.chunks));
+        task.found.clear();
         for number in 0..self.passes.len() {
             let pass = &mut self.passes[number];
             let asleep = awake(extra + START * self.reach.skin + pass.band, LOOK_AHEAD, sweep.travel, way);
@@ -373,21 +341,21 @@ impl Tracker {
             let count = groups.len().div_ceil(CHUNK);
             let all = Chunk { first: [0; 2], groups: &mut groups, wakes: &mut wakes, clear: &mut clear };
             if is_shared {
-                chunks.resize_with(count.max(chunks.len()), Found::default);
-                chunks[..count].iter_mut().for_each(Found::clear);
+                chunks.resize_with(count.max(chunks.len()), Task::default);
+                chunks[..count].iter_mut().for_each(|chunk| chunk.found.clear());
                 self.share(look, all, &mut chunks[..count]);
-                for chunk in &chunks[..count] {
-                    found.touches.extend_from_slice(&chunk.touches);
-                    found.deepest = found.deepest.max(chunk.deepest);
+                for Task { found, .. } in &chunks[..count] {
+                    task.found.touches.extend_from_slice(&found.touches);
+                    task.found.deepest = task.found.deepest.max(found.deepest);
                 }
             } else {
-                self.look_at(look, all, &mut found);
+                self.look_at(look, all, &mut task);
             }
             let pass = &mut self.passes[number];
             (pass.groups, pass.wakes, pass.clear) = (groups, wakes, clear);
         }
-        (self.found, self.chunks) = (found, chunks);
-        &self.found.touches
+        (self.task, self.chunks) = (task, chunks);
+        &self.task.found.touches
     }
 
     /// Forgets what is known of the past.
@@ -399,13 +367,13 @@ impl Tracker {
             wakes.clear();
         }
         self.reach.forget();
-        (self.is_new, self.radius, self.found.deepest, self.travel) = (true, 0.0, 0.0, 0.0);
+        (self.is_new, self.radius, self.task.found.deepest, self.travel) = (true, 0.0, 0.0, 0.0);
     }
 
     /// Groups and candidates again; what groups remember continues.
     fn find_candidates(&mut self, sweep: Sweep<'_, 3>, extra: f64) {
         let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
-        let radius = 2.0 * self.reach.skin + extra + LOOK_AHEAD * self.reach.fastest(way) + self.found.deepest;
+        let radius = 2.0 * self.reach.skin + extra + LOOK_AHEAD * self.reach.fastest(way) + self.task.found.deepest;
         let Self { surfaces, passes, triangles, bodies, band, reach: Reach { search, pairs, skin, .. }, .. } = self;
         let skin = *skin;
         for pass in passes {
@@ -444,147 +412,6 @@ impl Tracker {
         self.reach.settle(sweep);
     }
 
-    /// Looks at a chunk in `found.len()` smaller ones, halves of them at the same time.
-    fn share(&self, look: Look<'_>, chunk: Chunk<'_>, found: &mut [Found]) {
-        if let [found] = found {
-            return self.look_at(look, chunk, found);
-        }
-        let middle = found.len() / 2;
-        let (low, high) = found.split_at_mut(middle);
-        let [before, after] = chunk.split(middle * CHUNK);
-        rayon::join(|| self.share(look, before, low), || self.share(look, after, high));
-    }
-
-    /// Looks at the groups of a chunk that are awake.
-    fn look_at(&self, look: Look<'_>, mut chunk: Chunk<'_>, found: &mut Found) {
-        for index in 0..chunk.groups.len() {
-            if chunk.wakes[index] <= look.asleep {
-                self.look_at_group(look, &mut chunk, index, found);
-            }
-        }
-    }
-
-    /// Where the node of a group is with respect to its body.
-    fn look_at_group(&self, look: Look<'_>, chunk: &mut Chunk<'_>, index: usize, found: &mut Found) {
-        let Look { pass: number, sweep, extra, way, asleep } = look;
-        let (pass, [first, begin]) = (&self.passes[number], chunk.first);
-        let group = &mut chunk.groups[index];
-        let facets = &pass.candidates[group.candidates()];
-        let clear = if facets.is_empty() { &mut [] } else { &mut chunk.clear[group.begin as usize - begin..group.end as usize - begin] };
-        let mut candidates = Candidates { facets, clear, travel: sweep.travel, way };
-        let place = self.locate(pass, group, &mut candidates, sweep, extra);
-        chunk.wakes[index] = match place {
-            Place::Away => {
-                let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
-                candidates.bound(&placed, sweep.new[group.node as usize], asleep)
-            }
-            _ => AWAKE,
-        };
-        group.known.touches = false;
-        if let Place::Touches(projection, side, is_led) = place {
-            group.known.touches = true;
-            (group.known.memory.side, group.known.memory.is_led) = (side, is_led);
-            found.deepest = found.deepest.max(-projection.gap);
-            let Group { slave, node, own, .. } = *group;
-            found.touches.push(ContactPoint { pass: number as u32, slave, node, projection, own, group: (first + index) as u32 });
-        } else {
-            group.known.memory = ContactHistory::default();
-        }
-    }
-
-    /// Whether a node touches: its projection, and the side from which it came in.
-    fn locate(&self, pass: &Pass, group: &Group<Known>, candidates: &mut Candidates<'_>, sweep: Sweep<'_, 3>, extra: f64) -> Place {
-        let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
-        let x = sweep.new[group.node as usize];
-        let facing = if group.own { Some(self.own_normal(pass.slave, group.slave, sweep.new)) } else { None };
-        let faces = |facet: u32| facing.is_none_or(|own| dot(own, placed.facet_normal(facet)) < FACING);
-        let passages =
-            |candidates: &Candidates<'_>| Passages::of(&placed, sweep, group.node, candidates.in_passage().filter(|&facet| faces(facet)));
-        let ContactHistory { facet: likely, side: before, is_led: was_led, .. } = group.known.memory;
-        let was_inside = before != [0.0; 3];
-        let side = if was_inside { before } else { passages(candidates).fate(before).side };
-        let came = side != [0.0; 3];
-        let sees = |facet: u32| faces(facet) && (!came || dot(side, placed.facet_normal(facet)) > SAME_SIDE);
-        let mut found = candidates.nearest(&placed, x, likely, sees).and_then(|found| placed.seen(x, found));
-        let is_inside = found.is_some_and(|found| found.gap < 0.0);
-        // Who comes in now; and who was inside and seems to be out, but went through the far side.
-        let mut may_lead = came && !was_inside;
-        if was_inside && (was_led || !is_inside) {
-            let fate = passages(candidates).fate(side);
-            may_lead = fate.is_through || (was_led && fate.side != [0.0; 3]);
-        }
-        if may_lead && let Some((led, along)) = led(candidates, &placed, x, side, found.as_ref(), (likely, &faces)) {
-            return Place::Touches(led, along, true);
-        }
-        // Who continues with its face needs no second look.
-        let continues = |found: &Projection| group.known.touches && dot(group.known.memory.spring.normal, found.normal) > SAME_FACE;
-        if !group.own && !found.as_ref().is_some_and(continues) {
-            let own = self.own_normal(pass.slave, group.slave, sweep.new);
-            if found.is_none_or(|found| dot(own, found.normal) >= FACING) {
-                let faces = |facet: u32| dot(own, placed.facet_normal(facet)) < FACING;
-                let over = candidates.nearest(&placed, x, likely, |facet| sees(facet) && faces(facet));
-                let over = over.and_then(|over| placed.seen_over(x, over, faces));
-                let is_flush = found.is_some_and(|found| found.gap.abs() <= FLUSH * self.reach.skin);
-                // No face before which it is leads it out of a body into which it has gone.
-                let may_hold = |over: &Projection| !(may_lead && is_inside) || is_flush || over.gap < 0.0;
-                let over = over.filter(|over| may_hold(&over.0) && self.is_held(pass, group, side, sweep, over, is_flush));
-                found = over.map(|(over, _)| over).or(found);
-            }
-        }
-        let Some(found) = found else { return Place::Away };
-        if found.gap < 0.0 {
-            // In its own body only who was seen to come in, or was just before it.
-            let known = came || (group.known.touches && dot(group.known.memory.spring.normal, found.normal) > SAME_SIDE);
-            return match known {
-                false if group.own => Place::Away,
-                false if -found.gap > self.radius - self.reach.skin => Place::Lost,
-                _ => Place::Touches(found, found.normal, false),
-            };
-        }
-        let near = extra + START * self.reach.skin + LOOK_AHEAD * motion(&placed, &found, sweep, group.node);
-        let is_near = found.gap <= near.min(self.radius - self.reach.skin).max(extra);
-        if is_near { Place::Touches(found, [0.0; 3], false) } else { Place::Away }
-    }
-
-    /// Whether a face holds a node that is over its rim or beyond it, by the projection and the way from the
-    /// rim: `side` is the one from which it came, `is_flush` says whether it lies on the body's surface
-    /// within rounding.
-    fn is_held(
-        &self,
-        pass: &Pass,
-        group: &Group<Known>,
-        side: Vector,
-        sweep: Sweep<'_, 3>,
-        (over, beyond): &(Projection, Vector),
-        is_flush: bool,
-    ) -> bool {
-        let target = &self.surfaces[pass.target];
-        let (placed, before) = (Placed { surface: target, positions: sweep.new }, Placed { surface: target, positions: sweep.old });
-        let way = length(*beyond);
-        if way > (BAND * placed.size(over.facet)).min(self.band) || -over.gap > self.radius - self.reach.skin {
-            return false;
-        }
-        let held =
-            dot(side, over.normal) > SAME_FACE || (group.known.touches && dot(group.known.memory.spring.normal, over.normal) > SAME_FACE);
-        let from_the_front = || {
-            let [a, b, c] = before.triangle(over.facet, over.triangle);
-            let height = dot(minus(sweep.old[group.node as usize], a), cross(minus(b, a), minus(c, a)));
-            over.gap >= 0.0 || height >= 0.0
-        };
-        (held || is_flush || from_the_front()) && (way == 0.0 || self.goes_back(pass, group, *beyond, sweep.new))
-    }
-
-    /// Whether the surface of a slave goes from it back over the face that it is beyond by a way.
-    fn goes_back(&self, pass: &Pass, group: &Group<Known>, beyond: Vector, positions: &[Vector]) -> bool {
-        let slaves = &self.surfaces[pass.slave];
-        let x = positions[group.node as usize];
-        slaves.around(group.slave as usize).iter().flat_map(|&facet| slaves.facets[facet as usize]).any(|other| {
-            let along = minus(positions[other as usize], x);
-            // More than the rim's own direction, as far as rounding can resolve.
-            dot(along, beyond) < -0.05 * length(along) * length(beyond)
-        })
-    }
-
     /// Normal of a slave at its own surface.
     pub(in crate::contact) fn own_normal(&self, surface: usize, slave: u32, positions: &[Vector]) -> Vector {
         let (facet, corner) = self.corners[surface][slave as usize];
@@ -612,7 +439,7 @@ impl Tracker {
             let are_there = pass.candidates.iter().all(|&facet| (facet as usize) < facets);
             archive.check(are_there && pass.groups.iter().all(is_known), "a contact follows nodes or facets that are not there")?;
         }
-        persist_each!(archive; &mut self.reach, &mut self.is_new, &mut self.radius, &mut self.found.deepest, &mut self.travel);
+        persist_each!(archive; &mut self.reach, &mut self.is_new, &mut self.radius, &mut self.task.found.deepest, &mut self.travel);
         Ok(())
     }
 
@@ -627,19 +454,10 @@ impl Tracker {
             pass.wakes = vec![AWAKE; pass.groups.len()];
         }
         self.is_new = old.is_new;
-        (self.travel, self.found.deepest) = (old.travel, old.found.deepest);
+        (self.travel, self.task.found.deepest) = (old.travel, old.task.found.deepest);
         self.reach.inherit(&old.reach);
     }
 }
 
-/// How far a node and where it projects have moved with respect to each other in the step, m.
-fn motion(placed: &Placed<'_>, found: &Projection, sweep: Sweep<'_, 3>, node: u32) -> f64 {
-    let moved = |node: u32| minus(sweep.new[node as usize], sweep.old[node as usize]);
-    let facet = placed.surface.facets[found.facet as usize];
-    let mut way = moved(node);
-    for (corner, weight) in facet.into_iter().zip(found.weights) {
-        let by = moved(corner);
-        (0..3).for_each(|d| way[d] -= weight * by[d]);
-    }
-    length(way)
-}
+#[cfg(test)]
+mod tests;

@@ -21,10 +21,16 @@
 //! are those of the surface together with its image, and lie in the plane. The image needs no facets of its
 //! own, since a point on the model's side of the plane is never farther from the model's own side.
 
+pub(in crate::contact) mod eight;
+mod triangle;
+
 use super::node_segment::END_TOLERANCE;
 use crate::mesh::surface::{Corners, NONE, SpaceSurface};
 use crate::tensor::{cross, dot};
 use crate::vector::minus;
+use eight::Plane;
+use triangle::nearest_of_triangle;
+pub(in crate::contact) use triangle::{Nearest, corners_below, place_on_triangle, square_to_triangle};
 
 /// A vector in 3D.
 pub type Vector = [f64; 3];
@@ -59,16 +65,6 @@ pub struct Projection {
     pub gap: f64,
     /// Gradient of the gap: from P to the point where it is outside, the other way where it is inside.
     pub normal: Vector,
-}
-
-/// Nearest point of a triangle.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::contact) struct Nearest {
-    /// Square of the distance, m².
-    pub(in crate::contact) square: f64,
-    /// Barycentric.
-    weights: [f64; 3],
-    foot: Vector,
 }
 
 /// Nearest point, facet and triangle.
@@ -118,65 +114,6 @@ const BORDER: f64 = 1e-6;
 const TIE: f64 = 1e-9;
 /// Squares of distances to one point differ by less than this fraction.
 const SAME_SQUARE: f64 = 1e-6;
-
-/// The place of a triangle that is nearest to another place, m.
-pub(in crate::contact) fn place_on_triangle(x: Vector, triangle: [Vector; 3]) -> Vector {
-    nearest_of_triangle(x, triangle).foot
-}
-
-/// Which corners of a triangle its place that is nearest to another place depends on: one at a corner, two on
-/// an edge.
-pub(in crate::contact) fn corners_below(x: Vector, triangle: [Vector; 3]) -> [bool; 3] {
-    nearest_of_triangle(x, triangle).weights.map(|weight| weight > TIE)
-}
-
-/// Square of the distance of a place from a triangle, m².
-pub(in crate::contact) fn square_to_triangle(x: Vector, triangle: [Vector; 3]) -> f64 {
-    nearest_of_triangle(x, triangle).square
-}
-
-/// Nearest point of the triangle a, b, c to x (Ericson 2005); weights that are zero are so exactly.
-fn nearest_of_triangle(x: Vector, [a, b, c]: [Vector; 3]) -> Nearest {
-    let (ab, ac, ax) = (minus(b, a), minus(c, a), minus(x, a));
-    let (d1, d2) = (dot(ab, ax), dot(ac, ax));
-    let at = |weights: [f64; 3]| {
-        let foot = |d: usize| weights[0] * a[d] + weights[1] * b[d] + weights[2] * c[d];
-        let foot = [foot(0), foot(1), foot(2)];
-        let away = minus(x, foot);
-        Nearest { square: dot(away, away), weights, foot }
-    };
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return at([1.0, 0.0, 0.0]);
-    }
-    let bx = minus(x, b);
-    let (d3, d4) = (dot(ab, bx), dot(ac, bx));
-    if d3 >= 0.0 && d4 <= d3 {
-        return at([0.0, 1.0, 0.0]);
-    }
-    let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        let v = d1 / (d1 - d3);
-        return at([1.0 - v, v, 0.0]);
-    }
-    let cx = minus(x, c);
-    let (d5, d6) = (dot(ab, cx), dot(ac, cx));
-    if d6 >= 0.0 && d5 <= d6 {
-        return at([0.0, 0.0, 1.0]);
-    }
-    let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        let w = d2 / (d2 - d6);
-        return at([1.0 - w, 0.0, w]);
-    }
-    let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 {
-        let w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return at([0.0, 1.0 - w, w]);
-    }
-    let sum = va + vb + vc;
-    let (v, w) = (vb / sum, vc / sum);
-    at([1.0 - v - w, v, w])
-}
 
 /// The middle of four corners.
 #[inline]
@@ -240,18 +177,32 @@ impl Placed<'_> {
         if self.triangles(facet) == 1 { 0 } else { k }
     }
 
+    /// Whether a facet looks to a side: the cosine of the angle between that and its mean normal is above a
+    /// number below zero.
+    pub(in crate::contact) fn looks_to(&self, facet: u32, side: Vector, cosine: f64) -> bool {
+        let across = self.across(facet);
+        let along = dot(side, across);
+        // Most do, which is seen without a root.
+        (along > 0.0 && along < f64::INFINITY) || dot(side, unit(across)) > cosine
+    }
+
     /// Mean normal of a facet: of four nodes that of its diagonals.
     #[must_use]
     pub fn facet_normal(&self, facet: u32) -> Vector {
+        unit(self.across(facet))
+    }
+
+    /// The same times twice the facet's area.
+    #[inline]
+    fn across(&self, facet: u32) -> Vector {
         let ([a, b, c, d], count) = self.corners(facet);
-        if count == 3 { unit(cross(minus(b, a), minus(c, a))) } else { unit(cross(minus(c, a), minus(d, b))) }
+        if count == 3 { cross(minus(b, a), minus(c, a)) } else { cross(minus(c, a), minus(d, b)) }
     }
 
     /// Area of a facet, m²: of four nodes that of its projection along its mean normal.
     #[must_use]
     pub fn area(&self, facet: u32) -> f64 {
-        let ([a, b, c, d], count) = self.corners(facet);
-        let twice = if count == 3 { cross(minus(b, a), minus(c, a)) } else { cross(minus(c, a), minus(d, b)) };
+        let twice = self.across(facet);
         0.5 * dot(twice, twice).sqrt()
     }
 
@@ -291,7 +242,12 @@ impl Placed<'_> {
     /// The ends of the edge on which the foot of a projection lies, or the node at which it lies and
     /// [`NONE`]; twice [`NONE`] over a facet, or beyond a rim. The same whichever of the facets there the
     /// projection names.
+    #[inline]
     pub(in crate::contact) fn rests_on(&self, Projection { facet, weights, .. }: &Projection) -> [u32; 2] {
+        // Nearly all are over a facet of four nodes.
+        if weights.iter().all(|&weight| weight > TIE) {
+            return [NONE; 2];
+        }
         let corners = self.surface.facets[*facet as usize];
         let corners = corners.corners();
         let mut with = (0..corners.len()).filter(|&k| weights[k] > TIE);
@@ -307,13 +263,25 @@ impl Placed<'_> {
     /// facet counts, and that triangle of it, in front of or behind which x is farthest: which comes first
     /// says nothing.
     pub(in crate::contact) fn is_nearer(&self, x: Vector, one: &Found, other: &Found) -> bool {
+        self.is_nearer_of((x, one, None), (other, None))
+    }
+
+    /// The same where the planes of both may be known.
+    #[inline]
+    pub(in crate::contact) fn is_nearer_of(
+        &self,
+        (x, one, plane): (Vector, &Found, Option<&Plane>),
+        (other, of_other): (&Found, Option<&Plane>),
+    ) -> bool {
         let ((a, _, _), (b, _, _)) = (one, other);
         if (a.square - b.square).abs() <= SAME_SQUARE * a.square.max(b.square) {
             let apart = minus(a.foot, b.foot);
-            let least = TIE * self.size(one.1);
+            let least = TIE * plane.map_or_else(|| self.size(one.1), |plane| plane.size);
             if dot(apart, apart) <= least * least {
-                let height = |(nearest, facet, k): &Found| dot(minus(x, nearest.foot), self.normal(*facet, *k)).abs();
-                let heights = [height(one), height(other)];
+                let height = |(nearest, facet, k): &Found, plane: Option<&Plane>| {
+                    plane.map_or_else(|| dot(minus(x, nearest.foot), self.normal(*facet, *k)), |plane| plane.height).abs()
+                };
+                let heights = [height(one, plane), height(other, of_other)];
                 // What is symmetric has none that is farther: there the first stays, step by step.
                 if (heights[0] - heights[1]).abs() > TIE * heights[0].max(heights[1]) {
                     return heights[0] > heights[1];
@@ -546,6 +514,19 @@ impl Placed<'_> {
         }
         let (gap, normal) = if feature == Feature::Face { (height, along) } else { (-distance, away.map(|c| -c / distance)) };
         Some((Projection { facet, feature, triangle, weights, foot, gap, normal }, along))
+    }
+
+    /// As [`Placed::seen`] where the plane of the nearest triangle may be known.
+    #[inline]
+    pub(in crate::contact) fn seen_by(&self, x: Vector, found: Found, plane: Option<Plane>) -> Option<Projection> {
+        let (Nearest { weights, foot, .. }, facet, triangle) = found;
+        match plane {
+            Some(Plane { normal, height, .. }) if weights.iter().all(|&weight| weight > 0.0) => {
+                let weights = self.spread(facet, triangle, weights);
+                Some(Projection { facet, feature: Feature::Face, triangle, weights, foot, gap: height, normal })
+            }
+            _ => self.seen(x, found),
+        }
     }
 
     /// Gap and normal of what is nearest. `None` where the surface ends before x comes over it.

@@ -17,7 +17,7 @@ use crate::vector::minus;
 type Vector = [f64; 3];
 
 /// Rounding of a volume, as a fraction of the product of its lengths.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+pub(in crate::contact) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// How far beyond the rim of a triangle, or the end of an edge, a place is on it: a fraction of its size.
 const RIM: f64 = 1e-9;
 /// Halvings of a step after which a root is known well enough, and the part of the step that is left then.

@@ -7,8 +7,8 @@ use crate::contact::Sweep;
 use crate::contact::search;
 use crate::mesh::cell::CellKind;
 
-/// Nodes and hexahedra of a plate of n × n × 1 unit cells with its lower corner at a place; with a `step`, one
-/// corner of it is missing.
+/// Nodes and hexahedra of a plate of n × n × 1 unit cells with its lower corner at a place; with a `step`,
+/// one corner of it is missing.
 fn plate(n: usize, corner: Vector, step: bool) -> (Vec<Vec<u32>>, Vec<Vector>) {
     let node = |i: usize, j: usize, k: usize| ((k * (n + 1) + j) * (n + 1) + i) as u32;
     let places = (0..2).flat_map(|k| (0..=n).flat_map(move |j| (0..=n).map(move |i| [i, j, k])));
@@ -114,4 +114,37 @@ fn who_continues_as_it_was_is_where_it_would_be_found_alone() {
     }
     // Who slides and flies about changes more often.
     assert!(most[1] > most[0] / 2 && all[1] > all[0] / 10 && all[0] > 10_000, "{most:?} {all:?}");
+}
+
+#[test]
+fn who_goes_through_a_plate_to_another_one_that_looks_alike_has_gone_through() {
+    // A small cube hovers over the lower one of two plates of one body, and goes through the upper one to
+    // its upper side.
+    let square = |at: u32| [at, at + 1, at + 2, at + 3];
+    let cell = |at: u32| [square(at), square(at + 4)].concat();
+    let block = |corner: Vector, size: Vector| {
+        (0..8)
+            .map(move |k| [(k ^ k >> 1) & 1, k >> 1 & 1, k >> 2].map(f64::from))
+            .map(move |at| [0, 1, 2].map(|d| corner[d] + size[d] * at[d]))
+    };
+    let plates = block([0.0; 3], [1.0, 1.0, 0.1]).chain(block([0.0, 0.0, 0.3], [1.0, 1.0, 0.02]));
+    let old: Vec<Vector> = block([0.3, 0.2, 0.105], [0.03, 0.03, 0.03]).chain(plates).collect();
+    let mut new = old.clone();
+    new[..8].iter_mut().for_each(|x| x[2] += 0.22);
+    let surface = |cells: &[Vec<u32>]| SpaceSurface::outside(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap();
+    let surfaces = [surface(&[cell(0)]), surface(&[cell(8), cell(16)])];
+    let bodies: Vec<u32> = (0..24).map(|node| u32::from(node >= 8)).collect();
+    let found = [None, Some(Level::SCALAR), Some(Level::best())].map(|level| {
+        let tracker = Tracker::new(surfaces.to_vec(), &[(0, 1)], &bodies, (search::registry::<3>()[0].make)(), &old);
+        let mut tracker = Tracker { level, ..tracker };
+        for travel in [0.0, 0.0] {
+            let hovers = tracker.track(Sweep { old: &old, new: &old, travel }, 0.01);
+            assert!(hovers.len() >= 4 && hovers.iter().all(|touch| touch.projection.gap > 0.0), "{hovers:?}");
+            note(&mut tracker, &old);
+        }
+        tracker.track(Sweep { old: &old, new: &new, travel: 0.22 }, 0.01).to_vec()
+    });
+    assert!(found[0].iter().filter(|touch| touch.node < 4 && touch.projection.gap < 0.0).count() == 4, "{:?}", found[0]);
+    assert_eq!(found[1], found[0]);
+    assert_eq!(found[2], found[0]);
 }

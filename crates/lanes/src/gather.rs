@@ -56,6 +56,68 @@ impl Indices {
     }
 }
 
+/// A room of four values.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(32))]
+pub struct Room(pub [f64; ROOM]);
+
+/// Rows of [`BATCH`] places among [`Room`]s, which may change row by row; none is above the bound that is
+/// kept with them, so that gathers need no check per place.
+#[derive(Clone, Debug, Default)]
+pub struct Places {
+    rows: Vec<[u32; BATCH]>,
+    bound: usize,
+}
+
+impl Places {
+    /// Takes all rows away.
+    pub fn clear(&mut self) {
+        self.rows.clear();
+        self.bound = 0;
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Whether there is no row.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Makes `count` rows, new ones of place zero.
+    pub fn resize(&mut self, count: usize) {
+        self.rows.resize(count, [0; BATCH]);
+        self.bound = self.bound.max(usize::from(count > 0));
+    }
+
+    /// Sets a place. Panics where there is no such row or lane.
+    #[inline]
+    pub fn set(&mut self, row: usize, lane: usize, place: u32) {
+        self.rows[row][lane] = place;
+        self.bound = self.bound.max(place as usize + 1);
+    }
+
+    /// A place.
+    #[inline(always)]
+    #[must_use]
+    pub fn get(&self, row: usize, lane: usize) -> usize {
+        self.rows[row][lane] as usize
+    }
+
+    /// The places of a row, after the checks that make unchecked access to a list of `length` sound: `width`
+    /// of them from `at` on, each below `length`.
+    #[inline(always)]
+    #[cfg(target_arch = "x86_64")]
+    pub(crate) fn checked(&self, length: usize, row: usize, at: usize, width: usize) -> &[u32; BATCH] {
+        assert!(length >= self.bound && at + width <= BATCH, "fewer rooms than the places need");
+        &self.rows[row]
+    }
+}
+
 /// Points with two vectors each, as position and velocity.
 #[derive(Clone, Debug, Default)]
 pub struct Moving<const D: usize> {

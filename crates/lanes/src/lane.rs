@@ -1,6 +1,6 @@
 //! The trait that every lane type fulfils, and the batch that it loads from.
 
-use crate::{Indices, Moving, VectorSums};
+use crate::{Indices, Moving, Places, Room, VectorSums};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// Values in a batch: the unit of storage, a multiple of every lane width.
@@ -66,6 +66,11 @@ pub trait Lane:
     /// in the order of `a`, so that the sums do not depend on the width. Panics when there are fewer sums
     /// than the bound of `indices`.
     fn scatter<const D: usize, const N: usize>(values: &[[Self; D]; N], sums: &mut VectorSums<D>, indices: &Indices, row: usize, at: usize);
+    /// The values of the rooms in lanes `at..at + WIDTH` of a row, component by component. Panics when there
+    /// are fewer rooms than the places need.
+    fn gather_rooms(rooms: &[Room], places: &Places, row: usize, at: usize) -> [Self; 4];
+    /// Writes the values of rooms, lane after lane. Panics as [`Lane::gather_rooms`].
+    fn store_rooms(values: [Self; 4], rooms: &mut [Room], places: &Places, row: usize, at: usize);
     /// Components of `points[first..first + WIDTH]`. Panics when there are fewer.
     fn load_points<const D: usize>(points: &[[f64; D]], first: usize) -> [Self; D];
     /// Writes components to `points[first..first + WIDTH]`. Panics when there are fewer.

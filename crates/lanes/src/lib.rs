@@ -8,8 +8,8 @@
 //! [`Team`] shares short loops among threads.
 //!
 //! This crate holds the only unsafe code of embate. Storage is in batches of [`BATCH`] values; a lane type
-//! takes a batch in `BATCH / WIDTH` parts. [`Level`] chooses the instruction set at run time; [`Indices`] is
-//! checked once so that gathers need not be.
+//! takes a batch in `BATCH / WIDTH` parts. [`Level`] chooses the instruction set at run time; [`Indices`] and
+//! [`Places`] know their bound so that gathers check it once.
 
 mod dispatch;
 mod gather;
@@ -21,7 +21,7 @@ mod team;
 mod x86;
 
 pub use dispatch::{Kernel, Level};
-pub use gather::{Indices, Moving, VectorSums};
+pub use gather::{Indices, Moving, Places, Room, VectorSums};
 pub use lane::{BATCH, Batch, Lane};
 pub use team::{Chunks, Parts, Team};
 

@@ -1,6 +1,6 @@
 //! `f64` as a lane of width one: the reference that the others must equal to the bit.
 
-use crate::{Batch, Indices, Lane, Moving, VectorSums};
+use crate::{Batch, Indices, Lane, Moving, Places, Room, VectorSums};
 
 impl Lane for f64 {
     const WIDTH: usize = 1;
@@ -49,6 +49,14 @@ impl Lane for f64 {
                 sum[d] += value[d];
             }
         }
+    }
+    #[inline(always)]
+    fn gather_rooms(rooms: &[Room], places: &Places, row: usize, at: usize) -> [Self; 4] {
+        rooms[places.get(row, at)].0
+    }
+    #[inline(always)]
+    fn store_rooms(values: [Self; 4], rooms: &mut [Room], places: &Places, row: usize, at: usize) {
+        rooms[places.get(row, at)].0 = values;
     }
     #[inline(always)]
     fn load_points<const D: usize>(points: &[[f64; D]], first: usize) -> [Self; D] {

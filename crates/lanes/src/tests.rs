@@ -167,6 +167,47 @@ fn gathers_and_scatters_find_the_right_points_in_the_plane_and_in_space() {
     walks::<3, 8>();
 }
 
+/// Doubles what is in rooms by way of the lanes.
+struct Double<'a> {
+    rooms: &'a mut [Room],
+    places: &'a Places,
+}
+
+impl Kernel for Double<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(self) {
+        for row in 0..self.places.len() {
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let mut values = L::gather_rooms(self.rooms, self.places, row, at);
+                for (d, value) in values.iter_mut().enumerate() {
+                    *value += *value + L::splat(d as f64);
+                }
+                L::store_rooms(values, self.rooms, self.places, row, at);
+            }
+        }
+    }
+}
+
+#[test]
+fn rooms_are_read_and_written_where_their_places_are() {
+    let mut places = Places::default();
+    places.resize(3);
+    (0..24).for_each(|k| places.set(k / 8, k % 8, (k * 7 % 24 + 1) as u32));
+    for level in Level::available() {
+        let mut rooms: Vec<Room> = (0..30).map(|i| Room([0, 1, 2, 3].map(|d| f64::from(10 * i + d)))).collect();
+        level.run(Double { rooms: &mut rooms, places: &places });
+        for (i, room) in rooms.iter().enumerate() {
+            let factor = if (1..25).contains(&i) { 2.0 } else { 1.0 };
+            let expected = [0, 1, 2, 3].map(|d| factor * (10 * i + d) as f64 + (factor - 1.0) * d as f64);
+            assert_eq!(room.0, expected, "{} {i}", level.name());
+        }
+        let refused = std::panic::catch_unwind(|| level.run(Double { rooms: &mut [Room::default(); 24], places: &places }));
+        assert!(refused.is_err(), "{}", level.name());
+    }
+}
+
 #[test]
 fn a_gather_from_too_few_points_is_refused_on_every_level() {
     let indices = Indices::new(vec![[9; BATCH]; 2]);

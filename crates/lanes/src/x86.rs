@@ -5,7 +5,7 @@
 //! are compiled for the machine's baseline.
 
 use crate::gather::ROOM;
-use crate::{Batch, Indices, Lane, Moving, VectorSums};
+use crate::{Batch, Indices, Lane, Moving, Places, Room, VectorSums};
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -38,6 +38,36 @@ unsafe fn four<const D: usize, const SECOND: bool>(points: &Moving<D>, place: u1
 unsafe fn two_fours<const D: usize, const SECOND: bool>(points: &Moving<D>, low: u16, high: u16) -> __m512d {
     // SAFETY: by the contract above.
     unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(four::<D, SECOND>(points, low)), four::<D, SECOND>(points, high)) }
+}
+
+/// The values of a room.
+///
+/// # Safety
+/// There must be such a place, and the machine must have AVX.
+#[inline(always)]
+unsafe fn room(rooms: &[Room], place: u32) -> __m256d {
+    // SAFETY: by the contract above; rooms are aligned to their width.
+    unsafe { _mm256_load_pd(rooms.as_ptr().add(place as usize).cast()) }
+}
+
+/// Those of two in one register.
+///
+/// # Safety
+/// As for [`room`], and the machine must have AVX-512.
+#[inline(always)]
+unsafe fn two_rooms(rooms: &[Room], low: u32, high: u32) -> __m512d {
+    // SAFETY: by the contract above.
+    unsafe { _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(room(rooms, low)), room(rooms, high)) }
+}
+
+/// Writes the values of a room.
+///
+/// # Safety
+/// As for [`room`].
+#[inline(always)]
+unsafe fn set_room(rooms: &mut [Room], place: u32, values: __m256d) {
+    // SAFETY: as for `room`.
+    unsafe { _mm256_store_pd(rooms.as_mut_ptr().add(place as usize).cast(), values) }
 }
 
 /// The first of some components as those of a vector.
@@ -294,6 +324,25 @@ impl Lane for F64x4 {
         }
     }
     #[inline(always)]
+    fn gather_rooms(rooms: &[Room], places: &Places, row: usize, at: usize) -> [Self; 4] {
+        let place = places.checked(rooms.len(), row, at, 4);
+        // SAFETY: `checked` has shown that every place is one of the rooms; the instructions are there as for
+        // the operators.
+        unsafe {
+            Self::components([room(rooms, place[at]), room(rooms, place[at + 1]), room(rooms, place[at + 2]), room(rooms, place[at + 3])])
+        }
+    }
+    #[inline(always)]
+    fn store_rooms(values: [Self; 4], rooms: &mut [Room], places: &Places, row: usize, at: usize) {
+        let place = places.checked(rooms.len(), row, at, 4);
+        // SAFETY: as for the gather; the transpose of a transpose is what was.
+        unsafe {
+            for (lane, four) in Self::components(values.map(|value| value.0)).into_iter().enumerate() {
+                set_room(rooms, place[at + lane], four.0);
+            }
+        }
+    }
+    #[inline(always)]
     fn load_points<const D: usize>(points: &[[f64; D]], first: usize) -> [Self; D] {
         if D != 2 {
             return plain::load_points(points, first);
@@ -522,6 +571,35 @@ impl Lane for F64x8 {
                 // SAFETY: `checked` has shown that every place is one of the sums; vectors lie at multiples
                 // of their width.
                 unsafe { add_row(sums, rows[a][lane], all[a].0.as_flattened().as_ptr().add(place)) };
+            }
+        }
+    }
+    #[inline(always)]
+    fn gather_rooms(rooms: &[Room], places: &Places, row: usize, at: usize) -> [Self; 4] {
+        let place = places.checked(rooms.len(), row, at, 8);
+        // SAFETY: `checked` has shown that every place is one of the rooms; the instructions are there as for
+        // the operators.
+        unsafe {
+            Self::components([
+                two_rooms(rooms, place[0], place[4]),
+                two_rooms(rooms, place[1], place[5]),
+                two_rooms(rooms, place[2], place[6]),
+                two_rooms(rooms, place[3], place[7]),
+            ])
+        }
+    }
+    #[inline(always)]
+    fn store_rooms(values: [Self; 4], rooms: &mut [Room], places: &Places, row: usize, at: usize) {
+        let place = places.checked(rooms.len(), row, at, 8);
+        // SAFETY: as for the gather; each half is transposed for itself, and the transpose of a transpose is
+        // what was.
+        unsafe {
+            let [r, s, t, u] = Self::components(values.map(|value| value.0));
+            for (lane, two) in [r, s, t, u].into_iter().enumerate() {
+                set_room(rooms, place[lane], _mm512_castpd512_pd256(two.0));
+            }
+            for (lane, two) in [r, s, t, u].into_iter().enumerate() {
+                set_room(rooms, place[lane + 4], _mm512_extractf64x4_pd::<1>(two.0));
             }
         }
     }

@@ -432,8 +432,8 @@ where
             return;
         }
         let nodes = nodes!(self, velocities, time_step);
-        let update =
-            Update { time_steps: [self.time_step_old, time_step], positions: &self.positions, nodes: &nodes, bodies: &self.bodies };
+        let (time_steps, positions, bodies, level) = ([self.time_step_old, time_step], &self.positions, &self.bodies, self.level);
+        let update = Update { time_steps, positions, nodes: &nodes, bodies, level };
         self.springs.solve(&update);
         self.contact_forces.clear();
         for contact in &mut self.contacts {

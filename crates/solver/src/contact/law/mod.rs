@@ -28,6 +28,11 @@ pub trait Law: Send + Sync {
     fn slip_stiffness(&self, spring: &Patch) -> f64 {
         spring.stiffness
     }
+    /// The gaps between which F = −k g, lowest and highest, m; `None`: there are none, or not for a spring
+    /// with this patch. Above the highest one that is finite it does not push.
+    fn linear(&self, _: &Patch) -> Option<[f64; 2]> {
+        None
+    }
     /// Whether what the force takes is stored, and given back.
     fn is_elastic(&self) -> bool {
         true

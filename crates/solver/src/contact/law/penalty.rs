@@ -143,6 +143,9 @@ impl Law for Penalty {
         let more = if beyond > 0.0 { spring.more * spring.stiffness * beyond * mean_depth(beyond, 0.0, spring.limit) } else { 0.0 };
         0.5 * spring.stiffness * gap.min(0.0) * gap.min(0.0) + more
     }
+    fn linear(&self, spring: &Patch) -> Option<[f64; 2]> {
+        Some([-spring.limit, 0.0])
+    }
     fn stiffness(&self, spring: &Patch, gap: f64) -> f64 {
         let beyond = beyond(spring, gap);
         if beyond > 0.0 { spring.stiffness * (1.0 + spring.more * (beyond / spring.limit).min(1.0)) } else { spring.stiffness }

@@ -24,6 +24,9 @@ impl Law for Tie {
     fn stored(&self, spring: &Patch, gap: f64) -> f64 {
         if self.rigid { 0.0 } else { 0.5 * spring.stiffness * gap * gap }
     }
+    fn linear(&self, _: &Patch) -> Option<[f64; 2]> {
+        (!self.rigid).then_some([f64::NEG_INFINITY, f64::INFINITY])
+    }
     fn stiffness(&self, spring: &Patch, _: f64) -> f64 {
         self.slip_stiffness(spring)
     }

@@ -14,6 +14,7 @@ use crate::mesh::cell::CellKind;
 use crate::mesh::surface::{SpaceSurface, Surface};
 use crate::rigid::Bodies;
 use crate::tensor::cross;
+use embate_lanes::Level;
 
 /// Nodes with masses (infinite: held) and springs between them, and a contact.
 struct World {
@@ -82,7 +83,7 @@ impl World {
         self.springs.clear();
         self.contact.detect(&Scene { sweep: Sweep::between(&old, &at), bodies: &self.bodies, time: 0.0 }, &mut self.springs);
         let nodes = (&self.mass[..], &before[..], &free[..], dt);
-        self.springs.solve(&Update { time_steps: [dt; 2], positions: &at, nodes: &nodes, bodies: &self.bodies });
+        self.springs.solve(&Update { time_steps: [dt; 2], positions: &at, nodes: &nodes, bodies: &self.bodies, level: Level::best() });
         let mut forces = ContactForces::new(at.len());
         self.contact.collect(&self.springs, &mut forces, &mut self.bodies, &mut self.traces, dt);
         let totals = self.contact.totals;
@@ -441,7 +442,7 @@ fn a_body_does_not_meet_itself_where_it_is_whole_and_does_where_it_folds() {
         formulation.detect(&Scene { sweep: Sweep::between(&old, &positions), bodies: &bodies, time: 0.0 }, &mut springs);
         springs.close_group(0);
         let nodes = (&vec![1.0; positions.len()][..], &vec![[0.0; 3]; positions.len()][..], &vec![[0.0; 3]; positions.len()][..], 0.0);
-        springs.solve(&Update { time_steps: [0.01; 2], positions: &positions, nodes: &nodes, bodies: &bodies });
+        springs.solve(&Update { time_steps: [0.01; 2], positions: &positions, nodes: &nodes, bodies: &bodies, level: Level::best() });
         let gaps: Vec<(u32, f64)> = springs.list.iter().map(|spring| (springs.ends(spring).next().unwrap().at, spring.gap)).collect();
         for &(node, gap) in gaps.iter().filter(|(_, gap)| *gap < 0.0) {
             let x = clamp.positions[node as usize];

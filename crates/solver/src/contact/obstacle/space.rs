@@ -370,6 +370,7 @@ mod tests {
     use crate::load::curve::{Curves, Speed};
     use crate::rigid::space::Turning;
     use crate::rigid::{Acting, Bodies, Body};
+    use embate_lanes::Level;
 
     struct Nodes<'a>(&'a [f64], &'a [Vector], f64);
 
@@ -455,7 +456,13 @@ mod tests {
             });
             springs.clear();
             contact.detect(&Scene { sweep: Sweep::between(&old, &x), bodies: &bodies, time: 0.0 }, &mut springs);
-            springs.solve(&Update { time_steps: [dt; 2], positions: &x, nodes: &Nodes(&mass, &v, dt), bodies: &bodies });
+            springs.solve(&Update {
+                time_steps: [dt; 2],
+                positions: &x,
+                nodes: &Nodes(&mass, &v, dt),
+                bodies: &bodies,
+                level: Level::best(),
+            });
             let mut forces = ContactForces::new(x.len());
             contact.collect(&springs, &mut forces, &mut bodies, &mut traces, dt);
             lost += contact.totals.lost.friction;

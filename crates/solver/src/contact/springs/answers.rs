@@ -57,7 +57,7 @@ where
     #[inline]
     fn next(&mut self) -> Option<Answer<'a, D>> {
         let (springs, number) = (self.springs, self.range.next()?);
-        let solved = &springs.work.solved[springs.work.rank[number] as usize];
+        let solved = &springs.work.solved[springs.work.rank(number)];
         Some(Answer { springs, spring: &springs.list[number], solved, terms: springs.terms_of[number] })
     }
 }

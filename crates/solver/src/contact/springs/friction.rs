@@ -13,6 +13,7 @@
 //! a multiplier as normal law k is infinite: the force that stops the slip in v^{n+½}, within ±T_max.
 
 pub mod cone;
+pub(super) mod lanes;
 
 use super::Along;
 use crate::contact::springs::TangentSpace;
@@ -38,15 +39,22 @@ impl Friction {
     /// update).
     #[must_use]
     pub fn limit(&self, force: f64, area: f64, slip_rate: f64) -> f64 {
+        let [coefficient, added, most] = self.limits(area, slip_rate);
+        // Where nothing presses nothing rubs.
+        if force > 0.0 { (coefficient * force + added).min(most) } else { 0.0 }
+    }
+
+    /// What T_max is made of: µ(v), c A v and τ_max A.
+    #[must_use]
+    pub fn limits(&self, area: f64, slip_rate: f64) -> [f64; 3] {
         let speed = slip_rate.abs();
         let coefficient = if self.coefficient == self.dynamic {
             self.dynamic
         } else {
             self.dynamic + (self.coefficient - self.dynamic) * embate_lanes::math::exp(-self.decay * speed)
         };
-        // Where nothing presses nothing rubs.
-        let pressed = if force > 0.0 { coefficient * force + self.viscosity * area * speed } else { 0.0 };
-        if self.limit.is_finite() { pressed.min(self.limit * area) } else { pressed }
+        let most = if self.limit.is_finite() { self.limit * area } else { f64::INFINITY };
+        [coefficient, self.viscosity * area * speed, most]
     }
 }
 
@@ -128,11 +136,8 @@ pub fn slide(stick: &FrictionInput<2>, [slip]: [f64; 1], limit: f64) -> Friction
 #[must_use]
 pub fn tie(stick: &FrictionInput<2>, [slip]: [f64; 1]) -> [f64; 1] {
     let FrictionInput { old: [old], free: [free], compliance: [[compliance]], stiffness, time_steps: [before, after] } = *stick;
-    if compliance <= 0.0 {
-        return [0.0];
-    }
     if stiffness.is_infinite() {
-        return [-(slip / after + free) / compliance];
+        return [if compliance > 0.0 { -(slip / after + free) / compliance } else { 0.0 }];
     }
     let sum = 2.0 * slip - 0.5 * before * old + 0.5 * after * free;
     [-0.5 * stiffness * sum / (1.0 + 0.25 * stiffness * after * compliance)]

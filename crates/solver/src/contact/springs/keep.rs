@@ -91,8 +91,7 @@ where
             self.close_group(terms as usize);
             self.work.solved.push(solved);
         }
-        self.work.rank.clear();
-        self.work.rank.extend(0..self.list.len() as u32);
+        self.work.topology.number_in_order(self.list.len());
         Ok(())
     }
 }

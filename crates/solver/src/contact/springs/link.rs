@@ -69,6 +69,12 @@ where
         Self::new(at, nodes, update).mobility != Default::default()
     }
 
+    /// Rates of the row `row` at an end, before and without springs, m/s.
+    pub(super) fn rates(&self, row: [f64; D], end: &End<D>) -> [f64; 2] {
+        let row = self.row(row, end);
+        [self.velocity_old, self.velocity_free].map(|velocity| Dim::<D>::dot(&row, &velocity))
+    }
+
     /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader
     /// feels it.
     #[inline]
@@ -289,7 +295,7 @@ where
     }
 
     /// What is at the end `k`.
-    fn movable(&self, k: usize) -> Movable<D> {
+    pub(super) fn movable(&self, k: usize) -> Movable<D> {
         Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update)
     }
 
@@ -356,16 +362,27 @@ where
             next += 1;
         }
         link.compliance = 0.5 * after * link.own[0];
-        let begins = spring.gap - 0.5 * before * link.rate_old;
-        (link.gap, link.gap_old) = match self.ended.get(number as usize) {
-            Some(&[half, stored]) if !half.is_nan() => {
-                let open = terms.law.reach();
-                let old = if half < open { gap_of(terms.law.as_ref(), spring, half, stored) } else { begins.max(open) };
-                (old + 0.5 * before * link.rate_old, old)
-            }
-            _ => (spring.gap, begins),
-        };
+        (link.gap, link.gap_old) = begins(self, number, link.rate_old, before);
         link.gap_free = link.gap + 0.5 * after * link.rate_free;
+    }
+}
+
+/// Gaps g^n and g^{n−½} with which a spring begins the update, m, where its gap changed at `rate_old` (m/s)
+/// in the step `before` (s).
+pub(super) fn begins<M: NodeResponses<D>, const D: usize>(joints: &Joints<'_, M, D>, number: u32, rate_old: f64, before: f64) -> (f64, f64)
+where
+    Dim<D>: TangentSpace<D>,
+{
+    let spring = &joints.list[number as usize];
+    let begins = spring.gap - 0.5 * before * rate_old;
+    match joints.ended.get(number as usize) {
+        Some(&[half, stored]) if !half.is_nan() => {
+            let law = joints.terms[joints.terms_of[number as usize] as usize].law.as_ref();
+            let open = law.reach();
+            let old = if half < open { gap_of(law, spring, half, stored) } else { begins.max(open) };
+            (old + 0.5 * before * rate_old, old)
+        }
+        _ => (spring.gap, begins),
     }
 }
 

@@ -27,15 +27,21 @@
 //! no preferred one, and is gone when the surfaces have parted.
 //!
 //! g^{n+½} depends on F itself and on the other springs at the same nodes. Springs that share none are in
-//! different `islands`; those of one are swept over in their fixed order (`relax`: Gauss-Seidel, normal force
-//! and friction in turn) until no force changes, and where that is slow, Newton's step predicts the forces
-//! (`newton`, `skyline`). Pair forces keep both momenta exactly at any time. `solve` leads through the step,
-//! `link` has what springs act on, `couple` what they do to each other, `book` the energies, `answers` what
-//! contacts are reported. Laws of the normal force are in [`super::law`], friction is in [`friction`].
+//! different `islands`; those of one are swept over until no force changes (Gauss-Seidel, normal force and
+//! friction in turn): eight at a time (`block`, `batches`, `sweep`), large islands cluster by cluster in the
+//! order of their colours (`clusters`). Where that is slow, or rigid bodies or constraints are there, they
+//! are swept over one by one (`relax`), and Newton's step predicts the forces (`newton`, `skyline`). Pair
+//! forces keep both momenta exactly at any time. `solve` leads through the step, `topology` has what stays
+//! while springs keep their ends, `link` what springs act on, `couple` what they do to each other, `book` the
+//! energies, `answers` what contacts are reported. Laws of the normal force are in [`super::law`], friction
+//! is in [`friction`].
 
 pub mod friction;
 mod answers;
+mod batches;
+mod block;
 mod book;
+mod clusters;
 mod couple;
 mod ends;
 mod islands;
@@ -45,7 +51,9 @@ mod newton;
 mod relax;
 mod skyline;
 mod solve;
+mod sweep;
 mod tangent_space;
+mod topology;
 
 pub use answers::{Answer, Answers};
 pub use tangent_space::TangentSpace;
@@ -55,6 +63,7 @@ use crate::archive::persist_all;
 use crate::energy::Lost;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
+use embate_lanes::Level;
 use ends::Ends;
 use friction::Friction;
 use std::ops::Range;
@@ -372,6 +381,8 @@ where
     pub nodes: &'a M,
     /// Rigid bodies.
     pub bodies: &'a Bodies<D>,
+    /// Instructions with which springs are solved.
+    pub level: Level,
 }
 
 /// Nodes as springs see them.

@@ -1,68 +1,79 @@
 //! The solution of a step: what the springs act on, islands, and forces.
 //!
 //! Springs come from the contacts, the state of the step from [`crate::step`]; what was found stays until the
-//! next one. Within a pool of threads the islands are shared among them. The sweeps over an island are made
-//! by one thread, in its own order; the rows and couplings of its springs, each for itself, by all where the
-//! island is large. So results do not depend on the number of threads.
+//! next one, and while springs keep their ends what follows from these ([`super::topology`]). Small islands
+//! are solved some together ([`super::block`]), large ones cluster by cluster ([`super::clusters`]), those
+//! that sweeps do not solve, or that have rigid bodies or constraints, one after the other
+//! ([`super::relax`]). Within a pool of threads all share the work; results do not depend on their number.
 
-use super::islands::{Islands, NONE};
-use super::link::{Bench, Joints, Movable};
+use super::block::Block;
+use super::clusters::{CLUSTER, Clusters, Problem, relax, settle};
+use super::link::{Bench, Joints};
 use super::newton::Newton;
 use super::relax::{Effort, Island};
+use super::sweep::{Laws, MOST};
+use super::topology::{CHUNK, Topology};
 use super::{NodeResponses, Solved, Springs, Update};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
 
-/// Springs (at least) of the islands that one task solves.
-const CHUNK: usize = 256;
 /// Fewer springs are solved by one thread.
 const SERIAL: usize = 4 * CHUNK;
+/// Springs from which on an island is solved cluster by cluster.
+const LARGE: usize = 2 * CLUSTER;
 
-/// Memory of the solution; nothing of it is known from step to step but what was found.
+/// Memory of the solution.
 #[derive(Default)]
 pub(super) struct Workspace<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Place of each node (then of each rigid body) in `at`; `NONE`: not touched.
-    place: Vec<u32>,
-    /// Node or rigid body of each place.
-    at: Vec<u32>,
-    /// Place of each end.
-    places: Vec<u32>,
-    /// Slot of each place in its island; `NONE`: it does not move.
-    slots: Vec<u32>,
-    islands: Islands,
-    /// Where each task's islands end.
-    chunks: Vec<u32>,
+    pub(super) topology: Topology,
     /// What was found, island by island.
     pub(super) solved: Vec<Solved<D>>,
-    /// Where each spring is among them.
-    pub(super) rank: Vec<u32>,
+    /// Of each chunk.
+    tasks: Vec<Task<D>>,
+    /// Of each large island.
+    large: Vec<Clusters<D>>,
+    /// Of each thread.
     desks: Vec<Desk<D>>,
 }
 
-/// What a task works with, and what it reports.
+/// What is kept of a chunk of small islands, and what its solution took.
+#[derive(Default)]
+struct Task<const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    block: Block<D>,
+    effort: Effort,
+}
+
+/// What islands are solved with one after the other.
 #[derive(Default)]
 struct Desk<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
+    /// Memory for arranging blocks.
+    rooms: Vec<u32>,
     bench: Bench<D>,
     newton: Newton<D>,
     live: Vec<u32>,
-    effort: Effort,
 }
-
-/// A place that moves, until it has a slot.
-const MOVES: u32 = NONE - 1;
 
 impl<const D: usize> Workspace<D>
 where
     Dim<D>: TangentSpace<D>,
 {
     pub(super) fn new(places: usize) -> Self {
-        Self { place: vec![NONE; places], ..Self::default() }
+        Self { topology: Topology::new(places), ..Self::default() }
+    }
+
+    /// Where a spring is among the solved ones.
+    #[inline]
+    pub(super) fn rank(&self, spring: usize) -> usize {
+        self.topology.rank[spring] as usize
     }
 }
 
@@ -76,97 +87,31 @@ where
         if self.list.is_empty() {
             return;
         }
-        self.gather(update);
-        let ends = |spring: usize| self.list[spring].ends();
-        let Workspace { islands, places, slots, at, .. } = &mut self.work;
-        islands.find(self.list.len(), ends, places, at.len(), |place| slots[place as usize] != NONE);
-        self.number_slots();
-        self.solve_islands(update);
-        for &at in &self.work.at {
-            self.work.place[at as usize] = NONE;
-        }
-    }
-
-    /// The nodes and bodies at the springs.
-    fn gather<M: NodeResponses<D>>(&mut self, update: &Update<'_, M, D>) {
-        let nodes = update.nodes.count();
-        let Workspace { place, at: all, places, slots, .. } = &mut self.work;
-        all.clear();
-        places.clear();
-        slots.clear();
-        for k in 0..self.ends.len() as usize {
-            let mut at = self.ends.at(k);
-            if let Some(body) = update.bodies.of_node(at) {
-                self.ends.set_point(k, update.positions[at as usize]);
-                at = (nodes + body) as u32;
-            } else if (at as usize) < nodes {
-                let (leader, image) = update.nodes.leader(at);
-                at = leader;
-                if let Some(image) = image {
-                    self.ends.set_image(k, image);
-                }
-            }
-            let place = &mut place[at as usize];
-            if *place == NONE {
-                *place = all.len() as u32;
-                all.push(at);
-                slots.push(if Movable::moves(at, nodes, update) { MOVES } else { NONE });
-            }
-            places.push(*place);
-        }
-    }
-
-    /// Slots of what moves, island by island in the order of the springs, and which islands make a task.
-    fn number_slots(&mut self) {
-        let Workspace { places, slots, islands, chunks, rank, .. } = &mut self.work;
-        rank.clear();
-        rank.resize(self.list.len(), 0);
-        chunks.clear();
-        let (mut links, mut begun) = (0, 0);
-        for (island, &end) in islands.ends.iter().enumerate() {
-            let mut count = 0;
-            for link in links..end as usize {
-                let spring = islands.order[link] as usize;
-                rank[spring] = link as u32;
-                for &place in &places[self.list[spring].ends()] {
-                    if slots[place as usize] == MOVES {
-                        slots[place as usize] = count;
-                        count += 1;
-                    }
-                }
-            }
-            links = end as usize;
-            if links - begun >= CHUNK || links == self.list.len() {
-                chunks.push(island as u32 + 1);
-                begun = links;
-            }
-        }
-    }
-
-    /// The forces of all islands.
-    fn solve_islands<M: NodeResponses<D> + Sync>(&mut self, update: &Update<'_, M, D>) {
-        let parallel = self.list.len() >= SERIAL && rayon::current_thread_index().is_some();
-        let Workspace { at, places, slots, islands, chunks, solved, desks, .. } = &mut self.work;
+        let Workspace { topology, solved, tasks, large, desks } = &mut self.work;
+        let is_new = topology.update((&self.list, &self.terms_of), &mut self.ends, update, LARGE);
         solved.resize(self.list.len(), Solved::default());
-        let count = if parallel { chunks.len() } else { 1 };
-        if desks.len() < count {
-            desks.resize_with(count, Desk::default);
+        let threads = if self.list.len() >= SERIAL { rayon::current_thread_index().map_or(1, |_| rayon::current_num_threads()) } else { 1 };
+        let chunks = topology.chunks.len();
+        if tasks.len() < chunks {
+            tasks.resize_with(chunks, Task::default);
         }
-        desks.iter_mut().for_each(|desk| desk.effort = Effort::default());
+        if desks.len() < threads {
+            desks.resize_with(threads, Desk::default);
+        }
+        let Topology { places, at, slots, .. } = &*topology;
         let (terms, terms_of) = (&self.terms[..], &self.terms_of[..]);
         let joints = Joints { list: &self.list, ended: &self.ended, ends: &self.ends, places, at, slots, update, terms, terms_of };
-        let plan = Plan { joints, islands, chunks };
-        if parallel {
-            plan.solve(0..chunks.len(), solved, &mut desks[..count]);
-        } else {
-            (0..chunks.len()).fold(&mut solved[..], |solved, chunk| {
-                let (own, rest) = solved.split_at_mut(plan.links(chunk..chunk + 1));
-                plan.solve_chunk(chunk, own, &mut desks[0]);
-                rest
-            });
-        }
+        let plan = Plan { joints, topology, is_new };
+        plan.solve(0..chunks, solved, &mut tasks[..chunks], &mut desks[..threads]);
         let mut effort = Effort::default();
-        desks.iter().for_each(|desk| effort.join(desk.effort));
+        for (number, chunk) in (0..chunks).filter(|&chunk| plan.is_large(chunk)).enumerate() {
+            if number == large.len() {
+                large.push(Clusters::default());
+            }
+            let own = &mut solved[topology.links(chunk..chunk + 1)];
+            effort.join(plan.solve_large(chunk, own, &mut large[number], &mut desks[0], threads));
+        }
+        tasks[..chunks].iter().for_each(|task| effort.join(task.effort));
         self.sweeps_max = self.sweeps_max.max(effort.sweeps);
         self.unsolved += u64::from(effort.unsolved);
     }
@@ -178,56 +123,98 @@ where
     Dim<D>: TangentSpace<D>,
 {
     joints: Joints<'a, M, D>,
-    islands: &'a Islands,
-    chunks: &'a [u32],
+    topology: &'a Topology,
+    /// Whether it is not that of the step before.
+    is_new: bool,
 }
 
 impl<M: NodeResponses<D> + Sync, const D: usize> Plan<'_, M, D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// The first island of a chunk.
-    fn begin(&self, chunk: usize) -> usize {
-        if chunk == 0 { 0 } else { self.chunks[chunk - 1] as usize }
+    /// Solves the small islands of chunks: halves of them at the same time, as many as there are desks.
+    fn solve(&self, chunks: std::ops::Range<usize>, solved: &mut [Solved<D>], tasks: &mut [Task<D>], desks: &mut [Desk<D>]) {
+        let [desk] = &mut *desks else {
+            let middle = chunks.start + chunks.len() / 2;
+            let (low, high) = (chunks.start..middle, middle..chunks.end);
+            let (solved, more) = solved.split_at_mut(self.topology.links(low.clone()).len());
+            let (tasks, other_tasks) = tasks.split_at_mut(low.len());
+            let (desks, other_desks) = desks.split_at_mut(desks.len() / 2);
+            rayon::join(|| self.solve(low, solved, tasks, desks), || self.solve(high, more, other_tasks, other_desks));
+            return;
+        };
+        chunks.zip(tasks).fold(solved, |solved, (chunk, task)| {
+            let (own, rest) = solved.split_at_mut(self.topology.links(chunk..chunk + 1).len());
+            task.effort = Effort::default();
+            if !self.is_large(chunk) {
+                self.solve_chunk(chunk, own, task, desk);
+            }
+            rest
+        });
     }
 
-    /// Springs of the islands before one.
-    fn before(&self, island: usize) -> usize {
-        if island == 0 { 0 } else { self.islands.ends[island - 1] as usize }
+    /// Whether a chunk is one large island.
+    fn is_large(&self, chunk: usize) -> bool {
+        self.topology.islands_of(chunk).len() == 1 && self.topology.links(chunk..chunk + 1).len() >= LARGE
     }
 
-    /// Springs of chunks.
-    fn links(&self, chunks: std::ops::Range<usize>) -> usize {
-        self.before(self.begin(chunks.end)) - self.before(self.begin(chunks.start))
+    /// What acts in the springs.
+    fn laws(&self) -> Laws<'_, D> {
+        let Joints { list, terms, terms_of, update, .. } = self.joints;
+        Laws { list, terms, terms_of, time_steps: update.time_steps }
     }
 
-    /// Solves chunks, halves of them at the same time.
-    fn solve(&self, chunks: std::ops::Range<usize>, solved: &mut [Solved<D>], desks: &mut [Desk<D>]) {
-        if let ([desk], 1) = (&mut *desks, chunks.len()) {
-            return self.solve_chunk(chunks.start, solved, desk);
+    /// Solves the islands of a chunk.
+    fn solve_chunk(&self, chunk: usize, solved: &mut [Solved<D>], task: &mut Task<D>, desk: &mut Desk<D>) {
+        let (springs, Task { block, effort }) = (self.topology.springs_of(chunk), task);
+        if self.is_new {
+            let islands = self.topology.islands_of(chunk);
+            let base = self.topology.before(islands.start);
+            desk.rooms.resize(self.joints.at.len(), u32::MAX);
+            let ends = islands.map(|island| (self.topology.before(island + 1) - base) as u32);
+            block.arrange(&self.joints, springs, ends, &mut desk.rooms);
         }
-        let middle = chunks.start + chunks.len() / 2;
-        let (low, high) = (chunks.start..middle, middle..chunks.end);
-        let (solved, more) = solved.split_at_mut(self.links(low.clone()));
-        let (desks, others) = desks.split_at_mut(low.len());
-        rayon::join(|| self.solve(low, solved, desks), || self.solve(high, more, others));
+        block.load(&self.joints);
+        while block.parts.iter().any(|part| !part.is_done) {
+            relax(block, self.laws(), self.joints.update.level);
+            block.parts.iter_mut().filter(|part| !part.is_done).for_each(|part| part.close_sweep(MOST));
+        }
+        settle(block, self.laws(), self.joints.update.level);
+        let mut begin = 0;
+        for part in &block.parts {
+            let own = begin..part.end as usize;
+            begin = own.end;
+            if part.is_general {
+                effort.join(self.solve_island(&springs[own.clone()], &mut solved[own], desk));
+            } else {
+                effort.join(Effort { sweeps: part.sweeps as usize, unsolved: false });
+                solved[own.clone()].copy_from_slice(&block.found[own]);
+            }
+        }
     }
 
-    /// Solves the islands of a chunk one after the other.
-    fn solve_chunk(&self, chunk: usize, solved: &mut [Solved<D>], desk: &mut Desk<D>) {
-        let Desk { bench, newton, live, effort } = desk;
-        let base = self.before(self.begin(chunk));
-        for island in self.begin(chunk)..self.chunks[chunk] as usize {
-            let range = self.before(island)..self.before(island + 1);
-            let length = part_length(range.len());
-            bench.fill(&self.joints, &self.islands.order[range.clone()], length);
-            let Bench { links, arms, slips, slots, couplings, forces, .. } = bench;
-            let Joints { list, terms, terms_of, update, .. } = self.joints;
-            let time_steps = update.time_steps;
-            let mut island = Island { links, arms, slips, slots, couplings, forces, list, terms_of, terms, time_steps };
-            effort.join(island.solve(newton, live));
-            island.settle(&mut solved[range.start - base..range.end - base], length);
+    /// Solves a large island.
+    fn solve_large(&self, chunk: usize, solved: &mut [Solved<D>], clusters: &mut Clusters<D>, desk: &mut Desk<D>, tasks: usize) -> Effort {
+        let springs = self.topology.springs_of(chunk);
+        let problem = Problem { joints: &self.joints, springs, laws: self.laws(), tasks };
+        if self.is_new {
+            clusters.arrange(&problem);
         }
+        clusters.solve(&problem, solved).unwrap_or_else(|| self.solve_island(springs, solved, desk))
+    }
+
+    /// Solves an island by [`super::relax`].
+    fn solve_island(&self, springs: &[u32], solved: &mut [Solved<D>], desk: &mut Desk<D>) -> Effort {
+        let Desk { bench, newton, live, .. } = desk;
+        let length = part_length(springs.len());
+        bench.fill(&self.joints, springs, length);
+        let Bench { links, arms, slips, slots, couplings, forces, .. } = bench;
+        let Joints { list, terms, terms_of, update, .. } = self.joints;
+        let time_steps = update.time_steps;
+        let mut island = Island { links, arms, slips, slots, couplings, forces, list, terms_of, terms, time_steps };
+        let effort = island.solve(newton, live);
+        island.settle(solved, length);
+        effort
     }
 }
 

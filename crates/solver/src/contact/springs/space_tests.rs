@@ -48,7 +48,7 @@ impl Cloud {
             springs.push(*spring, ends);
         }
         springs.close_group(0);
-        springs.solve(&Update { time_steps: [self.dt; 2], positions: &self.positions, nodes: self, bodies });
+        springs.solve(&Update { time_steps: [self.dt; 2], positions: &self.positions, nodes: self, bodies, level: Level::best() });
         springs
     }
 
@@ -314,7 +314,7 @@ fn a_rigid_body_that_bounces_on_its_corners_keeps_its_energy_and_with_friction_l
                 springs.push(lid, &[End { at: 0, share: 1.0, point, ..End::default() }]);
             }
             springs.close_group(0);
-            springs.solve(&Update { time_steps: [dt; 2], positions: &[], nodes: &cloud, bodies: &bodies });
+            springs.solve(&Update { time_steps: [dt; 2], positions: &[], nodes: &cloud, bodies: &bodies, level: Level::best() });
             let mut stored = 0.0;
             for (number, answer) in springs.answers(0..16).enumerate() {
                 let (books, force) = (answer.books(), answer.solved.force);

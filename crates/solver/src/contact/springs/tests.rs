@@ -42,6 +42,7 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness() {
                 positions: &positions,
                 nodes: &NodeResponse { velocity_old: old[0], velocity: free, mobility: [dt, 0.0, dt] },
                 bodies: &bodies,
+                level: Level::best(),
             };
             springs.solve(&update);
             v[0] += dt * springs.answers(0..2).map(|answer| answer.spring.normal[0] * answer.solved.force).sum::<f64>();
@@ -105,13 +106,18 @@ impl NodeResponses<2> for Rows {
 impl Rows {
     fn solve(&self, terms: Terms) -> Springs<2> {
         let mut springs = Springs::new(self.mass.len(), 0, vec![terms]);
+        self.solve_again(&mut springs, Level::best());
+        springs
+    }
+
+    fn solve_again(&self, springs: &mut Springs<2>, level: Level) {
+        springs.clear();
         for (spring, ends) in &self.springs {
             springs.push(*spring, ends);
         }
         springs.close_group(0);
-        let update = Update { time_steps: [0.01; 2], positions: &self.positions, nodes: self, bodies: &Bodies::default() };
+        let update = Update { time_steps: [0.01; 2], positions: &self.positions, nodes: self, bodies: &Bodies::default(), level };
         springs.solve(&update);
-        springs
     }
 
     /// What is wrong with the forces, as a fraction of the largest: what each law wants where the others are.
@@ -207,6 +213,47 @@ fn islands_are_solved_to_the_same_bits_by_any_number_of_threads() {
     assert!(alone.iter().filter(|solved| solved.force > 0.0).count() > 500);
     for threads in [1, 2, 8] {
         assert!(solved(Some(threads)) == alone, "{threads} threads");
+    }
+}
+
+#[test]
+fn every_instruction_set_and_any_number_of_threads_find_the_same_bits() {
+    // Some islands together, one in clusters, and one that sweeps do not solve.
+    for (counts, scale) in [([8, 11], 0.3), ([60, 77], 1.0), ([300, 411], 0.3), ([1500, 1999], 1.0), ([300, 411], 1e4)] {
+        let rows = rows(counts, scale * 1e4 / counts[0] as f64);
+        for tangential in [Tangential::Free, coulomb(0.3), Tangential::Tied] {
+            let found = |level: Level, threads: usize| {
+                let solve = || {
+                    let mut springs = Springs::new(rows.mass.len(), 0, vec![Terms { law: Box::new(Penalty), tangential, damping: 0.0 }]);
+                    rows.solve_again(&mut springs, level);
+                    springs.answers(0..springs.list.len()).map(|answer| *answer.solved).collect::<Vec<_>>()
+                };
+                rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(solve)
+            };
+            let expected = found(Level::SCALAR, 1);
+            assert!(expected.iter().any(|solved| solved.force > 0.0));
+            for level in Level::available() {
+                for threads in [1, 2, 5] {
+                    assert!(found(level, threads) == expected, "{counts:?} {tangential:?}: {} on {threads} threads", level.name());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_kept_while_springs_have_the_same_ends_changes_nothing() {
+    let scenes = [rows([60, 77], 300.0), rows([300, 411], 60.0), rows([300, 411], 20.0), rows([60, 77], 100.0), rows([61, 76], 100.0)];
+    let nodes = scenes.iter().map(|rows| rows.mass.len()).max().unwrap();
+    let terms = || vec![Terms { law: Box::new(Penalty), tangential: coulomb(0.3), damping: 0.0 }];
+    let mut kept = Springs::new(nodes, 0, terms());
+    // One after the other, some twice: with the ends of the step before, and with others.
+    for scene in [0, 3, 3, 1, 2, 1, 0, 4, 4, 0] {
+        scenes[scene].solve_again(&mut kept, Level::best());
+        let mut new = Springs::new(nodes, 0, terms());
+        scenes[scene].solve_again(&mut new, Level::best());
+        let all = |springs: &Springs<2>| springs.answers(0..springs.list.len()).map(|answer| *answer.solved).collect::<Vec<_>>();
+        assert!(all(&kept) == all(&new), "scene {scene}");
     }
 }
 

@@ -122,11 +122,11 @@ pub fn lateral_compliance(stick: &FrictionInput<3>, slip: [f64; 2], friction: &[
 #[must_use]
 pub fn tie(stick: &FrictionInput<3>, slip: [f64; 2]) -> [f64; 2] {
     let FrictionInput { old, free, compliance, stiffness, time_steps: [before, after] } = *stick;
-    if compliance[0][0] + compliance[1][1] <= 0.0 {
-        return [0.0; 2];
-    }
     let (give, axis) = axes(compliance);
     if stiffness.is_infinite() {
+        if give[1] <= 0.0 {
+            return [0.0; 2];
+        }
         let rate = onto(axis, [0, 1].map(|a| slip[a] / after + free[a]));
         return back(axis, [0, 1].map(|k| if give[k] > 1e-14 * give[1] { -rate[k] / give[k] } else { 0.0 }));
     }

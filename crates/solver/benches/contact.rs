@@ -6,7 +6,7 @@
 //! next strip; all in one contact of bodies with each other and with themselves. At rest nothing presses; in
 //! motion every second strip moves against its neighbours. Reported are the shares of the step that contact,
 //! its tracking and the swept check take, and the time of a global search. In 3D two slabs lie on each other,
-//! node on node or shifted.
+//! node on node or shifted, also facets on facets.
 
 use embate_solver::bench::{shortest, slabs, step_times, strips};
 use embate_solver::contact::Sweep;
@@ -14,7 +14,7 @@ use embate_solver::contact::projection::node_segment::Target;
 use embate_solver::contact::search::registry;
 use embate_solver::contact::tracker::Tracker;
 use embate_solver::mesh::Mesh;
-use embate_solver::model::{Contact, Friction, Interface, Model, Partners, Shape};
+use embate_solver::model::{Contact, Formulation, Friction, Interface, Model, Partners, Shape};
 use embate_solver::simulation::Options;
 use std::hint::black_box;
 
@@ -40,7 +40,7 @@ fn main() {
         {
             let plain = strips(elements, speed);
             // 44 steps: so long the strips press on each other, once they have met.
-            let with = compare(name, &plain, Partners::Bodies(Vec::new()), friction, &options);
+            let with = compare(name, &plain, contact(Partners::Bodies(Vec::new()), friction), &options);
             if speed == 0.0 {
                 track_alone(&plain, with);
             }
@@ -49,12 +49,17 @@ fn main() {
     if is_wanted("space") {
         let n = (elements as f64 / 20.0).sqrt().round() as usize;
         let between = || Partners::Between(["upper".into(), "lower".into()]);
-        for (name, speed, shift, friction, partners) in [
-            ("slabs at rest, 1 mm apart", 0.0, 0.0, 0.0, Partners::Bodies(Vec::new())),
-            ("slabs node on node", 2.0, 0.0, 0.0, between()),
-            ("slabs shifted", 2.0, 0.3, 0.0, between()),
-            ("slabs shifted, bodies", 2.0, 0.3, 0.0, Partners::Bodies(Vec::new())),
-            ("slabs shifted, with friction", 2.0, 0.3, 0.3, between()),
+        let bodies = || Partners::Bodies(Vec::new());
+        let facets = |contact: Contact| Contact { formulation: Formulation::Segment, ..contact };
+        for (name, speed, shift, contact) in [
+            ("slabs at rest, 1 mm apart", 0.0, 0.0, contact(bodies(), 0.0)),
+            ("slabs node on node", 2.0, 0.0, contact(between(), 0.0)),
+            ("slabs node on node, facets", 2.0, 0.0, facets(contact(between(), 0.0))),
+            ("slabs shifted", 2.0, 0.3, contact(between(), 0.0)),
+            ("slabs shifted, facets", 2.0, 0.3, facets(contact(between(), 0.0))),
+            ("slabs shifted, bodies", 2.0, 0.3, contact(bodies(), 0.0)),
+            ("slabs shifted, with friction", 2.0, 0.3, contact(between(), 0.3)),
+            ("slabs shifted, with friction, facets", 2.0, 0.3, facets(contact(between(), 0.3))),
         ]
         .into_iter()
         .filter(|(name, ..)| is_named(name))
@@ -63,7 +68,7 @@ fn main() {
             if speed == 0.0 {
                 lift(&mut plain, SIZE);
             }
-            compare(name, &plain, partners, friction, &options);
+            compare(name, &plain, contact, &options);
         }
     }
 }
@@ -75,12 +80,17 @@ fn lift(model: &mut Model, by: f64) {
     }
 }
 
-/// Times of steps with and without contact, and their shares; the time of a step with contact, ms.
-fn compare(name: &str, plain: &Model, partners: Partners, friction: f64, options: &Options) -> f64 {
-    let mut touching = plain.clone();
+/// A contact with a coefficient of friction.
+fn contact(partners: Partners, friction: f64) -> Contact {
     let friction = Friction { coefficient: friction, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
     let interface = Interface { friction: (friction.coefficient > 0.0).then_some(friction), ..Interface::default() };
-    touching.contacts.push(Contact { name: "all".into(), partners, interface, ..Contact::default() });
+    Contact { name: "all".into(), partners, interface, ..Contact::default() }
+}
+
+/// Times of steps with and without contact, and their shares; the time of a step with contact, ms.
+fn compare(name: &str, plain: &Model, contact: Contact, options: &Options) -> f64 {
+    let mut touching = plain.clone();
+    touching.contacts.push(contact);
     let ([without, with], [_, simulation]) = step_times([plain, &touching], options, 9, f64::INFINITY).expect("the models are sound");
     let [without, with] = [without, with].map(|seconds| 1e3 * seconds);
     let summary = simulation.summary();

@@ -18,12 +18,13 @@
 //! the back side of a thin body.
 
 mod common;
+mod space;
+mod start;
 
 use super::checked::Look;
 use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, both_passes};
-use super::initial::kept;
 use super::law::{Law, penalty};
 use super::springs::{Answers, Patch, Spring, Springs};
 use super::tracker::{Certificate, SearchReport, Tracker};
@@ -33,18 +34,18 @@ use crate::mesh::surface::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
 use crate::rows::Rows;
-use crate::vector::{dot, minus};
 use common::Common;
+use start::{Start, Unseen};
 use std::any::Any;
 
 /// Registry entry.
 pub const KIND: FormulationKind = FormulationKind {
     name: "segment",
-    doc: "segments against segments, integrated over their common part: passes the contact patch test on any meshes",
+    doc: "segments (in 3D facets) against each other, integrated over their common part: passes the contact patch test on any meshes",
     source: "Papadopoulos and Taylor (1992); common plane as in Puso and Laursen (2004)",
     passes: both_passes,
     in_2d: Some(|setup| Ok(Box::new(Segment::of(setup)))),
-    in_3d: None,
+    in_3d: Some(|setup| Ok(Box::new(space::Segment::of(setup)))),
 };
 
 /// Place (0 to 1) and weight of integration points.
@@ -74,11 +75,7 @@ pub struct Segment {
     penalty: Penalty,
     rule: Rule,
     depth: Depth,
-    /// Distance that the surfaces keep, m.
-    thickness: f64,
-    /// Largest gap at which the law pushes, m.
-    reach: f64,
-    start: Start,
+    start: Start<2>,
     /// Pairs of this step, ascending.
     pairs: Vec<[u32; 2]>,
     /// Those that have a common part.
@@ -98,16 +95,6 @@ pub struct Segment {
     lost_contact_energy: f64,
     /// How deep nodes are against the local thickness.
     depths: Depths,
-}
-
-/// What is known of the beginning.
-struct Start {
-    /// Whether gaps that are negative when the contact begins to act count as zero.
-    ignored: bool,
-    has_begun: bool,
-    /// Initial positions (m) and body of each node: only where surfaces keep a distance.
-    positions: Vec<Vector>,
-    bodies: Vec<u32>,
 }
 
 /// Two segments with a common part.
@@ -171,16 +158,9 @@ impl Segment {
         // With springs that don't yield two points a pair were more conditions than the nodes can meet.
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let law = (setup.law)();
-        let (penalty, thickness, reach, depth) = (setup.penalty(), setup.contact.interface.thickness, law.reach(), setup.depth);
+        let (penalty, depth, start) = (setup.penalty(), setup.depth, Start::of(&setup, law.reach()));
         let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.surface.target.surface, side.stiffness.clone())).collect();
         let count = chains.iter().map(|chain| chain.depth.len()).sum();
-        let at_a_distance = thickness + reach > 0.0;
-        let start = Start {
-            ignored: setup.ignores_start(),
-            positions: if at_a_distance { setup.positions.to_vec() } else { Vec::new() },
-            bodies: if at_a_distance { setup.bodies.to_vec() } else { Vec::new() },
-            has_begun: false,
-        };
         let tracker = setup.tracker().with_ends(setup.positions);
         Self {
             tracker,
@@ -190,8 +170,6 @@ impl Segment {
             penalty,
             rule,
             depth,
-            thickness,
-            reach,
             start,
             pairs: Vec::new(),
             commons: Vec::new(),
@@ -224,7 +202,7 @@ impl Segment {
                 chain.depth[node as usize] = f64::NEG_INFINITY;
             }
         }
-        self.tracker.track(scene.sweep, self.thickness + self.reach);
+        self.tracker.track(scene.sweep, self.start.within());
         self.depths.begin(scene);
         for touch in self.tracker.touches() {
             let side = self.tracker.side(touch.pass);
@@ -292,19 +270,6 @@ impl Segment {
         let [slip, offset] = if whole > 0.0 { sums.map(|sum| sum / whole) } else { [0.0; 2] };
         (Facing { pair, length, slips: [slip; 2], offsets: [offset; 2], stored: 0.0 }, true)
     }
-
-    /// Distance that two segments keep, m. A body keeps no more distance from itself than half of what it
-    /// had: neighbours along a surface are near, and stay so.
-    fn distance(&self, common: &Common) -> f64 {
-        let Start { positions, bodies, .. } = &self.start;
-        let [[a, _], [b, _]] = common.nodes;
-        if bodies.is_empty() || bodies[a as usize] != bodies[b as usize] {
-            return self.thickness;
-        }
-        let apart = common.nodes[0].iter().flat_map(|&a| common.nodes[1].map(|b| minus(positions[a as usize], positions[b as usize])));
-        let nearest = apart.map(|apart| dot(apart, apart)).fold(f64::INFINITY, f64::min).sqrt();
-        self.thickness - (self.thickness + self.reach - 0.5 * nearest).max(0.0)
-    }
 }
 
 impl Segment {
@@ -334,19 +299,13 @@ impl Segment {
         let at = self.root(pair);
         let least = self.least[at as usize];
         let (mut facing, is_new) = self.kept(pair, common.length);
-        let begun = self.start.has_begun;
-        let at_once =
-            is_new && begun && self.law.is_elastic() && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
-        let moved = if at_once { common.moved(sweep) } else { 0.0 };
+        let may_be = is_new && self.start.has_begun && self.law.is_elastic();
+        let at_once = may_be && Common::new(common.nodes, sweep.old).is_some_and(|before| before.is_long());
         for (k, &[place, weight]) in self.rule.iter().enumerate() {
             let (gap, mut ends) = common.point(place);
             let gap = gap - distance;
-            let offset = if at_once && gap < self.reach - moved {
-                gap - self.reach - 0.5 * common.way(&ends, sweep).max(0.0)
-            } else {
-                kept(begun, facing.offsets[k], if begun { gap - self.reach } else { gap })
-            };
-            facing.offsets[k] = if self.start.ignored || begun { offset } else { 0.0 };
+            let unseen = at_once.then(|| Unseen { moved: common.moved(sweep), way: common.way(&ends, sweep) });
+            facing.offsets[k] = self.start.offset(facing.offsets[k], gap, unseen);
             let gap = gap - facing.offsets[k];
             let [energy, push] = self.density(gap, pressure);
             let around = self.depth.at(common.middle(place).map(|x| x.max(0.0)));
@@ -446,7 +405,7 @@ impl Formulation<2> for Segment {
             if let Some(common) = self.common(pair, scene.sweep.new) {
                 let [own, other] = [0, 1].map(|k| self.chains[surfaces[k]].stiffness[pair[k] as usize]);
                 let pressure = penalty::pressure(self.penalty, own, other);
-                self.commons.push(Meeting { pair, pressure, distance: self.distance(&common), common });
+                self.commons.push(Meeting { pair, pressure, distance: self.start.distance([&common.nodes[0], &common.nodes[1]]), common });
             }
         }
         self.join();
@@ -462,12 +421,12 @@ impl Formulation<2> for Segment {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            chains: _, law: _, penalty: _, rule: _, depth: _, thickness: _, reach: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _, lost_contact_energy: _,
-            tracker, start: Start { ignored: _, positions: _, bodies: _, has_begun }, facing, depths,
+            chains: _, law: _, penalty: _, rule: _, depth: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _, lost_contact_energy: _,
+            tracker, start, facing, depths,
         } = self;
         tracker.persist(archive)?;
         depths.persist(archive)?;
-        persist_each!(archive; has_begun, facing);
+        persist_each!(archive; start, facing);
         let segments = self.surfaces().map(|surface| self.tracker.targets()[surface].surface.segments.len());
         let is_there = |facing: &Facing| (0..2).all(|k| (facing.pair[k] as usize) < segments[k]);
         archive.check(self.facing.iter().all(is_there), "a segment is not there")

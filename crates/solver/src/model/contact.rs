@@ -25,7 +25,7 @@ pub enum Formulation {
         /// Index of the slave surface.
         slave: usize,
     },
-    /// Segments against segments, integrated over their common part.
+    /// Segments against segments, in 3D facets against facets, integrated over their common part.
     Segment,
     /// Disks in the elements under the surfaces against each other (Belytschko and Neal 1991).
     Pinball,
@@ -347,7 +347,7 @@ section! {
     "formulation" = Choice(Choices::Formulations), Default("\"double_pass\""),
         "What is checked: the nodes of each surface against the segments of the other, only the nodes of \
             `slave`, segments against segments, or disks in the elements. In 3D nodes meet facets, in a double \
-            pass also edges edges, and the elements have balls; there are no segments.";
+            pass also edges edges; segments are facets, and the elements have balls.";
     "slave" = Reference, Optional("needed for, and only for, `single_pass`"),
         "The surface of `between` whose nodes are checked.";
     "tied" = Flag, Default("false"), "Whether what touches at the start stays together.";

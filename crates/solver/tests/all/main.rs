@@ -60,6 +60,7 @@ mod rooms;
 mod rubbers;
 mod run_control;
 mod search;
+mod segment_in_3d;
 mod self_contact;
 mod shocks;
 mod softening;

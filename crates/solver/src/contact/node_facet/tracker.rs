@@ -420,7 +420,7 @@ impl Tracker {
     }
 
     /// Keeps what is known of the past.
-    pub(super) fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+    pub(in crate::contact) fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         for pass in &mut self.passes {
             persist_each!(archive; &mut pass.groups, &mut pass.candidates, &mut pass.clear, &mut pass.wakes, &mut pass.band);
             let (groups, candidates) = (pass.groups.len(), pass.candidates.len());
@@ -445,7 +445,7 @@ impl Tracker {
 
     /// Takes over what another one knew whose surfaces were those before they changed: of nodes that are
     /// still there.
-    pub(super) fn inherit(&mut self, old: &Self) {
+    pub(in crate::contact) fn inherit(&mut self, old: &Self) {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
             let touching = before.groups.iter().filter(|group| group.known.touches);
             pass.groups = Group::moved(touching, &self.surfaces[pass.slave].nodes);

@@ -7,6 +7,7 @@ use crate::contact::springs::End;
 use crate::contact::{Sweep, law};
 use crate::model;
 use crate::rigid::Bodies;
+use crate::vector::dot;
 
 /// Nodes of two facing chains: the first from x = 0 to `width` at y = 0 with the body below, the second back
 /// with the body above.

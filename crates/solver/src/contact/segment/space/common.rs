@@ -1,0 +1,429 @@
+//! The common part of two facets that face each other: where it is, the gaps in it, and how they vary with
+//! the nodes.
+//!
+//! Nodes and positions come from the formulation ([`super`], which has the equations); rows of rates go to
+//! its springs.
+
+use super::polygon::{Linear, Moments, Polygon, Triangle};
+use crate::contact::Sweep;
+use crate::contact::projection::node_facet::unit;
+use crate::contact::spin;
+use crate::contact::springs::{End, TangentSpace};
+use crate::mesh::surface::Corners;
+use crate::tensor::{Dim, cross, dot};
+use crate::vector::{any_tangent, length, minus};
+
+type Vector = [f64; 3];
+
+/// Common parts smaller than this fraction of the smaller facet are round-off.
+const SLIVER: f64 = 1e-12;
+/// Facets count whole where the cosine of the angle between them is more than this, and fade out towards a
+/// right angle.
+const FACING: f64 = 0.5;
+/// A common part that covers less of the smaller facet than the first number needs no springs at corners for
+/// that, from the second on it has them alone.
+const COVERS: [f64; 2] = [0.5, 0.8];
+/// The same for the square of its extent, against that of a facet in the direction in which that is most.
+const SPANS: [f64; 2] = [0.6, 0.9];
+
+/// A corner of a common part is on an edge of a facet if the share of the opposite corner is smaller there.
+const ON_EDGE: f64 = 1e-9;
+
+/// Springs of a pair at most: of the mean gap, and at the corners of a facet.
+pub(super) const PARTS: usize = 5;
+/// The middle of a facet of four nodes among its corners.
+const MIDDLE: usize = 4;
+
+/// A facet as it is in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Frame {
+    pub(super) nodes: [u32; 4],
+    corners: [Vector; 4],
+    count: usize,
+    /// Mean of the corners, m.
+    middle: Vector,
+    /// Unit outward normal: of four nodes that of the diagonals.
+    normal: Vector,
+    /// m².
+    area: f64,
+    /// All corners are nearer to the middle than this, m.
+    radius: f64,
+}
+
+impl Frame {
+    pub(super) fn new(nodes: [u32; 4], positions: &[Vector]) -> Self {
+        let (corners, count) = (nodes.map(|node| positions[node as usize]), nodes.corners().len());
+        let [a, b, c, d] = corners;
+        let twice = if count == 3 { cross(minus(b, a), minus(c, a)) } else { cross(minus(c, a), minus(d, b)) };
+        let middle = [0, 1, 2].map(|k| corners[..count].iter().map(|x| x[k]).sum::<f64>() / count as f64);
+        let radius = corners.into_iter().map(|x| length(minus(x, middle))).fold(0.0, f64::max);
+        Self { nodes, corners, count, middle, normal: unit(twice), area: 0.5 * length(twice), radius }
+    }
+
+    /// Its nodes, each once.
+    pub(super) fn nodes(&self) -> &[u32] {
+        &self.nodes[..self.count]
+    }
+
+    /// By what of the velocities of its corners the direction `along` × its spin goes: rows of ω·`by` with
+    /// the spin ω = Θ⁻¹ Σ r × v of every rigid motion.
+    fn spins(&self, by: [Vector; 2]) -> [[Vector; 4]; 2] {
+        let arms = self.corners.map(|x| minus(x, self.middle));
+        let mut inertia = [[0.0; 3]; 3];
+        arms[..self.count].iter().for_each(|&arm| spin::add_arm(arm, &mut inertia));
+        by.map(|by| {
+            let about = spin::solved(&inertia, by);
+            arms.map(|arm| cross(about, arm))
+        })
+    }
+}
+
+/// A facet in the common plane: its triangles, of which each knows its corners among those of the facet and
+/// its middle.
+struct Projected {
+    triangles: [(Triangle, [usize; 3]); 4],
+    count: usize,
+    /// Heights of the corners and the middle above the plane, m.
+    heights: [f64; 5],
+    /// Number of its corners.
+    corners: usize,
+    /// What its triangles have together.
+    moments: Moments,
+}
+
+impl Projected {
+    /// `is_turned`: it is seen from behind.
+    fn new(frame: &Frame, origin: Vector, [first, second, normal]: [Vector; 3], is_turned: bool) -> Self {
+        let (mut places, mut heights) = ([[0.0; 2]; 5], [0.0; 5]);
+        for (k, x) in frame.corners.into_iter().chain([frame.middle]).enumerate() {
+            let off = minus(x, origin);
+            (places[k], heights[k]) = ([dot(off, first), dot(off, second)], dot(off, normal));
+        }
+        let corners = frame.count;
+        let mut projected = Self { triangles: Default::default(), count: 0, heights, corners, moments: Moments::default() };
+        let mut add = |[a, b, c]: [usize; 3]| {
+            let labels = if is_turned { [b, a, c] } else { [a, b, c] };
+            if let Some(triangle) = Triangle::new(labels.map(|k| places[k])) {
+                projected.moments.add(&triangle.moments());
+                projected.triangles[projected.count] = (triangle, labels);
+                projected.count += 1;
+            }
+        };
+        if corners == 3 {
+            add([0, 1, 2]);
+        } else {
+            (0..4).for_each(|k| add([k, (k + 1) % 4, MIDDLE]));
+        }
+        projected
+    }
+
+    fn triangles(&self) -> &[(Triangle, [usize; 3])] {
+        &self.triangles[..self.count]
+    }
+
+    /// Edges of the facet at which a part of one of its triangles ends, as bits.
+    fn edges(&self, polygon: &Polygon, triangle: &Triangle, labels: &[usize; 3]) -> u8 {
+        let mut edges = 0;
+        for k in 0..3 {
+            let [from, to] = [labels[(k + 1) % 3], labels[(k + 2) % 3]];
+            // Edges to the middle are within.
+            if from == MIDDLE || to == MIDDLE {
+                continue;
+            }
+            let [c0, c1, c2] = triangle.shares[k];
+            let is_there = |[x, y]: &[f64; 2]| (c0 + c1 * x + c2 * y).abs() < ON_EDGE;
+            if polygon.corners().iter().filter(|corner| is_there(corner)).count() > 1 {
+                edges |= 1 << if (from + 1) % self.corners == to { from } else { to };
+            }
+        }
+        edges
+    }
+
+    /// Shares of the corners, where those of the corners and the middle are given.
+    fn spread(&self, of: &[f64; 5]) -> [f64; 4] {
+        let more = if self.corners == 3 { 0.0 } else { 0.25 * of[MIDDLE] };
+        let mut shares = [0.0; 4];
+        (0..self.corners).for_each(|k| shares[k] = of[k] + more);
+        shares
+    }
+}
+
+/// What a spring of a pair stands for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Part {
+    /// Which: 0 the mean gap, then those at the corners of a facet.
+    pub(super) slot: usize,
+    /// m².
+    pub(super) area: f64,
+    /// Mean gap, m.
+    pub(super) gap: f64,
+    /// Shares of the corners of both facets in its mean points.
+    pub(super) shares: [[f64; 4]; 2],
+}
+
+/// A piece of the common part, of one triangle of each facet.
+#[derive(Clone, Copy, Default)]
+struct Piece {
+    triangles: [u8; 2],
+    moments: Moments,
+}
+
+/// The common part of two facets.
+#[derive(Clone, Debug)]
+pub(super) struct Common {
+    pub(super) frames: [Frame; 2],
+    /// Unit normal of the common plane, from the second facet to the first.
+    pub(super) normal: Vector,
+    /// Area that counts, m².
+    pub(super) area: f64,
+    /// Deepest gap, m.
+    pub(super) lowest: f64,
+    /// Of which facet the corners have springs.
+    pub(super) owner: u8,
+    /// Edges of both facets at which it ends, as bits.
+    pub(super) edges: [u8; 2],
+    parts: [Part; PARTS],
+    count: usize,
+}
+
+impl Common {
+    /// `None` where facets don't face each other or have nothing in common; `is_mean`: the mean gap alone
+    /// gets a spring. `lead` is 0 where the normal halves the angle between both facets, 1 where it is that
+    /// of the second, −1 where that of the first.
+    pub(super) fn new(frames: [&Frame; 2], is_mean: bool, lead: f64) -> Option<Self> {
+        let [a, b] = frames;
+        let facing = -dot(a.normal, b.normal);
+        let apart = minus(a.middle, b.middle);
+        let near = a.radius + b.radius;
+        // No number fails the comparisons too.
+        if !(facing > 0.0 && dot(apart, apart) <= near * near) {
+            return None;
+        }
+        let normal = unit([0, 1, 2].map(|d| (1.0 + lead) * b.normal[d] - (1.0 - lead) * a.normal[d]));
+        let origin = [0, 1, 2].map(|d| 0.5 * (a.middle[d] + b.middle[d]));
+        let first = any_tangent(normal);
+        let axes = [first, cross(normal, first), normal];
+        let sides = [Projected::new(a, origin, axes, true), Projected::new(b, origin, axes, false)];
+        let (mut pieces, mut count, mut edges) = ([Piece::default(); 16], 0, [0; 2]);
+        let (mut whole, mut lowest) = (Moments::default(), f64::INFINITY);
+        for (i, (one, from)) in (0..).zip(sides[0].triangles()) {
+            let above = height(&sides[0].heights, one, from);
+            for (j, (other, to)) in (0..).zip(sides[1].triangles()) {
+                let polygon = one.common(other);
+                let moments = polygon.moments();
+                if !(moments.area() > 0.0) {
+                    continue;
+                }
+                let below = height(&sides[1].heights, other, to);
+                let gap = [0, 1, 2].map(|k| above[k] - below[k]);
+                for [x, y] in polygon.corners() {
+                    lowest = lowest.min(gap[0] + gap[1] * x + gap[2] * y);
+                }
+                for (k, (triangle, labels)) in [(one, from), (other, to)].into_iter().enumerate() {
+                    edges[k] |= sides[k].edges(&polygon, triangle, labels);
+                }
+                whole.add(&moments);
+                pieces[count] = Piece { triangles: [i, j], moments };
+                count += 1;
+            }
+        }
+        if !(whole.area() > SLIVER * a.area.min(b.area)) {
+            return None;
+        }
+        let weight = smooth(facing / FACING) * 2.0 / (1.0 + facing);
+        let owner = owner(frames);
+        let mut common = Self {
+            frames: [*a, *b],
+            normal,
+            area: weight * whole.area(),
+            lowest,
+            owner: owner as u8,
+            edges,
+            parts: Default::default(),
+            count: 0,
+        };
+        let corners = if is_mean { 0.0 } else { at_corners(&whole, &sides, frames[owner].area) };
+        common.add_mean(&sides, &pieces[..count], weight * (1.0 - corners));
+        if corners > 0.0 {
+            common.add_corners(&sides, &pieces[..count], weight * corners);
+        }
+        Some(common)
+    }
+
+    pub(super) fn parts(&self) -> &[Part] {
+        &self.parts[..self.count]
+    }
+
+    /// Adds what has integrals of the shares of corners and middles; `weight` of the area.
+    fn add(&mut self, slot: usize, sides: &[Projected; 2], [area, weight]: [f64; 2], sums: [[f64; 5]; 2]) {
+        if !(weight * area > SLIVER * SLIVER * self.frames[0].area.min(self.frames[1].area)) {
+            return;
+        }
+        let means = sums.map(|sums| sums.map(|sum| sum / area));
+        let height = |k: usize| (0..5).map(|i| means[k][i] * sides[k].heights[i]).sum::<f64>();
+        let shares = [0, 1].map(|k| sides[k].spread(&means[k]));
+        self.parts[self.count] = Part { slot, area: weight * area, gap: height(0) - height(1), shares };
+        self.count += 1;
+    }
+
+    fn add_mean(&mut self, sides: &[Projected; 2], pieces: &[Piece], weight: f64) {
+        let (mut area, mut sums) = (0.0, [[0.0; 5]; 2]);
+        for Piece { triangles, moments } in pieces {
+            area += moments.area();
+            for k in 0..2 {
+                let (triangle, labels) = &sides[k].triangles[triangles[k] as usize];
+                let [first, second] = [0, 1].map(|i| moments.of(triangle.shares[i]));
+                // Of a needle too all three are the whole.
+                let all = [first, second, moments.area() - first - second];
+                (0..3).for_each(|i| sums[k][labels[i]] += all[i]);
+            }
+        }
+        self.add(0, sides, [area, weight], sums);
+    }
+
+    /// The same of the gap that is weighted by the shares of each corner of the owner.
+    fn add_corners(&mut self, sides: &[Projected; 2], pieces: &[Piece], weight: f64) {
+        let owner = self.owner as usize;
+        // By the owner's corners and middle: area, and the sums of both facets.
+        let (mut areas, mut sums) = ([0.0; 5], [[[0.0; 5]; 2]; 5]);
+        for Piece { triangles, moments } in pieces {
+            let of = [0, 1].map(|k| &sides[k].triangles[triangles[k] as usize]);
+            let (own, own_labels) = of[owner];
+            let [first, second] = [0, 1].map(|i| moments.weighted(own.shares[i]));
+            let third = [0, 1, 2].map(|i| moments.0[i] - first[i] - second[i]);
+            for (by, &corner) in [first, second, third].into_iter().zip(own_labels) {
+                areas[corner] += by[0];
+                for k in 0..2 {
+                    let (triangle, labels) = of[k];
+                    let at = |share: Linear| share[0] * by[0] + share[1] * by[1] + share[2] * by[2];
+                    let [first, second] = [0, 1].map(|i| at(triangle.shares[i]));
+                    let all = [first, second, by[0] - first - second];
+                    (0..3).for_each(|i| sums[corner][k][labels[i]] += all[i]);
+                }
+            }
+        }
+        let corners = sides[owner].corners;
+        let part = if corners == 3 { 0.0 } else { 0.25 };
+        for corner in 0..corners {
+            let area = areas[corner] + part * areas[MIDDLE];
+            let all = [0, 1].map(|k| std::array::from_fn(|i| sums[corner][k][i] + part * sums[MIDDLE][k][i]));
+            self.add(1 + corner, sides, [area, weight], all);
+        }
+    }
+
+    /// Writes the ends of a spring that does care for slip along tangents.
+    ///
+    /// Both mean points are the gap apart, along the normal: what friction has of a couple is taken by forces
+    /// across both facets, half of it each, so that the slip rate ṡ = t·(v_a − v_b) − g (ω_a + ω_b)·(n × t)/2
+    /// does not see rotations of both together.
+    pub(super) fn ends(&self, part: &Part, tangents: [Vector; 2], ends: &mut [End<3>; 8]) -> usize {
+        let by = tangents.map(|t| cross(self.normal, t).map(|c| -0.5 * part.gap * c));
+        let mut count = 0;
+        for (k, sign) in [(0, 1.0), (1, -1.0)] {
+            let frame = &self.frames[k];
+            let [first, second] = frame.spins(by);
+            for i in 0..frame.count {
+                ends[count] = End { turn: [first[i], second[i]], ..End::node(frame.nodes[i], sign * part.shares[k][i]) };
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// Shares of the nodes in the gap of a part.
+    pub(super) fn shares(&self, part: &Part) -> impl Iterator<Item = (u32, f64)> {
+        let of = |k: usize, sign: f64| {
+            let shares = part.shares[k];
+            self.frames[k].nodes().iter().zip(shares).map(move |(&node, share)| (node, sign * share))
+        };
+        of(0, 1.0).chain(of(1, -1.0))
+    }
+
+    /// By how much the gap of a part grew in a step, m.
+    pub(super) fn way(&self, part: &Part, sweep: Sweep<'_, 3>) -> f64 {
+        let moved = |node: u32| minus(sweep.new[node as usize], sweep.old[node as usize]);
+        self.shares(part).map(|(node, share)| share * dot(self.normal, moved(node))).sum()
+    }
+
+    /// How far the nodes moved in a step, less what they moved together, m.
+    pub(super) fn moved(&self, sweep: Sweep<'_, 3>) -> f64 {
+        let nodes = || self.frames.iter().flat_map(|frame| frame.nodes().iter().copied());
+        let way = |node: u32| minus(sweep.new[node as usize], sweep.old[node as usize]);
+        let count = nodes().count() as f64;
+        let mut mean = [0.0; 3];
+        for node in nodes() {
+            let way = way(node);
+            (0..3).for_each(|d| mean[d] += way[d] / count);
+        }
+        nodes().map(|node| length(minus(way(node), mean))).sum()
+    }
+
+    /// Area that counts as a fraction of that of the smaller facet.
+    pub(super) fn fraction(&self) -> f64 {
+        self.area / self.frames[0].area.min(self.frames[1].area)
+    }
+
+    /// How both facets turn in a step.
+    pub(super) fn turn(&self, sweep: Sweep<'_, 3>) -> Vector {
+        spin::turn(self.frames.iter().map(Frame::nodes), sweep)
+    }
+
+    /// Length of the larger facet, m.
+    pub(super) fn size(&self) -> f64 {
+        self.frames[0].radius.max(self.frames[1].radius)
+    }
+
+    /// Two tangents of the common plane.
+    pub(super) fn tangents(&self) -> [Vector; 2] {
+        Dim::<3>::tangents(self.normal, &[0.0; 3])
+    }
+}
+
+/// From 0 to 1 without a kink at either end.
+fn smooth(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+/// From 0 at the first of two numbers to 1 at the second.
+fn between([low, high]: [f64; 2], x: f64) -> f64 {
+    smooth((x - low) / (high - low))
+}
+
+/// Heights of a triangle's points as a linear function.
+fn height(heights: &[f64; 5], triangle: &Triangle, labels: &[usize; 3]) -> Linear {
+    let mut sum = [0.0; 3];
+    for (share, &label) in triangle.shares.iter().zip(labels) {
+        (0..3).for_each(|k| sum[k] += heights[label] * share[k]);
+    }
+    sum
+}
+
+/// The smaller facet, of equal ones that with the lower nodes: whichever is the first of the pair.
+fn owner([a, b]: [&Frame; 2]) -> usize {
+    let least = a.area.min(b.area);
+    if (a.area - b.area).abs() > 1e-9 * least { usize::from(b.area < a.area) } else { usize::from(b.nodes < a.nodes) }
+}
+
+/// How much of a common part has springs at corners: all of it where it covers the smaller facet (m²), or
+/// spans either facet in some direction, in which its mean gap would not see that facet's corners move
+/// against each other.
+fn at_corners(whole: &Moments, sides: &[Projected; 2], least: f64) -> f64 {
+    let covers = between(COVERS, whole.area() / least);
+    if covers == 1.0 {
+        return 1.0;
+    }
+    let part = whole.covariance();
+    let span = |side: &Projected| {
+        let [xx, xy, yy] = side.moments.covariance();
+        // Largest eigenvalue of part/side.
+        let (det, trace) = (xx * yy - xy * xy, yy * part[0] - 2.0 * xy * part[1] + xx * part[2]);
+        let product = (part[0] * part[2] - part[1] * part[1]) * det;
+        let root = (trace * trace - 4.0 * product).max(0.0).sqrt();
+        if det > 0.0 { 0.5 * (trace + root) / det } else { 0.0 }
+    };
+    covers.max(between(SPANS, span(&sides[0]).max(span(&sides[1]))))
+}
+
+#[cfg(test)]
+mod tests;

@@ -182,7 +182,7 @@ impl Kernel for Double<'_> {
             for at in (0..BATCH).step_by(L::WIDTH) {
                 let mut values = L::gather_rooms(self.rooms, self.places, row, at);
                 for (d, value) in values.iter_mut().enumerate() {
-                    *value += *value + L::splat(d as f64);
+                    *value = L::splat(2.0) * *value + L::splat(d as f64);
                 }
                 L::store_rooms(values, self.rooms, self.places, row, at);
             }

@@ -23,14 +23,14 @@ const FAILURES: &[Failure] = &[
     Failure {
         name: "inverted-element",
         code: "E0601",
-        failure_location: "element 178 of part \"pad\"",
+        failure_location: "element 181 of part \"pad\"",
         keys: [("part[0].rectangle.elements", "[24, 8]"), ("obstacle[0].motion", "\"-150 m/s\"")],
         pictures: ALL,
     },
     Failure {
         name: "inverted-solid",
         code: "E0601",
-        failure_location: "element 1433 of part \"pad\"",
+        failure_location: "element 1430 of part \"pad\"",
         keys: [("part[0].box.elements", "[16, 16, 6]"), ("obstacle[0].motion", "\"-150 m/s\"")],
         pictures: ALL,
     },
@@ -195,10 +195,10 @@ fn pictures_of_solids_are_cut_open_to_the_failure_location_and_number_it() {
     let near = picture("neighbourhood.svg");
     // Four panels, each with its image and with the failure location's number on one of its sides.
     assert_eq!((near.matches("<image ").count(), near.matches("data:image/png;base64,iVBORw0KGgo").count()), (4, 4));
-    assert_eq!(near.matches("font-weight=\"bold\">1433</text>").count(), 4);
+    assert_eq!(near.matches("font-weight=\"bold\">1430</text>").count(), 4);
     assert!(near.contains("cut open: ") && near.contains("contact force, up to "));
     let place = picture("place.svg");
-    assert!(place.matches("<image ").count() == 1 && place.contains(">element 1433</text>") && place.contains(" mm</text>"));
+    assert!(place.matches("<image ").count() == 1 && place.contains(">element 1430</text>") && place.contains(" mm</text>"));
 }
 
 #[test]
@@ -239,10 +239,10 @@ fn a_page_that_cannot_be_written_hides_nothing() {
     fs::create_dir_all(folder.join("out")).unwrap();
     fs::write(folder.join("out/post-mortem"), "a file").unwrap();
     let answer = run(&folder, "inverted-element", &["--set", "output.pictures=false"]);
-    assert!(answer.code == Some(1) && answer.err.contains("error[E0601]: element 178"), "{}", answer.err);
+    assert!(answer.code == Some(1) && answer.err.contains("error[E0601]: element 181"), "{}", answer.err);
     assert!(answer.err.contains("warning[W0702]: the post-mortem is missing: "), "{}", answer.err);
     let summary = fs::read_to_string(folder.join("out/summary.json")).unwrap();
-    assert!(summary.contains("E0601: element 178") && !summary.contains("post_mortem"), "{summary}");
+    assert!(summary.contains("E0601: element 181") && !summary.contains("post_mortem"), "{summary}");
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn a_search_that_is_stopped_leaves_a_page_of_the_failure_alone() {
     assert!(stopped.trace.moments.len() == 1 && stopped.last_good.is_none() && stopped.fault.is_none(), "{}", stopped.how);
     failed.write(&stopped, &results).unwrap();
     let page = fs::read_to_string(results.join(PAGE)).unwrap();
-    assert!(page.contains("element 178 of part \"pad\"") && page.contains("going to it once more was stopped"), "{page}");
+    assert!(page.contains("element 181 of part \"pad\"") && page.contains("going to it once more was stopped"), "{page}");
     assert!(results.join("post-mortem/neighbourhood.svg").exists() && !results.join("post-mortem/failure-location.svg").exists());
 
     // The whole search replaces it, and has the state of the last good step.

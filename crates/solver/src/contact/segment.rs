@@ -35,7 +35,7 @@ use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
 use crate::rows::Rows;
 use common::Common;
-use start::{Start, Unseen};
+use start::{ByNodes, Start, Unseen};
 use std::any::Any;
 
 /// Registry entry.
@@ -438,17 +438,11 @@ impl Formulation<2> for Segment {
         self.start.has_begun = old.start.has_begun;
         self.depths.inherit(&old.depths);
         let (surfaces, before) = (self.surfaces(), &old.facing);
-        let by_nodes = surfaces.map(|surface| {
-            let mut list: Vec<([u32; 2], u32)> = self.tracker.targets()[surface].surface.segments.iter().copied().zip(0..).collect();
-            list.sort_unstable();
-            list
-        });
+        let by_nodes = surfaces.map(|surface| ByNodes::new(&self.tracker.targets()[surface].surface.segments));
         let now = |facing: &Facing| {
             let mut pair = facing.pair;
             for k in 0..2 {
-                let nodes = old.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize];
-                let at = by_nodes[k].binary_search_by_key(&nodes, |&(nodes, _)| nodes).ok()?;
-                pair[k] = by_nodes[k][at].1;
+                pair[k] = by_nodes[k].number_of(old.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize])?;
             }
             // A surface that meets itself has each pair once.
             if surfaces[0] == surfaces[1] {

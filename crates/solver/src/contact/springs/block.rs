@@ -14,6 +14,7 @@ use super::link::{Joints, begins};
 use super::{NodeResponse, NodeResponses, Solved, Spring, TangentSpace, Tangential, Terms};
 use crate::tensor::Dim;
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Places, Room};
+use std::ops::Range;
 
 /// Eight springs: across the surface.
 #[derive(Clone, Copy)]
@@ -40,6 +41,14 @@ impl Default for Head {
         let open = Batch::splat(f64::INFINITY);
         let linear = [Batch::splat(f64::NEG_INFINITY), open];
         Self { first: 0, count: 0, gap_old: zero, gap_free: zero, compliance: zero, stiffness: zero, linear, open }
+    }
+}
+
+impl Head {
+    /// Numbers of the rows.
+    #[inline(always)]
+    pub(super) fn arms(&self) -> Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
     }
 }
 
@@ -112,18 +121,18 @@ where
     /// What springs added to the velocity of each mover, then its mobility; the first is nobody's.
     pub(super) rooms: Vec<Room>,
     /// Velocities before the update, after it without springs, and ones for the axes along which they move.
-    pub(super) rooms_old: Vec<Room>,
-    pub(super) rooms_free: Vec<Room>,
-    pub(super) axes: Vec<Room>,
-    /// Whether any does not move along all axes.
-    pub(super) is_held: bool,
+    rooms_old: Vec<Room>,
+    rooms_free: Vec<Room>,
+    axes: Vec<Room>,
     /// Whether springs end at what does not move, and whether some end twice at the same.
-    pub(super) has_fixed_ends: bool,
+    has_fixed_ends: bool,
     has_common_ends: bool,
     /// Place and part of each mover.
     movers: Vec<(u32, u32)>,
     /// Row of each end; [`NONE`]: it does not move.
     arms: Vec<u32>,
+    /// The rooms of a spring while it is placed.
+    slots: Vec<u32>,
     /// Rooms that other blocks have as well, and their numbers there.
     shared: Vec<[u32; 2]>,
 }
@@ -164,8 +173,8 @@ where
 
     /// What the springs move, and which spring goes where; rooms of the ends go to `arms`.
     fn find_movers<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, rooms: &mut [u32]) {
-        let Self { batches, at, springs, parts, movers, arms, .. } = self;
-        let (nodes, mut part, mut slots) = (joints.update.nodes.count(), 0, Vec::new());
+        let Self { batches, at, springs, parts, movers, arms, slots, .. } = self;
+        let (nodes, mut part) = (joints.update.nodes.count(), 0);
         batches.clear();
         batches.add_slot();
         at.clear();
@@ -175,9 +184,9 @@ where
         (self.has_fixed_ends, self.has_common_ends) = (false, false);
         for (spring, &number) in springs.iter().enumerate() {
             part += usize::from(spring as u32 == parts[part].end);
-            let mut is_general = !joints.terms(number).law.is_elastic();
+            let mut is_general = !joints.laws.terms(number).law.is_elastic();
             slots.clear();
-            for k in joints.list[number as usize].ends() {
+            for k in joints.laws.list[number as usize].ends() {
                 let place = joints.places[k];
                 if joints.slots[place as usize] == NONE {
                     self.has_fixed_ends = true;
@@ -199,14 +208,14 @@ where
                 }
             }
             parts[part].is_barred |= is_general;
-            at.push(if parts[part].is_barred { (NONE, 0) } else { batches.place(&slots) });
+            at.push(if parts[part].is_barred { (NONE, 0) } else { batches.place(slots) });
         }
     }
 
     /// Who is in which lane, and room for what belongs to them.
     fn set_lanes<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) {
         let count = self.batches.filled.len();
-        let slides = self.springs.iter().any(|&number| !matches!(joints.terms(number).tangential, Tangential::Free));
+        let slides = self.springs.iter().any(|&number| !matches!(joints.laws.terms(number).tangential, Tangential::Free));
         self.found.clear();
         self.found.resize(self.springs.len(), Solved::default());
         self.heads.clear();
@@ -221,9 +230,9 @@ where
         }
         self.own.clear();
         self.own.resize(if slides { count } else { 0 }, [[Batch::default(); D]; D]);
-        let in_lanes = |&number: &u32| match joints.terms(number).tangential {
+        let in_lanes = |&number: &u32| match joints.laws.terms(number).tangential {
             Tangential::Free => true,
-            Tangential::Friction(_) => joints.terms(number).law.slip_stiffness(&joints.list[number as usize].patch()).is_finite(),
+            Tangential::Friction(_) => joints.laws.terms(number).law.slip_stiffness(&joints.laws.list[number as usize].patch()).is_finite(),
             Tangential::Tied => false,
         };
         self.rubs.clear();
@@ -233,7 +242,7 @@ where
             part += u32::from(spring as u32 == self.parts[part as usize].end);
             if batch != NONE {
                 let head = &mut self.heads[batch as usize];
-                head.count = head.count.max(joints.list[self.springs[spring] as usize].count);
+                head.count = head.count.max(joints.laws.list[self.springs[spring] as usize].count);
                 self.lanes[batch as usize][usize::from(lane)] = spring as u32;
                 self.part_of[batch as usize][usize::from(lane)] = part;
             }
@@ -256,7 +265,7 @@ where
         let mut ends = self.arms.iter_mut();
         for (&number, &(batch, lane)) in self.springs.iter().zip(&self.at) {
             let (mut count, lane) = (0, usize::from(lane));
-            for end in ends.by_ref().take(joints.list[number as usize].count as usize) {
+            for end in ends.by_ref().take(joints.laws.list[number as usize].count as usize) {
                 if *end == NONE || batch == NONE {
                     continue;
                 }
@@ -290,9 +299,9 @@ where
             if self.at[spring].0 != NONE {
                 self.load_rows(joints, spring, end);
             }
-            end += joints.list[self.springs[spring] as usize].count as usize;
+            end += joints.laws.list[self.springs[spring] as usize].count as usize;
         }
-        let (level, half) = (joints.update.level, 0.5 * joints.update.time_steps[1]);
+        let (level, half) = (joints.update.level, 0.5 * joints.laws.time_steps[1]);
         if self.slides() {
             level.run(Prepare::<true, D> { block: self, half });
         } else {
@@ -308,12 +317,11 @@ where
     /// Velocities and mobilities of the movers; parts with one that does not yield alike along all axes that
     /// are free are for others.
     fn load_movers<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) {
-        let Self { movers, parts, rooms, rooms_old, rooms_free, axes, is_held, .. } = self;
+        let Self { movers, parts, rooms, rooms_old, rooms_free, axes, .. } = self;
         for list in [&mut *rooms, rooms_old, rooms_free, axes] {
             list.clear();
             list.resize(movers.len(), Room::default());
         }
-        *is_held = false;
         for (room, &(place, part)) in movers.iter().enumerate().skip(1) {
             let part = &mut parts[part as usize];
             if part.is_barred {
@@ -324,7 +332,6 @@ where
             let mobility = (0..D).fold(0.0, |most, d| f64::max(most, entries[Dim::<D>::AT[d][d]]));
             for i in 0..D {
                 let moves = entries[Dim::<D>::AT[i][i]] != 0.0;
-                *is_held |= !moves;
                 axes[room].0[i] = if moves { 1.0 } else { 0.0 };
                 for j in i..D {
                     let expected = if i == j && moves { mobility } else { 0.0 };
@@ -341,8 +348,8 @@ where
     /// The rows of a spring, whose ends are those from `first` on.
     fn load_rows<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, spring: usize, first: usize) {
         let (number, (batch, lane)) = (self.springs[spring], self.at[spring]);
-        let (data, lane) = (&joints.list[number as usize], usize::from(lane));
-        let has_slip = self.slides() && !matches!(joints.terms(number).tangential, Tangential::Free);
+        let (data, lane) = (&joints.laws.list[number as usize], usize::from(lane));
+        let has_slip = self.slides() && !matches!(joints.laws.terms(number).tangential, Tangential::Free);
         let tangents = if has_slip { data.tangents() } else { Default::default() };
         for (index, k) in data.ends().enumerate() {
             let (arm, end) = (self.arms[first + index], joints.ends.get(k));
@@ -364,7 +371,7 @@ where
 
     /// What an end that does not move by forces adds to the rates of its spring.
     fn add_fixed<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, k: usize, batch: usize, lane: usize) {
-        let spring = &joints.list[self.springs[self.lanes[batch][lane] as usize] as usize];
+        let spring = &joints.laws.list[self.springs[self.lanes[batch][lane] as usize] as usize];
         let (end, fixed) = (joints.ends.get(k), joints.movable(k));
         let mut add = |axis: usize, row: [f64; D]| {
             let [old, free] = fixed.rates(row, &end);
@@ -372,7 +379,7 @@ where
             self.free[batch][axis].0[lane] += free;
         };
         add(0, end.gap_row(spring.normal));
-        if !matches!(joints.terms(self.springs[self.lanes[batch][lane] as usize]).tangential, Tangential::Free) {
+        if !matches!(joints.laws.terms(self.springs[self.lanes[batch][lane] as usize]).tangential, Tangential::Free) {
             let slips = end.slip_rows(&spring.tangents());
             (1..D).for_each(|axis| add(axis, slips[axis - 1]));
         }
@@ -382,13 +389,16 @@ where
     fn set_head<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, spring: usize) {
         let (number, (batch, lane)) = (self.springs[spring], self.at[spring]);
         let (batch, lane) = (batch as usize, usize::from(lane));
-        let (data, terms) = (&joints.list[number as usize], joints.terms(number));
-        let [before, after] = joints.update.time_steps;
+        let (data, terms) = (&joints.laws.list[number as usize], joints.laws.terms(number));
+        let [before, after] = joints.laws.time_steps;
         let (old, free) = (&self.old[batch], &self.free[batch]);
         let (gap, gap_old) = begins(joints, number, old[0].0[lane], before);
         let slips = |rates: &[Batch; D]| Dim::<D>::tangent_vector(|a| rates[a + 1].0[lane]);
         let (rates, slip_rates) = ([old[0].0[lane], free[0].0[lane]], [slips(old), slips(free)]);
         self.found[spring] = Solved { gap, rates, slip_rates, ..Solved::default() };
+        if let Some(rub) = self.rubs.get_mut(batch) {
+            set_rub(rub, lane, data, terms, Dim::<D>::size(&slip_rates[0]));
+        }
         let head = &mut self.heads[batch];
         let compliance = head.compliance.0[lane];
         head.gap_old.0[lane] = gap_old;
@@ -398,10 +408,6 @@ where
         (head.linear[0].0[lane], head.linear[1].0[lane]) = (low, high);
         head.stiffness.0[lane] = data.stiffness / (2.0 + data.stiffness * compliance);
         let reach = linear.map_or_else(|| terms.law.reach(), |[_, high]| high);
-        if let Some(rub) = self.rubs.get_mut(batch) {
-            set_rub(rub, lane, data, terms, Dim::<D>::size(&slip_rates[0]));
-        }
-        let head = &mut self.heads[batch];
         head.open.0[lane] = if gap_old >= reach { reach } else { f64::INFINITY };
     }
 
@@ -494,7 +500,7 @@ where
     }
     let Block { heads, rows, slips, rooms, rooms_old, rooms_free, axes: free_axes, places, .. } = &mut *block;
     let head = &heads[batch];
-    for arm in head.first as usize..(head.first + head.count) as usize {
+    for arm in head.arms() {
         let before = L::gather_rooms(rooms_old, places, arm, at);
         let after = L::gather_rooms(rooms_free, places, arm, at);
         let mobility = L::gather_rooms(rooms, places, arm, at)[D];

@@ -7,9 +7,9 @@
 
 use super::block::{Block, Part};
 use super::islands::NONE;
-use super::link::Joints;
+use super::link::{Joints, Laws};
 use super::relax::Effort;
-use super::sweep::{Laws, MOST, MOST_IN_SPACE, Relax, Settle};
+use super::sweep::{MOST, MOST_IN_SPACE, Relax, Settle};
 use super::{NodeResponses, Solved, TangentSpace};
 use crate::tensor::Dim;
 use embate_lanes::{Level, Room};
@@ -53,7 +53,6 @@ where
     pub(super) joints: &'a Joints<'a, M, D>,
     /// Numbers of its springs.
     pub(super) springs: &'a [u32],
-    pub(super) laws: Laws<'a, D>,
     /// Tasks at the same time; decides no result.
     pub(super) tasks: usize,
 }
@@ -75,7 +74,7 @@ where
 
     /// Places that a cluster moves, as often as it does.
     fn places(&self, cluster: usize) -> impl Iterator<Item = u32> {
-        let ends = self.cluster(cluster).iter().flat_map(|&number| self.joints.list[number as usize].ends());
+        let ends = self.cluster(cluster).iter().flat_map(|&number| self.joints.laws.list[number as usize].ends());
         ends.map(|k| self.joints.places[k]).filter(|&place| self.joints.slots[place as usize] != NONE)
     }
 }
@@ -169,7 +168,7 @@ where
         }
         order.clear();
         order.extend(0..count as u32);
-        order.sort_by_key(|&cluster| colour_of[cluster as usize]);
+        order.sort_unstable_by_key(|&cluster| (colour_of[cluster as usize], cluster));
         block_of.clear();
         block_of.resize(count, 0);
         colours.clear();
@@ -185,7 +184,7 @@ where
     /// A sweep over all springs: the largest change and the largest force, N/m.
     fn sweep<M: NodeResponses<D> + Sync>(&mut self, problem: &Problem<'_, M, D>) -> (f64, f64) {
         let Self { blocks, colours, rooms, .. } = self;
-        let (laws, level) = (problem.laws, problem.joints.update.level);
+        let (laws, level) = (problem.joints.laws, problem.joints.update.level);
         let mut begin = 0;
         for &end in &*colours {
             let blocks = &mut blocks[begin..end as usize];
@@ -215,7 +214,7 @@ where
         let Self { blocks, block_of, rooms, .. } = self;
         problem.each(blocks, |block| {
             block.take_over(rooms);
-            settle(block, problem.laws, problem.joints.update.level);
+            settle(block, problem.joints.laws, problem.joints.update.level);
         });
         let blocks = &blocks[..];
         let report = |(cluster, solved): (usize, &mut [Solved<D>])| solved.copy_from_slice(&blocks[block_of[cluster] as usize].found);

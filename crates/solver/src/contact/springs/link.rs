@@ -178,12 +178,35 @@ where
     }
 }
 
+/// Springs, and what acts in them.
+#[derive(Clone, Copy)]
+pub(super) struct Laws<'a, const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    pub(super) list: &'a [Spring<D>],
+    pub(super) terms: &'a [Terms],
+    pub(super) terms_of: &'a [u32],
+    pub(super) time_steps: [f64; 2],
+}
+
+impl<const D: usize> Laws<'_, D>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// What acts in a spring.
+    #[inline]
+    pub(super) fn terms(&self, number: u32) -> &Terms {
+        &self.terms[self.terms_of[number as usize] as usize]
+    }
+}
+
 /// Ends of springs, and what is at them.
 pub(super) struct Joints<'a, M: NodeResponses<D>, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
-    pub(super) list: &'a [Spring<D>],
+    pub(super) laws: Laws<'a, D>,
     /// Where springs ended; see [`super::Springs::continues`].
     pub(super) ended: &'a [[f64; 2]],
     pub(super) ends: &'a Ends<D>,
@@ -194,9 +217,6 @@ where
     /// Slot of each place in its island; [`NONE`]: it does not move.
     pub(super) slots: &'a [u32],
     pub(super) update: &'a Update<'a, M, D>,
-    /// What acts in springs, by number, and the number of each spring.
-    pub(super) terms: &'a [Terms],
-    pub(super) terms_of: &'a [u32],
 }
 
 /// An island while it is solved. It stays in the caches where islands are small.
@@ -254,11 +274,11 @@ where
         self.links.clear();
         self.slots.clear();
         self.movables.clear();
-        let slides = springs.iter().any(|&number| !matches!(joints.terms(number).tangential, Tangential::Free));
+        let slides = springs.iter().any(|&number| !matches!(joints.laws.terms(number).tangential, Tangential::Free));
         let mut arms = 0;
         for &number in springs {
             let mut link = Link::new(number, arms);
-            for k in joints.list[number as usize].ends() {
+            for k in joints.laws.list[number as usize].ends() {
                 let slot = joints.slots[joints.places[k] as usize];
                 if slot == NONE {
                     continue;
@@ -288,12 +308,6 @@ impl<M: NodeResponses<D> + Sync, const D: usize> Joints<'_, M, D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// What acts in a spring.
-    #[inline]
-    pub(super) fn terms(&self, number: u32) -> &Terms {
-        &self.terms[self.terms_of[number as usize] as usize]
-    }
-
     /// What is at the end `k`.
     pub(super) fn movable(&self, k: usize) -> Movable<D> {
         Movable::new(self.at[self.places[k] as usize], self.update.nodes.count(), self.update)
@@ -318,8 +332,8 @@ where
     /// Fills the link of a spring and its arms.
     fn link(&self, link: &mut Link<D>, arms: &mut [Arm<D>], slips: &mut [Slips<D>], movables: &[Movable<D>]) {
         let number = link.spring;
-        let (spring, terms) = (&self.list[number as usize], self.terms(number));
-        let [before, after] = self.update.time_steps;
+        let (spring, terms) = (&self.laws.list[number as usize], self.laws.terms(number));
+        let [before, after] = self.laws.time_steps;
         let has_slip = !matches!(terms.tangential, Tangential::Free);
         let tangents = if has_slip { spring.tangents() } else { Default::default() };
         let mut next = 0;
@@ -373,11 +387,11 @@ pub(super) fn begins<M: NodeResponses<D>, const D: usize>(joints: &Joints<'_, M,
 where
     Dim<D>: TangentSpace<D>,
 {
-    let spring = &joints.list[number as usize];
+    let spring = &joints.laws.list[number as usize];
     let begins = spring.gap - 0.5 * before * rate_old;
     match joints.ended.get(number as usize) {
         Some(&[half, stored]) if !half.is_nan() => {
-            let law = joints.terms[joints.terms_of[number as usize] as usize].law.as_ref();
+            let law = joints.laws.terms(number).law.as_ref();
             let open = law.reach();
             let old = if half < open { gap_of(law, spring, half, stored) } else { begins.max(open) };
             (old + 0.5 * before * rate_old, old)

@@ -58,7 +58,7 @@ mod topology;
 pub use answers::{Answer, Answers};
 pub use tangent_space::TangentSpace;
 
-use super::law::Law;
+use super::law::{self, Law};
 use crate::archive::persist_all;
 use crate::energy::Lost;
 use crate::rigid::Bodies;
@@ -329,6 +329,19 @@ pub struct Terms {
     pub tangential: Tangential,
     /// Fraction of critical damping while closed.
     pub damping: f64,
+}
+
+impl Terms {
+    /// Normal force, N/m, over an update with the steps dt^{n−1}, dt^n (s), of a spring whose gap changed at
+    /// `rate_old` (m/s).
+    #[inline]
+    fn normal_force(&self, closing: &Closing<'_>, rate_old: f64, time_steps: [f64; 2]) -> f64 {
+        if self.damping > 0.0 {
+            law::damped(self.law.as_ref(), closing, self.damping, rate_old, time_steps)
+        } else {
+            self.law.force(closing, time_steps)
+        }
+    }
 }
 
 /// What acts along the surface.

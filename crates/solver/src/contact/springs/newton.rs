@@ -176,7 +176,7 @@ where
 
     /// The same along the surface.
     fn look_along(&self, island: &mut Island<'_, D>, i: usize, rates: Rates<D>, state: &mut State<D>) {
-        let half = 0.5 * island.time_steps[1];
+        let half = 0.5 * island.laws.time_steps[1];
         let tangential = island.terms_of(i).tangential;
         if matches!(tangential, Tangential::Free) {
             return;
@@ -226,9 +226,9 @@ where
         state: &mut State<D>,
     ) {
         let link = &island.links[i];
-        let slip = island.list[link.spring as usize].slip;
+        let slip = island.laws.list[link.spring as usize].slip;
         let Some((direction, softness)) = Dim::<D>::lateral_compliance(stick, slip, friction) else { return };
-        let (half, own) = (0.5 * island.time_steps[1], link.own_along(&direction));
+        let (half, own) = (0.5 * island.laws.time_steps[1], link.own_along(&direction));
         if own > 0.0 {
             let softness = (softness + link.lent[1]).max(SOFTNESS * own);
             state.along[0] = direction;
@@ -247,7 +247,7 @@ where
             if state.softness[1..].iter().any(|softness| !softness.is_nan()) {
                 let tied = matches!(island.terms_of(i).tangential, Tangential::Tied);
                 let found = if tied { island.tie_from(i, rates) } else { island.slide_from(i, rates).friction };
-                state.want_along(&island.links[i], 0.5 * island.time_steps[1], |a| found[a] - forces[a + 1]);
+                state.want_along(&island.links[i], 0.5 * island.laws.time_steps[1], |a| found[a] - forces[a + 1]);
             }
         }
     }
@@ -360,7 +360,7 @@ where
 
     /// Matrix and right side.
     fn fill(&mut self, island: &Island<'_, D>) {
-        let half = 0.5 * island.time_steps[1];
+        let half = 0.5 * island.laws.time_steps[1];
         self.matrix.reset(&self.first);
         self.right.clear();
         self.right.resize(self.first.len(), 0.0);
@@ -401,7 +401,7 @@ where
 
     /// A rigid body as unknowns of its own.
     fn fill_body(&mut self, island: &Island<'_, D>, slot: usize) {
-        let half = 0.5 * island.time_steps[1];
+        let half = 0.5 * island.laws.time_steps[1];
         let unknowns = self.bodies[slot];
         for &SlotArm { link: i, arm: k, .. } in island.couplings.touches(slot) {
             let (state, rows) = (self.state[i as usize], island.rows(k as usize));

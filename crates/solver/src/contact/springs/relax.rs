@@ -8,10 +8,9 @@
 
 use super::couple::{Couplings, Forces, Rates};
 use super::friction::{FrictionInput, FrictionResult};
-use super::link::{Arm, Link, Row, Slips, Slot};
+use super::link::{Arm, Laws, Link, Row, Slips, Slot};
 use super::newton::Newton;
-use super::{Along, Closing, Patch, Solved, Spring, TangentSpace, Tangential, Terms};
-use crate::contact::law;
+use super::{Along, Closing, Patch, Solved, TangentSpace, Tangential, Terms};
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 use embate_lanes::math;
@@ -41,11 +40,7 @@ where
     pub(super) couplings: &'a Couplings<D>,
     /// Of each link, as found so far.
     pub(super) forces: &'a mut [Forces<D>],
-    pub(super) list: &'a [Spring<D>],
-    /// Terms of each spring of the list.
-    pub(super) terms_of: &'a [u32],
-    pub(super) terms: &'a [Terms],
-    pub(super) time_steps: [f64; 2],
+    pub(super) laws: Laws<'a, D>,
 }
 
 /// What a sweep did, N/m.
@@ -230,7 +225,7 @@ where
     /// What acts in a spring.
     #[inline]
     pub(super) fn terms_of(&self, i: usize) -> &Terms {
-        &self.terms[self.terms_of[self.links[i].spring as usize] as usize]
+        self.laws.terms(self.links[i].spring)
     }
 
     /// Gives a spring the forces that its law and friction want as the others are.
@@ -330,21 +325,17 @@ where
         for axis in 1..D {
             rate += link.own(0, axis) * self.forces[i][axis];
         }
-        link.gap_free + 0.5 * self.time_steps[1] * rate
+        link.gap_free + 0.5 * self.laws.time_steps[1] * rate
     }
 
     /// Normal force by the law where the gap without it is `free`.
     #[inline]
     pub(super) fn normal_force(&self, i: usize, free: f64) -> f64 {
         let (link, terms) = (&self.links[i], self.terms_of(i));
-        let spring = &Patch { gap: link.gap, ..self.list[link.spring as usize].patch() };
+        let spring = &Patch { gap: link.gap, ..self.laws.list[link.spring as usize].patch() };
         let closing =
             Closing { spring, old: link.gap_old, free: free - link.lent[0] * link.centre[0], compliance: link.compliance + link.lent[0] };
-        if terms.damping > 0.0 {
-            law::damped(terms.law.as_ref(), &closing, terms.damping, link.rate_old, self.time_steps)
-        } else {
-            terms.law.force(&closing, self.time_steps)
-        }
+        terms.normal_force(&closing, link.rate_old, self.laws.time_steps)
     }
 
     /// What friction can do at a spring where the others add `rates` to its own.
@@ -357,8 +348,8 @@ where
             old: link.slip_rate_old,
             free: Dim::<D>::tangent_vector(free),
             compliance: Dim::<D>::tangent_vector(|a| Dim::<D>::tangent_vector(|b| compliance(a, b))),
-            stiffness: self.terms_of(i).law.slip_stiffness(&self.list[link.spring as usize].patch()),
-            time_steps: self.time_steps,
+            stiffness: self.terms_of(i).law.slip_stiffness(&self.laws.list[link.spring as usize].patch()),
+            time_steps: self.laws.time_steps,
         }
     }
 
@@ -366,7 +357,7 @@ where
     pub(super) fn limit(&self, i: usize, force: f64) -> f64 {
         let link = &self.links[i];
         match self.terms_of(i).tangential {
-            Tangential::Friction(law) => law.limit(force, self.list[link.spring as usize].area, Dim::<D>::size(&link.slip_rate_old)),
+            Tangential::Friction(law) => law.limit(force, self.laws.list[link.spring as usize].area, Dim::<D>::size(&link.slip_rate_old)),
             _ => 0.0,
         }
     }
@@ -374,13 +365,13 @@ where
     /// Friction by its law where the others add `rates` to its own.
     #[inline]
     pub(super) fn slide_from(&self, i: usize, rates: Rates<D>) -> FrictionResult<D> {
-        Dim::<D>::slide(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip, self.limit(i, self.forces[i][0]))
+        Dim::<D>::slide(&self.stick_from(i, rates), self.laws.list[self.links[i].spring as usize].slip, self.limit(i, self.forces[i][0]))
     }
 
     /// The same of a tie.
     #[inline]
     pub(super) fn tie_from(&self, i: usize, rates: Rates<D>) -> Along<D> {
-        Dim::<D>::tie(&self.stick_from(i, rates), self.list[self.links[i].spring as usize].slip)
+        Dim::<D>::tie(&self.stick_from(i, rates), self.laws.list[self.links[i].spring as usize].slip)
     }
 
     /// Adds to the forces of a spring.

@@ -8,10 +8,10 @@
 
 use super::block::Block;
 use super::clusters::{CLUSTER, Clusters, Problem, relax, settle};
-use super::link::{Bench, Joints};
+use super::link::{Bench, Joints, Laws};
 use super::newton::Newton;
 use super::relax::{Effort, Island};
-use super::sweep::{Laws, MOST};
+use super::sweep::MOST;
 use super::topology::{CHUNK, Topology};
 use super::{NodeResponses, Solved, Springs, Update};
 use crate::contact::springs::TangentSpace;
@@ -90,7 +90,7 @@ where
         let Workspace { topology, solved, tasks, large, desks } = &mut self.work;
         let is_new = topology.update((&self.list, &self.terms_of), &mut self.ends, update, LARGE);
         solved.resize(self.list.len(), Solved::default());
-        let threads = if self.list.len() >= SERIAL { rayon::current_thread_index().map_or(1, |_| rayon::current_num_threads()) } else { 1 };
+        let threads = if self.list.len() >= SERIAL { threads() } else { 1 };
         let chunks = topology.chunks.len();
         if tasks.len() < chunks {
             tasks.resize_with(chunks, Task::default);
@@ -99,8 +99,8 @@ where
             desks.resize_with(threads, Desk::default);
         }
         let Topology { places, at, slots, .. } = &*topology;
-        let (terms, terms_of) = (&self.terms[..], &self.terms_of[..]);
-        let joints = Joints { list: &self.list, ended: &self.ended, ends: &self.ends, places, at, slots, update, terms, terms_of };
+        let laws = Laws { list: &self.list, terms: &self.terms, terms_of: &self.terms_of, time_steps: update.time_steps };
+        let joints = Joints { laws, ended: &self.ended, ends: &self.ends, places, at, slots, update };
         let plan = Plan { joints, topology, is_new };
         plan.solve(0..chunks, solved, &mut tasks[..chunks], &mut desks[..threads]);
         let mut effort = Effort::default();
@@ -158,12 +158,6 @@ where
         self.topology.islands_of(chunk).len() == 1 && self.topology.links(chunk..chunk + 1).len() >= LARGE
     }
 
-    /// What acts in the springs.
-    fn laws(&self) -> Laws<'_, D> {
-        let Joints { list, terms, terms_of, update, .. } = self.joints;
-        Laws { list, terms, terms_of, time_steps: update.time_steps }
-    }
-
     /// Solves the islands of a chunk.
     fn solve_chunk(&self, chunk: usize, solved: &mut [Solved<D>], task: &mut Task<D>, desk: &mut Desk<D>) {
         let (springs, Task { block, effort }) = (self.topology.springs_of(chunk), task);
@@ -176,10 +170,10 @@ where
         }
         block.load(&self.joints);
         while block.parts.iter().any(|part| !part.is_done) {
-            relax(block, self.laws(), self.joints.update.level);
+            relax(block, self.joints.laws, self.joints.update.level);
             block.parts.iter_mut().filter(|part| !part.is_done).for_each(|part| part.close_sweep(MOST));
         }
-        settle(block, self.laws(), self.joints.update.level);
+        settle(block, self.joints.laws, self.joints.update.level);
         let mut begin = 0;
         for part in &block.parts {
             let own = begin..part.end as usize;
@@ -196,7 +190,7 @@ where
     /// Solves a large island.
     fn solve_large(&self, chunk: usize, solved: &mut [Solved<D>], clusters: &mut Clusters<D>, desk: &mut Desk<D>, tasks: usize) -> Effort {
         let springs = self.topology.springs_of(chunk);
-        let problem = Problem { joints: &self.joints, springs, laws: self.laws(), tasks };
+        let problem = Problem { joints: &self.joints, springs, tasks };
         if self.is_new {
             clusters.arrange(&problem);
         }
@@ -209,18 +203,21 @@ where
         let length = part_length(springs.len());
         bench.fill(&self.joints, springs, length);
         let Bench { links, arms, slips, slots, couplings, forces, .. } = bench;
-        let Joints { list, terms, terms_of, update, .. } = self.joints;
-        let time_steps = update.time_steps;
-        let mut island = Island { links, arms, slips, slots, couplings, forces, list, terms_of, terms, time_steps };
+        let mut island = Island { links, arms, slips, slots, couplings, forces, laws: self.joints.laws };
         let effort = island.solve(newton, live);
         island.settle(solved, length);
         effort
     }
 }
 
+/// Threads of the pool that this runs in; one outside of all pools.
+fn threads() -> usize {
+    rayon::current_thread_index().map_or(1, |_| rayon::current_num_threads())
+}
+
 /// Links of an island of so many that one task fills: a power of two, which decides no result; no task has
 /// more than its thread's share.
 fn part_length(links: usize) -> usize {
-    let tasks = rayon::current_thread_index().map_or(1, |_| rayon::current_num_threads()).min(links / CHUNK);
+    let tasks = threads().min(links / CHUNK);
     if tasks > 1 { 1 << (links / tasks).ilog2() } else { links.max(1).next_power_of_two() }
 }

@@ -8,9 +8,9 @@
 use super::block::{Block, Part};
 use super::friction::{FrictionInput, FrictionResult, lanes};
 use super::islands::NONE;
+use super::link::Laws;
 use super::relax::TOLERANCE;
-use super::{Closing, Patch, Spring, TangentSpace, Tangential, Terms};
-use crate::contact::law;
+use super::{Closing, Patch, TangentSpace, Tangential};
 use crate::tensor::Dim;
 use embate_lanes::{BATCH, Batch, Kernel, Lane, math};
 
@@ -24,29 +24,6 @@ const TOO_MANY: f64 = 0.75;
 const ROUND_OFF: f64 = 1e-3;
 /// Sweeps before it is asked how many are still to come.
 const WARM: u32 = 5;
-
-/// What acts in springs.
-#[derive(Clone, Copy)]
-pub(super) struct Laws<'a, const D: usize>
-where
-    Dim<D>: TangentSpace<D>,
-{
-    pub(super) list: &'a [Spring<D>],
-    pub(super) terms: &'a [Terms],
-    pub(super) terms_of: &'a [u32],
-    pub(super) time_steps: [f64; 2],
-}
-
-impl<const D: usize> Laws<'_, D>
-where
-    Dim<D>: TangentSpace<D>,
-{
-    /// What acts in a spring.
-    #[inline]
-    fn terms(&self, number: u32) -> &Terms {
-        &self.terms[self.terms_of[number as usize] as usize]
-    }
-}
 
 impl Part {
     /// After a sweep: whether it is done, or, after `most` of them, left to others. It is done where what all
@@ -217,7 +194,7 @@ where
     #[inline(always)]
     fn move_nodes<L: Lane>(&mut self, batch: usize, at: usize, steps: &[L; D]) {
         let head = &self.block.heads[batch];
-        for arm in head.first as usize..(head.first + head.count) as usize {
+        for arm in head.arms() {
             let room = L::gather_rooms(&self.block.rooms, &self.block.places, arm, at);
             let room = self.moved(arm, at, room, steps);
             L::store_rooms(room, &mut self.block.rooms, &self.block.places, arm, at);
@@ -310,11 +287,7 @@ where
             let terms = laws.terms(number);
             let patch = &Patch { gap: found.gap, ..laws.list[number as usize].patch() };
             let closing = Closing { spring: patch, old: head.gap_old.0[lane], free: frees.0[lane], compliance: head.compliance.0[lane] };
-            forces.0[lane] = if terms.damping > 0.0 {
-                law::damped(terms.law.as_ref(), &closing, terms.damping, found.rates[0], laws.time_steps)
-            } else {
-                terms.law.force(&closing, laws.time_steps)
-            };
+            forces.0[lane] = terms.normal_force(&closing, found.rates[0], laws.time_steps);
         }
         L::load(&forces, at)
     }
@@ -378,7 +351,7 @@ where
     Dim<D>: TangentSpace<D>,
 {
     let (head, mut rates) = (&block.heads[batch], [L::splat(0.0); D]);
-    for arm in head.first as usize..(head.first + head.count) as usize {
+    for arm in head.arms() {
         let room = L::gather_rooms(&block.rooms, &block.places, arm, at);
         add_rates::<L, SLIDES, D>(block, arm, at, &room, &mut rates);
     }

@@ -31,6 +31,7 @@ mod volume_spring;
 mod piercing;
 mod predicates;
 mod regions;
+mod samples;
 mod skin;
 mod thickness;
 mod tree;
@@ -40,8 +41,8 @@ pub use skin::Bodies;
 pub use thickness::Walls;
 
 use super::checked::Look;
-use super::findings::{BETWEEN_LOOKS, CAST, DEEPEST, Findings, MOST_STEPS, Overlap, PLACES, way_until_next};
-use super::projection::node_facet::{Vector, corners_below, square_to_triangle, unit};
+use super::findings::{BETWEEN_LOOKS, CAST, DEEPEST, Findings, MOST_STEPS, Overlap, way_until_next};
+use super::projection::node_facet::Vector;
 use super::spin;
 use super::springs::Answers;
 use super::{Scene, Sweep};
@@ -52,24 +53,11 @@ use crate::vector::length;
 use near::Near;
 use piercing::Piercing;
 use regions::{Region, Work};
-use skin::{Edge, Skin};
-use std::cell::Cell;
+use skin::Skin;
 use thickness::Thickness;
 use tree::Tree;
 use volume_spring::VolumeSpring;
 
-/// From this fraction on, depth is measured to the side of entry.
-const SIDED: f64 = 0.15;
-/// Nothing inside a body is farther from its surface than this fraction of the thickness there: half of it,
-/// but for wedges.
-const INSIDE: f64 = 1.0;
-/// A place of a body in itself that is deeper than this fraction of the thickness is looked at once more, by
-/// its winding number.
-const CERTAIN: f64 = CAST;
-/// Of so many places, the deepest ones.
-const SIDED_MOST: usize = 16;
-/// How well a facet of the side of entry looks against the area vector.
-const FACES: f64 = 0.2;
 /// A region whose area vector is less than this fraction of its area has no direction: a pin in a hole.
 const DIRECTED: f64 = 0.3;
 /// Shallower than this fraction of the thickness a region may be without a force.
@@ -162,18 +150,9 @@ pub struct OverlapCheck {
     findings: Findings,
     /// Nodes that were inside another body in the last look, and how deep, m.
     inside: Vec<(u32, f64)>,
-}
-
-/// A place of a region.
-struct Sample {
-    /// A triangle there, and whether it is of the second side.
-    own: u32,
-    is_second: bool,
-    /// The triangle of the other side that is nearest.
-    foot: u32,
-    /// The node that it is, if it is one.
-    node: Option<u32>,
-    overlap: Overlap,
+    /// The triangle that was nearest to each vertex in the last look in which it was inside, or [`NONE`]. It
+    /// spares work and changes nothing.
+    feet: Vec<u32>,
 }
 
 impl OverlapCheck {
@@ -210,6 +189,7 @@ impl OverlapCheck {
             has_looked: false,
             findings: Findings::default(),
             inside: Vec::new(),
+            feet: Vec::new(),
         }
     }
 
@@ -280,12 +260,18 @@ impl OverlapCheck {
         let is_first = self.findings.looks == 0;
         self.findings.begin();
         self.inside.clear();
+        let walls = if self.regions.is_empty() { Vec::new() } else { self.thickness.of_all(&self.skin) };
+        self.feet.resize(self.skin.x.len(), NONE);
         for number in 0..self.regions.len() {
-            let samples = self.samples(&self.regions[number]);
-            let nodes = samples.iter().filter_map(|sample| Some((sample.node?, sample.overlap.depth)));
+            let samples = self.samples(&self.regions[number], &walls);
+            for sample in samples.iter().filter(|sample| sample.vertex != NONE) {
+                self.feet[sample.vertex as usize] = sample.foot;
+            }
+            let node = |vertex: u32| self.skin.nodes.get(vertex as usize).copied();
+            let nodes = samples.iter().filter_map(|sample| Some((node(sample.vertex)?, sample.overlap.depth)));
             let is_own = self.regions[number].is_own();
             self.inside.extend(nodes.filter(|_| !is_own));
-            let mut deepest = Overlap { time, ..self.deepest(number, samples) };
+            let mut deepest = Overlap { time, ..self.deepest(number, &samples) };
             let known = &mut self.known[number];
             if is_first && self.ignores_start {
                 known.offset = deepest.depth;
@@ -348,132 +334,6 @@ impl OverlapCheck {
     fn turn(&self, region: &Region) -> Vector {
         let groups = region.triangles.iter().map(|&(triangle, _)| &self.skin.triangles[triangle as usize][..]);
         spin::turn(groups, Sweep::between(&self.places, &self.skin.x))
-    }
-
-    /// The place of a region that is deepest against its thickness.
-    fn deepest(&self, number: usize, mut found: Vec<Sample>) -> Overlap {
-        let (region, known) = (&self.regions[number], &self.known[number]);
-        found.sort_by(|a, b| b.overlap.ratio().total_cmp(&a.overlap.ratio()));
-        let Some(&Sample { overlap: most, .. }) = found.first() else { return Overlap::default() };
-        // In itself a body has no side of entry: its parts turn with each other.
-        let is_sided = known.began != [0.0; 3] && !region.is_open && !region.is_own();
-        if !is_sided || most.ratio().max(known.ratio) <= SIDED {
-            return most;
-        }
-        // The first side comes along its area vector, and the second's side of entry looks against it.
-        let direction = unit(known.began);
-        let deepest = |most: Overlap, &Sample { own, is_second, foot, overlap: unsided, .. }: &Sample| {
-            // Positive where a triangle is of the side of entry, negative of the side opposite.
-            let faces = |triangle: u32| {
-                let along = dot(unit(self.skin.double(triangle)), direction);
-                if is_second { along } else { -along }
-            };
-            // What is nearest to the side of entry, or to a flank, is as deep as that is far.
-            let (below, count) = self.below(unsided.place, foot);
-            if self.skin.sharing(&below[..count]).any(|triangle| faces(triangle) >= -FACES) {
-                return most;
-            }
-            let farthest = 2.0 * unsided.thickness;
-            let most_away = (farthest * farthest, NONE);
-            let found = self.depth(region, (own, is_second), unsided.place, most_away, |triangle| faces(triangle) > FACES);
-            let found = found.map(|(depth, _)| Overlap { depth, ..unsided });
-            found.filter(|found| found.ratio() > most.ratio()).unwrap_or(most)
-        };
-        found.iter().take(SIDED_MOST).fold(most, deepest)
-    }
-
-    /// Vertices of what of a triangle is nearest to a place, of itself, an edge or a corner, and how many:
-    /// facets that share these are as near.
-    fn below(&self, x: Vector, triangle: u32) -> ([u32; 3], usize) {
-        let (mut found, mut count) = ([NONE; 3], 0);
-        let vertices = self.skin.triangles[triangle as usize].into_iter().zip(corners_below(x, self.skin.corners(triangle)));
-        for (vertex, _) in vertices.filter(|(_, is_there)| *is_there) {
-            found[count] = vertex;
-            count += 1;
-        }
-        (found, count)
-    }
-
-    /// Depth of a place of a triangle's side (whether it is the second) of a region, by those triangles of
-    /// the other side that count, and the nearest one; nothing where all are farther than the root of
-    /// `square`, m². The guess is as in [`Tree::nearest`].
-    fn depth(
-        &self,
-        region: &Region,
-        (own, is_second): (u32, bool),
-        x: Vector,
-        (square, guess): (f64, u32),
-        counts: impl Fn(u32) -> bool,
-    ) -> Option<(f64, u32)> {
-        let may_be = |triangle: u32| !self.skin.is_mirror(triangle) && counts(triangle);
-        let nearest = |others: &mut dyn Iterator<Item = u32>| {
-            let away = others.map(|triangle| (square_to_triangle(x, self.skin.corners(triangle)), triangle));
-            let nearest = away.reduce(|a, b| if b.0 < a.0 { b } else { a });
-            nearest.filter(|nearest| nearest.0 < square).map(|(square, foot)| (square.sqrt(), foot))
-        };
-        if region.is_torn() {
-            // Where its contour is not closed, of what is pierced what does not touch it.
-            let touches =
-                |triangle: u32| self.skin.triangles[triangle as usize].iter().any(|at| self.skin.triangles[own as usize].contains(at));
-            return nearest(&mut region.pierced.iter().copied().filter(|&triangle| may_be(triangle) && !touches(triangle)));
-        }
-        if region.is_own() {
-            // Of its own body the other side of the region alone.
-            let others = region.triangles.iter().filter(|&&(triangle, side)| side != is_second && may_be(triangle));
-            return nearest(&mut others.map(|&(triangle, _)| triangle));
-        }
-        let other = region.bodies[usize::from(self.skin.body(own) == region.bodies[0])];
-        let (square, foot) = self.tree.nearest(&self.skin, other, x, (square, guess), may_be)?;
-        Some((square.sqrt(), foot))
-    }
-
-    /// Vertices and three places on each part of an edge that are inside.
-    fn samples(&self, region: &Region) -> Vec<Sample> {
-        let is_own = region.is_own();
-        // Of each side: neighbours along a contour are nearest to neighbours.
-        let last = [const { Cell::new(NONE) }; 2];
-        let look = |own: u32, node: Option<u32>, place: Vector, behind: f64| {
-            let is_second = if is_own && !region.is_open { region.side(own)? } else { self.skin.body(own) == region.bodies[1] };
-            let other = region.bodies[usize::from(!is_second)];
-            let farthest = INSIDE * self.thickest[other as usize];
-            let last = &last[usize::from(is_second)];
-            let (depth, foot) = self.depth(region, (own, is_second), place, (farthest * farthest, last.get()), |_| true)?;
-            last.set(foot);
-            let (below, count) = self.below(place, foot);
-            let there = self.thickness.sharing(&self.skin, &below[..count]);
-            let thickness = behind.min(there);
-            // Farther than that it is not inside: an element of the other body is inverted, and the flood
-            // went astray.
-            if depth > INSIDE * if is_own { thickness } else { there } {
-                return None;
-            }
-            // In its own body the flood may go astray where the contour does not close.
-            if is_own && !(depth < CERTAIN * thickness) && !self.tree.is_in_itself(&self.skin, own, place) {
-                return None;
-            }
-            let nodes = [own, foot].map(|triangle| self.node_of(triangle));
-            Some(Sample { own, is_second, foot, node, overlap: Overlap { place, depth, thickness, nodes, time: 0.0 } })
-        };
-        let of_vertex = |&vertex: &u32| {
-            let own = *self.skin.at_vertex.of(vertex as usize).first()?;
-            let node = self.skin.nodes.get(vertex as usize).copied();
-            look(own, node, self.skin.x[vertex as usize], self.thickness.sharing(&self.skin, &[vertex]))
-        };
-        let of_chord = |&(edge, [from, to]): &(u32, [Vector; 2])| {
-            let at = move |share: f64| [0, 1, 2].map(|d| (1.0 - share) * from[d] + share * to[d]);
-            let Edge { ends, triangles: [own, _] } = self.skin.edges[edge as usize];
-            let behind = self.thickness.sharing(&self.skin, &ends);
-            PLACES.map(|share| look(own, None, at(share), behind))
-        };
-        // Where the contour is open the flood can't be trusted.
-        let inside = if region.is_open { &[] } else { &region.inside[..] };
-        inside.iter().filter_map(of_vertex).chain(region.chords.iter().flat_map(of_chord).flatten()).collect()
-    }
-
-    /// A node of a triangle.
-    fn node_of(&self, triangle: u32) -> u32 {
-        let (carriers, _) = self.skin.shares(self.skin.triangles[triangle as usize][0]);
-        self.skin.nodes[carriers[0] as usize]
     }
 
     /// How the forces of the springs on the nodes of each region work against its volume, −Σ f·∂V/∂x, N m².

@@ -85,6 +85,8 @@ pub(super) struct Work {
     listed: Vec<u32>,
     /// Place of each listed triangle in the list of its pair.
     slots: Vec<u32>,
+    /// Row of each vertex in the gradient of a region while that is found; [`NONE`]: it has none yet.
+    rows: Vec<u32>,
     pair: u32,
 }
 
@@ -120,8 +122,8 @@ impl Work {
             let [a, b] = [skin.edges[piercing.edge as usize].triangles[0], piercing.triangle].map(|triangle| skin.body(triangle));
             [a.min(b), a.max(b)]
         };
-        let key = |piercing: &Piercing| (bodies(piercing), piercing.edge);
-        piercings.sort_by(|a, b| key(a).cmp(&key(b)).then(a.along.total_cmp(&b.along)).then(a.triangle.cmp(&b.triangle)));
+        // `along` is a number from 0 to 1: its bits ascend with it.
+        piercings.sort_by_cached_key(|piercing| (bodies(piercing), piercing.edge, (piercing.along + 0.0).to_bits(), piercing.triangle));
         self.inside.resize(skin.x.len(), 0);
         self.pierced.resize(skin.edges.len(), 0);
         self.listed.resize(skin.triangles.len(), 0);
@@ -237,7 +239,7 @@ impl Work {
         // Regions in the order of their first triangles.
         let mut number = vec![NONE; triangles.len()];
         let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
-        order.sort_by_key(|&slot| triangles[slot as usize]);
+        order.sort_unstable_by_key(|&slot| triangles[slot as usize]);
         let begin = regions.len();
         for &slot in &order {
             let root = whole.find(slot) as usize;
@@ -283,7 +285,8 @@ impl Work {
             });
         }
         pieces.sort_by_key(|piece| piece.triangle);
-        regions[begin..].iter_mut().for_each(|region| integrate(skin, region, &pieces));
+        self.rows.resize(skin.x.len(), NONE);
+        regions[begin..].iter_mut().for_each(|region| integrate(skin, region, &pieces, &mut self.rows));
     }
 
     /// The parts of pierced edges that are inside, which are pieces of the rims of the triangles beside them.
@@ -379,13 +382,13 @@ fn beside(skin: &Skin, piercings: &[Piercing]) -> Vec<((u32, [Vector; 2]), u32)>
     parts
 }
 
-/// N, V and its gradient.
-fn integrate(skin: &Skin, region: &mut Region, pieces: &[Piece]) {
+/// N, V and its gradient; `row_of` is memory to work in: a [`NONE`] for each vertex.
+fn integrate(skin: &Skin, region: &mut Region, pieces: &[Piece], row_of: &mut [u32]) {
     let Some(&(first, _)) = region.triangles.first() else { return };
     // A place of the region: what is flat then has no volume, however ties place the contour in its plane.
     let own = pieces[pieces.partition_point(|piece| piece.triangle < first)..].first().filter(|piece| piece.triangle == first);
     let origin = own.map_or(skin.corners(first)[0], |piece| piece.from);
-    let mut rows: Vec<(u32, Vector)> = Vec::new();
+    let mut closing = Closing::default();
     for &(triangle, second) in &region.triangles {
         let x = skin.corners(triangle);
         let (along, across) = (minus(x[1], x[0]), minus(x[2], x[0]));
@@ -424,31 +427,48 @@ fn integrate(skin: &Skin, region: &mut Region, pieces: &[Piece]) {
         for (vertex, share) in skin.triangles[triangle as usize].into_iter().zip(shares) {
             let (carriers, count) = skin.shares(vertex);
             let share = 0.5 * share / count as f64;
-            rows.extend(carriers[..count].iter().map(|&node| (node, double.map(|c| share * c))));
+            for &node in &carriers[..count] {
+                let row = double.map(|c| share * c);
+                closing.add(minus(skin.x[node as usize], origin), row);
+                let at = &mut row_of[node as usize];
+                if *at == NONE {
+                    *at = region.gradient.len() as u32;
+                    region.gradient.push((node, row));
+                } else {
+                    let sum = &mut region.gradient[*at as usize].1;
+                    (0..3).for_each(|d| sum[d] += row[d]);
+                }
+            }
         }
     }
-    region.is_closed = is_closed(skin, &rows, origin);
-    rows.sort_by_key(|row| row.0);
-    for row in rows {
-        match region.gradient.last_mut() {
-            Some(last) if last.0 == row.0 => (0..3).for_each(|d| last.1[d] += row.1[d]),
-            _ => region.gradient.push(row),
-        }
-    }
+    region.is_closed = closing.is_closed();
+    region.gradient.iter().for_each(|&(node, _)| row_of[node as usize] = NONE);
+    region.gradient.sort_unstable_by_key(|row| row.0);
 }
 
 /// Whether the rows ∂V/∂x are those of a closed surface: their sum and their moment vanish.
-fn is_closed(skin: &Skin, rows: &[(u32, Vector)], origin: Vector) -> bool {
-    let (mut sum, mut moment, mut size, mut arm_size) = ([0.0; 3], [0.0; 3], 0.0, 0.0);
-    for &(node, row) in rows {
-        let arm = minus(skin.x[node as usize], origin);
+#[derive(Default)]
+struct Closing {
+    sum: Vector,
+    moment: Vector,
+    /// Sums of the sizes of the rows, and of those of their moments.
+    size: f64,
+    arm_size: f64,
+}
+
+impl Closing {
+    /// Adds a row at an arm.
+    fn add(&mut self, arm: Vector, row: Vector) {
         let turned = cross(arm, row);
         (0..3).for_each(|d| {
-            sum[d] += row[d];
-            moment[d] += turned[d];
+            self.sum[d] += row[d];
+            self.moment[d] += turned[d];
         });
-        size += length(row);
-        arm_size += length(arm) * length(row);
+        self.size += length(row);
+        self.arm_size += length(arm) * length(row);
     }
-    length(sum) <= CLOSED * size && length(moment) <= CLOSED * arm_size
+
+    fn is_closed(&self) -> bool {
+        length(self.sum) <= CLOSED * self.size && length(self.moment) <= CLOSED * self.arm_size
+    }
 }

@@ -6,7 +6,7 @@
 //! body is as thick as 6 V / S with its volume V and its surface S: twice the radius of the inscribed ball of
 //! polyhedra that have one, one and a half times the diameter of a long rod.
 
-use super::skin::{Bodies, Skin};
+use super::skin::{Bodies, Facet, Skin};
 use super::tree::Tree;
 use crate::contact::obstacle::behind::{See, Thick};
 use crate::contact::projection::node_facet::{Vector, unit};
@@ -54,7 +54,7 @@ fn stout(skin: &Skin) -> Vec<f64> {
 impl Thickness {
     /// Of the facets of a skin in its places.
     pub(super) fn new(skin: &Skin, tree: &Tree) -> Self {
-        let of = |facet: &super::skin::Facet| {
+        let of = |facet: &Facet| {
             let (from, normal) = middle(skin, facet.first);
             let mut nearest = (f64::INFINITY, (NONE, [0.0; 3]));
             let inward = normal.map(|n| -n);
@@ -87,8 +87,13 @@ impl Thickness {
         }
         let x = skin.corners(triangle);
         let foot = [0, 1, 2].map(|d| shares[0] * x[0][d] + shares[1] * x[1][d] + shares[2] * x[2][d]);
-        let way = length(minus(foot, middle(skin, skin.facets[facet].first).0));
+        let way = length(minus(foot, centre(skin, &skin.facets[facet])));
         if skin.is_mirror(triangle) { 2.0 * way } else { way }.min(most)
+    }
+
+    /// The same of each facet.
+    pub(super) fn of_all(&self, skin: &Skin) -> Vec<f64> {
+        skin.facets.iter().map(|facet| self.of(skin, facet.first)).collect()
     }
 
     /// The least of the facets that share these vertices now, m: whichever of them is taken for the nearest.
@@ -160,11 +165,19 @@ impl Thick<3> for Walls {
 fn middle(skin: &Skin, first: u32) -> (Vector, Vector) {
     let facet = &skin.facets[skin.facet_of[first as usize] as usize];
     let at = |k: usize| skin.x[facet.vertices[k] as usize];
+    let double =
+        if facet.count == 1 { cross(minus(at(1), at(0)), minus(at(2), at(0))) } else { cross(minus(at(2), at(0)), minus(at(3), at(1))) };
+    (centre(skin, facet), unit(double))
+}
+
+/// Middle of a facet.
+fn centre(skin: &Skin, facet: &Facet) -> Vector {
+    let at = |k: usize| skin.x[facet.vertices[k] as usize];
     if facet.count == 1 {
         let [a, b, c] = [at(0), at(1), at(2)];
-        return ([0, 1, 2].map(|d| (a[d] + b[d] + c[d]) / 3.0), unit(cross(minus(b, a), minus(c, a))));
+        return [0, 1, 2].map(|d| (a[d] + b[d] + c[d]) / 3.0);
     }
-    (at(4), unit(cross(minus(at(2), at(0)), minus(at(3), at(1)))))
+    at(4)
 }
 
 /// Where a ray meets a triangle that it comes to from behind: how far, m, and the shares of the corners

@@ -10,6 +10,9 @@ use crate::mesh::surface::NONE;
 
 /// Facets of a leaf.
 const LEAF: usize = 2;
+/// Nodes that wait while one goes down the tree of a body: one more than it has levels, which halve what
+/// numbers of 32 bits count.
+const DEEPEST: usize = 40;
 /// Squares of distances that differ by less than this fraction are equal.
 const ROUNDED: f64 = 1e-9;
 /// The side of what has both.
@@ -194,8 +197,11 @@ impl Tree {
         }
         // Boxes round otherwise than triangles do.
         let away = |around: &Aabb<3>| square_away(&widened(around, self.grown), x) * (1.0 - ROUNDED);
-        let mut stack = vec![(self.roots[body as usize], 0.0)];
-        while let Some((number, least)) = stack.pop() {
+        let (mut stack, mut count) = ([(0, 0.0); DEEPEST], 1);
+        stack[0] = (self.roots[body as usize], 0.0);
+        while count > 0 {
+            count -= 1;
+            let (number, least) = stack[count];
             if least > found.0 {
                 continue;
             }
@@ -217,7 +223,8 @@ impl Tree {
             let of = |child: u32| (child, away(&self.nodes[child as usize].around));
             let [a, b] = [node.first, node.second].map(of);
             // The nearer one first: it is on top.
-            if a.1 < b.1 { stack.extend([b, a]) } else { stack.extend([a, b]) }
+            [stack[count], stack[count + 1]] = if a.1 < b.1 { [b, a] } else { [a, b] };
+            count += 2;
         }
         (found.1 != NONE).then_some(found)
     }

@@ -1,6 +1,6 @@
 //! Cost of contact in a step:
-//! `cargo bench -p embate-solver --bench contact [plane|space] [MOTION…] [ELEMENTS [THREADS]]`; a MOTION is a
-//! part of a name that is reported, such as `shifted`.
+//! `cargo bench -p embate-solver --bench contact [plane|space] [MOTION…] [ELEMENTS [THREADS [ROUNDS]]]`; a
+//! MOTION is a part of a name that is reported, such as `shifted`; a round is four steps.
 //!
 //! A stack of long strips, each so near to the next that every node of their long sides is in reach of the
 //! next strip; all in one contact of bodies with each other and with themselves. At rest nothing presses; in
@@ -25,6 +25,7 @@ fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let numbers: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let elements = numbers.first().copied().unwrap_or(1_000_000);
+    let rounds = numbers.get(2).copied().unwrap_or(9);
     let options = Options { threads: numbers.get(1).copied().unwrap_or(1), simd: None };
     let is_wanted =
         |dimension: &str| words.iter().any(|word| word == dimension) || !words.iter().any(|word| word == "plane" || word == "space");
@@ -40,7 +41,7 @@ fn main() {
         {
             let plain = strips(elements, speed);
             // 44 steps: so long the strips press on each other, once they have met.
-            let with = compare(name, &plain, contact(Partners::Bodies(Vec::new()), friction), &options);
+            let with = compare(name, &plain, contact(Partners::Bodies(Vec::new()), friction), &options, rounds);
             if speed == 0.0 {
                 track_alone(&plain, with);
             }
@@ -68,7 +69,7 @@ fn main() {
             if speed == 0.0 {
                 lift(&mut plain, SIZE);
             }
-            compare(name, &plain, contact, &options);
+            compare(name, &plain, contact, &options, rounds);
         }
     }
 }
@@ -88,10 +89,10 @@ fn contact(partners: Partners, friction: f64) -> Contact {
 }
 
 /// Times of steps with and without contact, and their shares; the time of a step with contact, ms.
-fn compare(name: &str, plain: &Model, contact: Contact, options: &Options) -> f64 {
+fn compare(name: &str, plain: &Model, contact: Contact, options: &Options, rounds: usize) -> f64 {
     let mut touching = plain.clone();
     touching.contacts.push(contact);
-    let ([without, with], [_, simulation]) = step_times([plain, &touching], options, 9, f64::INFINITY).expect("the models are sound");
+    let ([without, with], [_, simulation]) = step_times([plain, &touching], options, rounds, f64::INFINITY).expect("the models are sound");
     let [without, with] = [without, with].map(|seconds| 1e3 * seconds);
     let summary = simulation.summary();
     println!(

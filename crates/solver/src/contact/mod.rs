@@ -277,11 +277,13 @@ where
         time_step: f64,
     ) {
         let answers = springs.answers(self.found.clone());
-        self.penetration = answers.clone().fold(0.0, |deepest, answer| f64::max(deepest, -answer.solved.gap));
-        self.totals = answers.clone().collect_into(forces, bodies, traces);
+        let (mut sum, formulation) = (|| answers.clone().collect_into(forces, bodies, traces), &mut self.formulation);
+        let mut remember = || formulation.remember(answers.clone());
+        // Neither reads what the other one writes.
+        let (found, ()) = if rayon::current_thread_index().is_some() { rayon::join(sum, remember) } else { (sum(), remember()) };
+        (self.totals, self.penetration) = found;
         self.has_pressed |= self.totals.pressing > 0.0;
         self.friction_work += self.totals.lost.friction;
-        self.formulation.remember(answers.clone());
         let acts = self.acts_at(self.time);
         self.totals.lost.lost_contact_energy = if acts { self.formulation.lost_contact_energy() } else { 0.0 };
         let ends = acts && !self.acts_at(self.time + time_step);
@@ -379,10 +381,10 @@ where
     ) -> <Dim<D> as RigidMotion<D>>::Spin {
         let centre = bodies.state(body).centre;
         let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
-        let moment = |(answer, end): (Answer<'_, D>, springs::End<D>)| {
+        let moment = |(answer, end): (Answer<'_, D>, springs::KeptEnd<'_, D>)| {
             let (on_body, point) = match positions.get(end.at as usize) {
                 Some(&x) => (bodies.of_node(end.at) == Some(body), x),
-                None => (end.at as usize - positions.len() == body, end.point),
+                None => (end.at as usize - positions.len() == body, end.point()),
             };
             let force = if on_body { [0.0; D] } else { end.force(answer.spring, answer.solved) };
             Dim::<D>::moment(std::array::from_fn(|d| point[d] - centre[d]), force)

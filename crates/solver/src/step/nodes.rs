@@ -84,11 +84,9 @@ where
     }
 
     /// The velocity that damping and dashpots leave of one without them.
-    fn slowed(&self, mut v: [f64; D]) -> [f64; D] {
-        let (a, old) = (self.slowing, self.old);
-        if a > 0.0 {
-            v = std::array::from_fn(|d| (v[d] - a * old[d]) / (1.0 + a));
-        }
+    fn slowed(&self, v: [f64; D]) -> [f64; D] {
+        let old = self.old;
+        let mut v = slowed(v, old, self.slowing);
         if let Some(dashpot) = self.dashpot {
             let change = applied(&inverse(&self.inertia()), applied(&dashpot, plus(v, old)));
             v = std::array::from_fn(|d| v[d] - change[d]);
@@ -104,6 +102,11 @@ where
             (Some(held), Some(_)) => held.apply_in(free, inverse(&self.inertia())),
         }
     }
+}
+
+/// The velocity that damping with the factor a leaves of one without it.
+fn slowed<const D: usize>(v: [f64; D], old: [f64; D], a: f64) -> [f64; D] {
+    if a > 0.0 { std::array::from_fn(|d| (v[d] - a * old[d]) / (1.0 + a)) } else { v }
 }
 
 impl<'a, const D: usize> Nodes<'a, D>
@@ -256,13 +259,17 @@ where
     }
 
     fn response(&self, leader: usize) -> NodeResponse<D> {
-        let pull = self.pull_on(leader);
-        let (f, v, g) = (pull.internal, pull.old, pull.gravity.unwrap_or([0.0; D]));
-        let mut free = std::array::from_fn(|d| v[d] + self.dt * (f[d] / pull.mass + g[d]));
-        if let Some(load) = pull.load {
-            free = plus(free, times(self.dt / pull.mass, load));
-        }
         let mut mobility = <Dim<D> as TangentSpace<D>>::Symmetric::default();
+        if self.free.get(leader / BATCH) == Some(&true) {
+            let (mass, old, slowing) = (self.mass[leader], self.velocities_old[leader], self.damping.factor(leader));
+            let (load, gravity) = (self.loads.get(leader).copied(), self.gravity.get(leader).copied());
+            let free = self.unpushed((mass, old), self.assembly.force(leader, self.slots), load, gravity);
+            let scale = self.dt / (mass * (1.0 + slowing));
+            (0..D).for_each(|d| mobility[<Dim<D>>::AT[d][d]] = scale);
+            return NodeResponse { velocity_old: old, velocity: slowed(free, old, slowing), mobility };
+        }
+        let pull = self.pull_on(leader);
+        let (v, free) = (pull.old, self.unpushed((pull.mass, pull.old), pull.internal, pull.load, pull.gravity));
         for (i, row) in self.mobility(&pull).into_iter().enumerate() {
             row.into_iter().enumerate().skip(i).for_each(|(j, value)| mobility[<Dim<D>>::AT[i][j]] = value);
         }
@@ -279,6 +286,13 @@ impl<const D: usize> Nodes<'_, D>
 where
     Dim<D>: Dimension<D>,
 {
+    /// Velocity (m/s) of a mass that neither contacts nor what holds it push.
+    fn unpushed(&self, (mass, old): (f64, [f64; D]), force: [f64; D], load: Option<[f64; D]>, gravity: Option<[f64; D]>) -> [f64; D] {
+        let g = gravity.unwrap_or([0.0; D]);
+        let velocity = std::array::from_fn(|d| old[d] + self.dt * (force[d] / mass + g[d]));
+        load.map_or(velocity, |load| plus(velocity, times(self.dt / mass, load)))
+    }
+
     /// Change of velocity per force.
     fn mobility(&self, pull: &Pull<'_, D>) -> Square<D> {
         if pull.dashpot.is_some() {

@@ -241,12 +241,12 @@ proptest! {
             let ends: Vec<_> = springs.ends(spring).collect();
             let (mut sum, mut moment, mut size) = ([0.0; 3], [0.0; 3], 0.0);
             for end in &ends {
-                let turned = cross(nodes[end.at as usize], end.lean);
+                let turned = cross(nodes[end.at as usize], end.lean());
                 (0..3).for_each(|d| {
-                    sum[d] += end.lean[d];
+                    sum[d] += end.lean()[d];
                     moment[d] += turned[d];
                 });
-                size += length(end.lean);
+                size += length(end.lean());
             }
             prop_assert!(length(sum) < 1e-8 * size && length(moment) < 1e-8 * size, "{sum:?} {moment:?} {size}");
         }

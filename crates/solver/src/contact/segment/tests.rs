@@ -86,7 +86,7 @@ fn forces(model: &Facing2, springs: &Springs<2>) -> Vec<Vector> {
         let force = spring.stiffness * (-spring.gap).max(0.0);
         for end in springs.ends(spring) {
             for d in 0..2 {
-                forces[end.at as usize][d] += (end.share * spring.normal[d] + end.lean[d]) * force;
+                forces[end.at as usize][d] += (end.share * spring.normal[d] + end.lean()[d]) * force;
             }
         }
     }

@@ -4,7 +4,7 @@
 //! asked for (`book.rs`), so that nothing is stored that is only summed up.
 
 use super::book::Books;
-use super::{End, Solved, Spring, Springs, Terms, Totals};
+use super::{KeptEnd, Solved, Spring, Springs, Terms, Totals};
 use crate::contact::springs::TangentSpace;
 use crate::contact::traces::Traces;
 use crate::contact_forces::ContactForces;
@@ -77,7 +77,7 @@ where
     }
 
     /// Its ends.
-    pub fn ends(self) -> impl Iterator<Item = End<D>> {
+    pub fn ends(self) -> impl Iterator<Item = KeptEnd<'a, D>> {
         self.springs.ends(self.spring)
     }
 
@@ -113,7 +113,7 @@ where
                 totals.resultant.iter_mut().zip(force).for_each(|(sum, force)| *sum += f64::from(spring.side) * force);
             }
             if !forces.push(end.at, force) {
-                bodies.push_at(end.at as usize - forces.nodes(), force, end.point);
+                bodies.push_at(end.at as usize - forces.nodes(), force, end.point());
             }
         }
     }
@@ -130,10 +130,12 @@ where
     Dim<D>: TangentSpace<D>,
 {
     /// Sums the springs up: adds their forces to `forces` (of nodes) and `bodies` (of bodies without nodes at
-    /// the ends), and what they did in the coming update to `traces`.
-    pub fn collect_into(self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, traces: &mut Traces<D>) -> Totals<D> {
-        let mut totals = Totals::default();
+    /// the ends), and what they did in the coming update to `traces`. The sums, and the depth of the deepest
+    /// one at n, m.
+    pub fn collect_into(self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, traces: &mut Traces<D>) -> (Totals<D>, f64) {
+        let (mut totals, mut deepest) = (Totals::default(), 0.0);
         for answer in self {
+            deepest = f64::max(deepest, -answer.solved.gap);
             let Books { energy, slip_energy, work, lost, .. } = answer.books();
             totals.energy += energy;
             totals.slip_energy += slip_energy;
@@ -142,6 +144,6 @@ where
             answer.push(forces, bodies, &mut totals);
             traces.mark(&answer, &lost);
         }
-        totals
+        (totals, deepest)
     }
 }

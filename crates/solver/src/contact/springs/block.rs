@@ -357,7 +357,7 @@ where
                 self.add_fixed(joints, k, batch as usize, lane);
                 continue;
             }
-            let turned = |row: [f64; D]| end.image.as_ref().map_or(row, |turn| Dim::<D>::pull_back(turn, row));
+            let turned = |row: [f64; D]| end.image().map_or(row, |turn| Dim::<D>::pull_back(turn, row));
             let arm = arm as usize;
             set_row(&mut self.rows[arm], lane, turned(end.gap_row(data.normal)), self.has_common_ends);
             if has_slip {

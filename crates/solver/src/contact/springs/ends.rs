@@ -1,8 +1,9 @@
 //! Ends of springs as they are kept: all have a share, and what not all have lies apart: turns (only with
 //! friction), and what few have. Springs are more than caches hold, so their size is their cost.
 
-use super::End;
+use super::{End, Solved, Spring};
 use crate::contact::springs::TangentSpace;
+use crate::rigid::Bodies;
 use crate::tensor::Dim;
 
 /// No more.
@@ -27,6 +28,20 @@ struct PackedEnd {
     /// Number of what it has beyond, or [`NONE`].
     more: u32,
     share: f64,
+}
+
+/// An end of a spring as it is kept: what few have is not copied for all.
+#[derive(Clone, Copy)]
+pub struct KeptEnd<'a, const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// Node, or number of nodes + rigid body.
+    pub at: u32,
+    /// Share in the gap.
+    pub share: f64,
+    turn: Option<&'a <Dim<D> as TangentSpace<D>>::Tangents>,
+    more: Option<&'a More<D>>,
 }
 
 /// What few ends have.
@@ -83,11 +98,9 @@ where
     }
 
     #[inline]
-    pub(super) fn get(&self, k: usize) -> End<D> {
+    pub(super) fn get(&self, k: usize) -> KeptEnd<'_, D> {
         let PackedEnd { at, more, share } = self.list[k];
-        let turn = self.turns.get(k).copied().unwrap_or_default();
-        let More { lean, point, image } = self.more.get(more as usize).copied().unwrap_or_default();
-        End { at, share, lean, turn, point, image }
+        KeptEnd { at, share, turn: self.turns.get(k), more: self.more.get(more as usize) }
     }
 
     /// Node or rigid body of an end.
@@ -113,5 +126,87 @@ where
             self.more.push(More::default());
         }
         &mut self.more[*number as usize]
+    }
+}
+
+impl<'a, const D: usize> KeptEnd<'a, D>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// The same by itself.
+    pub(super) fn whole(&self) -> End<D> {
+        let Self { at, share, turn, .. } = *self;
+        End { at, share, lean: self.lean(), turn: turn.copied().unwrap_or_default(), point: self.point(), image: self.image().copied() }
+    }
+
+    /// What the gap's rate has beyond the share.
+    #[must_use]
+    #[inline]
+    pub fn lean(&self) -> [f64; D] {
+        self.more.map_or([0.0; D], |more| more.lean)
+    }
+
+    /// Where the forces act on a rigid body without nodes, m.
+    #[must_use]
+    #[inline]
+    pub fn point(&self) -> [f64; D] {
+        self.more.map_or([0.0; D], |more| more.point)
+    }
+
+    /// Rotation from the motion of the node that moves instead of it.
+    #[inline]
+    pub(super) fn image(&self) -> Option<&'a <Dim<D> as TangentSpace<D>>::ImageRotation> {
+        self.more?.image.as_ref()
+    }
+
+    /// Force of a solved spring on this end, N/m.
+    #[must_use]
+    #[inline]
+    pub fn force(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
+        if solved.friction == Default::default() { self.push(spring, solved) } else { self.drag(spring, &spring.tangents(), solved) }
+    }
+
+    /// The same where there is no friction.
+    #[inline]
+    pub(super) fn push(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
+        self.gap_row(spring.normal).map(|row| row * solved.force)
+    }
+
+    /// The same with friction along the spring's `tangents`.
+    #[inline]
+    pub(super) fn drag(&self, spring: &Spring<D>, tangents: &<Dim<D> as TangentSpace<D>>::Tangents, solved: &Solved<D>) -> [f64; D] {
+        let (gap_row, slip_rows) = (self.gap_row(spring.normal), self.slip_rows(tangents));
+        std::array::from_fn(|d| {
+            let mut sum = gap_row[d] * solved.force;
+            for a in 0..D - 1 {
+                sum += slip_rows[a][d] * solved.friction[a];
+            }
+            sum
+        })
+    }
+
+    /// Row of the gap's rate.
+    #[inline]
+    pub(super) fn gap_row(&self, normal: [f64; D]) -> [f64; D] {
+        let lean = self.lean();
+        std::array::from_fn(|d| self.share * normal[d] + lean[d])
+    }
+
+    /// What it adds to the gap's rate, m/s.
+    pub(super) fn rate(&self, normal: [f64; D], velocities: &[[f64; D]], bodies: &Bodies<D>) -> f64 {
+        let row = self.gap_row(normal);
+        let at = self.at as usize;
+        let velocity = velocities.get(at).copied().unwrap_or_else(|| {
+            let body = bodies.state(at - velocities.len());
+            body.velocity_at(self.point(), &body.velocity)
+        });
+        (0..D).map(|d| row[d] * velocity[d]).sum()
+    }
+
+    /// Rows of the slip's rates.
+    #[inline]
+    pub(super) fn slip_rows(&self, tangents: &<Dim<D> as TangentSpace<D>>::Tangents) -> <Dim<D> as TangentSpace<D>>::Tangents {
+        let turn = self.turn.copied().unwrap_or_default();
+        Dim::<D>::vectors(|a| std::array::from_fn(|d| self.share * tangents[a][d] + turn[a][d]))
     }
 }

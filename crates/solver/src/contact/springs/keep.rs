@@ -73,7 +73,7 @@ where
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         persist_each!(archive; &mut self.time_steps, &mut self.sweeps_max, &mut self.unsolved);
         let whole = |(answer, &terms): (super::Answer<'_, D>, &u32)| {
-            let ends = self.ends(answer.spring).collect();
+            let ends = self.ends(answer.spring).map(|end| end.whole()).collect();
             Whole { spring: *answer.spring, terms, ends, solved: *answer.solved }
         };
         // What is read replaces those of the start.

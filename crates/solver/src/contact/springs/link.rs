@@ -8,7 +8,7 @@
 use super::couple::{Couplings, Forces};
 use super::ends::Ends;
 use super::islands::NONE;
-use super::{Along, End, NodeResponse, NodeResponses, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
+use super::{Along, KeptEnd, NodeResponse, NodeResponses, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
 use crate::contact::law::Law;
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
@@ -70,7 +70,7 @@ where
     }
 
     /// Rates of the row `row` at an end, before and without springs, m/s.
-    pub(super) fn rates(&self, row: [f64; D], end: &End<D>) -> [f64; 2] {
+    pub(super) fn rates(&self, row: [f64; D], end: &KeptEnd<'_, D>) -> [f64; 2] {
         let row = self.row(row, end);
         [self.velocity_old, self.velocity_free].map(|velocity| Dim::<D>::dot(&row, &velocity))
     }
@@ -78,11 +78,11 @@ where
     /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader
     /// feels it.
     #[inline]
-    fn row(&self, mut row: [f64; D], end: &End<D>) -> Row<D> {
-        if let Some(turn) = &end.image {
+    fn row(&self, mut row: [f64; D], end: &KeptEnd<'_, D>) -> Row<D> {
+        if let Some(turn) = end.image() {
             row = Dim::<D>::pull_back(turn, row);
         }
-        let arm = |centre: [f64; D]| std::array::from_fn(|d| end.point[d] - centre[d]);
+        let arm = |centre: [f64; D]| std::array::from_fn(|d| end.point()[d] - centre[d]);
         Dim::<D>::generalized_of(row, self.centre.map(arm))
     }
 }

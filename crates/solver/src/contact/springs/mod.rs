@@ -56,6 +56,7 @@ mod tangent_space;
 mod topology;
 
 pub use answers::{Answer, Answers};
+pub use ends::KeptEnd;
 pub use tangent_space::TangentSpace;
 
 use super::law::{self, Law};
@@ -264,55 +265,6 @@ where
     pub fn node(node: u32, share: f64) -> Self {
         Self { at: node, share, ..Self::default() }
     }
-
-    /// Force of a solved spring on this end, N/m.
-    #[must_use]
-    #[inline]
-    pub fn force(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
-        if solved.friction == Default::default() { self.push(spring, solved) } else { self.drag(spring, &spring.tangents(), solved) }
-    }
-
-    /// The same where there is no friction.
-    #[inline]
-    fn push(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
-        self.gap_row(spring.normal).map(|row| row * solved.force)
-    }
-
-    /// The same with friction along the spring's `tangents`.
-    #[inline]
-    fn drag(&self, spring: &Spring<D>, tangents: &<Dim<D> as TangentSpace<D>>::Tangents, solved: &Solved<D>) -> [f64; D] {
-        let (gap_row, slip_rows) = (self.gap_row(spring.normal), self.slip_rows(tangents));
-        std::array::from_fn(|d| {
-            let mut sum = gap_row[d] * solved.force;
-            for a in 0..D - 1 {
-                sum += slip_rows[a][d] * solved.friction[a];
-            }
-            sum
-        })
-    }
-
-    /// Row of the gap's rate.
-    #[inline]
-    fn gap_row(&self, normal: [f64; D]) -> [f64; D] {
-        std::array::from_fn(|d| self.share * normal[d] + self.lean[d])
-    }
-
-    /// What it adds to the gap's rate, m/s.
-    fn rate(&self, normal: [f64; D], velocities: &[[f64; D]], bodies: &Bodies<D>) -> f64 {
-        let row = self.gap_row(normal);
-        let at = self.at as usize;
-        let velocity = velocities.get(at).copied().unwrap_or_else(|| {
-            let body = bodies.state(at - velocities.len());
-            body.velocity_at(self.point, &body.velocity)
-        });
-        (0..D).map(|d| row[d] * velocity[d]).sum()
-    }
-
-    /// Rows of the slip's rates.
-    #[inline]
-    fn slip_rows(&self, tangents: &<Dim<D> as TangentSpace<D>>::Tangents) -> <Dim<D> as TangentSpace<D>>::Tangents {
-        Dim::<D>::vectors(|a| std::array::from_fn(|d| self.share * tangents[a][d] + self.turn[a][d]))
-    }
 }
 
 /// Tangent of a spring in 2D: the normal turned clockwise, along the target segment.
@@ -520,7 +472,7 @@ where
     }
 
     /// The ends of a spring.
-    pub fn ends(&self, spring: &Spring<D>) -> impl Iterator<Item = End<D>> {
+    pub fn ends(&self, spring: &Spring<D>) -> impl Iterator<Item = KeptEnd<'_, D>> {
         spring.ends().map(|k| self.ends.get(k))
     }
 

@@ -325,7 +325,7 @@ fn a_rigid_body_that_bounces_on_its_corners_keeps_its_energy_and_with_friction_l
                 }
                 pressed += usize::from(force > 0.0);
                 for end in answer.ends() {
-                    bodies.push_at(0, end.force(answer.spring, answer.solved), end.point);
+                    bodies.push_at(0, end.force(answer.spring, answer.solved), end.point());
                 }
             }
             let sums = bodies.accelerate([dt; 2], &ContactForces::new(0), &[], &mut []);

@@ -119,11 +119,12 @@ where
     /// Relaxes the springs of a batch in lanes from `at` on, and sees how much that changes.
     #[inline(always)]
     fn relax<L: Lane>(&mut self, batch: usize, at: usize, still: Option<&Batch>, seen: &mut [L; 2]) {
-        // What most springs have in 2D and 3D keeps its rooms in registers.
+        // What most springs have in 2D and 3D, or between two facets, keeps its rooms.
         match self.block.heads[batch].count {
             3 => self.relax_arms::<L, 3>(batch, at, still, seen),
             4 => self.relax_arms::<L, 4>(batch, at, still, seen),
             5 => self.relax_arms::<L, 5>(batch, at, still, seen),
+            8 => self.relax_arms::<L, 8>(batch, at, still, seen),
             _ => {
                 let rates = rates::<L, SLIDES, D>(self.block, batch, at);
                 let steps = self.find_forces(batch, at, rates, still, seen);

@@ -12,8 +12,8 @@
 //!
 //! the latter where P covers that facet or spans one in a direction, between both by parts that sum up to
 //! one. For where facets lie on each other corner on corner, the means alone do not see corners move in and
-//! out in turn, and elsewhere they do; they are a quarter of the springs. All integrals are exact
-//! (`polygon.rs`).
+//! out in turn, and elsewhere they do; they are a quarter of the springs. Narrow strips have the mean alone.
+//! All integrals are exact (`fan.rs`, `polygon.rs`).
 //!
 //! *Patch test.* The shares of all springs sum up to ∫ N_k dA: a uniform gap between flat surfaces gives the
 //! consistent loads of a uniform pressure, whatever the meshes. So that it is uniform beside elements of any
@@ -37,6 +37,7 @@
 //! 193 (2004) 601-629.
 
 mod common;
+mod fan;
 mod pairs;
 mod polygon;
 
@@ -60,6 +61,7 @@ use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::SpaceSurface;
 use crate::model::{ContactLaw, Penalty};
 use common::{Common, PARTS, Part};
+use embate_lanes::Level;
 use pairs::Pairs;
 use std::any::Any;
 
@@ -78,6 +80,7 @@ pub(super) struct Segment {
     /// Whether each pair has a single spring.
     is_mean: bool,
     slips: bool,
+    level: Level,
     start: Start<3>,
     /// Softest κ of the part of each facet of each surface, Pa/m.
     stiffness: Vec<Vec<f64>>,
@@ -117,6 +120,11 @@ impl Facing {
         (0..PARTS).for_each(|slot| sum.add(areas[slot], self.slips[slot], self.offsets[slot]));
         let (slip, offset) = sum.mean();
         Self { slips: [slip; PARTS], offsets: [offset; PARTS], ..self }
+    }
+
+    /// Whether any spring has slip, or a gap that counts as zero.
+    fn knows(&self) -> bool {
+        self.slips != [[0.0; 3]; PARTS] || self.offsets != [0.0; PARTS]
     }
 
     /// The same with another owner of the corners.
@@ -166,6 +174,7 @@ impl Segment {
             penalty,
             is_mean,
             slips,
+            level: Level::best(),
             start,
             stiffness,
             facing: Vec::new(),
@@ -184,24 +193,23 @@ impl Segment {
     /// What two facets have in common; `None` where they don't face each other. Those that had springs in the
     /// last step keep them, however deep they are; what else is deeper than its nodes belongs to another side
     /// of a corner.
-    fn common(&mut self, pair: [u32; 2], positions: &[Vector]) -> Option<Common> {
-        let frames = self.pairs.frames(pair, positions);
-        let common = Common::new([&frames[0], &frames[1]], self.is_mean, self.pairs.lead(pair))?;
-        let was_there = self.before.binary_search_by_key(&pair, |facing| facing.pair).is_ok();
+    fn common(&mut self, pair: [u32; 2], was_there: bool, positions: &[Vector]) -> Option<Common> {
+        let lead = self.pairs.lead(pair);
+        let common = Common::new(self.pairs.frames(pair, positions), self.is_mean, lead, self.level)?;
         let depth = || self.pairs.depth(pair);
         let is_sound = was_there || common.lowest >= 0.0 || -common.lowest <= DEEPER * depth() + ROUNDING * common.size();
         is_sound.then_some(common)
     }
 
-    /// What the springs of a pair know: what they knew, or the mean of those of its facets in the last step;
-    /// and whether the pair is new.
-    fn kept(&mut self, pair: [u32; 2], common: &Common) -> (Facing, bool) {
+    /// What the springs of a pair know: what they knew (by the number of the pair in the last step), or the
+    /// mean of those of its facets in the last step.
+    fn kept(&mut self, pair: [u32; 2], before: Option<usize>, common: &Common) -> Facing {
         let now = Facing { pair, area: common.area, owner: common.owner, edges: common.edges, ..Facing::default() };
-        if let Ok(at) = self.before.binary_search_by_key(&pair, |facing| facing.pair) {
+        if let Some(at) = before {
             let before = self.before[at];
             let kept = Facing { area: now.area, edges: now.edges, stored: 0.0, ..before };
             // Corners of another facet know nothing of those.
-            return (if before.owner == now.owner { kept } else { kept.evened([1.0; PARTS]).of(now.owner) }, false);
+            return if before.owner == now.owner { kept } else { kept.evened([1.0; PARTS]).of(now.owner) };
         }
         if self.by_second.len() < self.before.len() {
             self.by_second.extend(self.before.iter().zip(0..).map(|(facing, at)| (facing.pair[1], at)));
@@ -219,16 +227,16 @@ impl Segment {
         let second = self.by_second[first..].iter().take_while(|&&(facet, _)| facet == pair[1]);
         second.for_each(|&(_, at)| add(&self.before[at as usize]));
         let (slip, offset) = sum.mean();
-        (Facing { slips: [slip; PARTS], offsets: [offset; PARTS], ..now }, true)
+        Facing { slips: [slip; PARTS], offsets: [offset; PARTS], ..now }
     }
 
-    /// Adds the springs of a pair.
-    fn connect(&mut self, pair: [u32; 2], common: &Common, sweep: Sweep<'_, 3>, springs: &mut Springs<3>) {
-        let (mut facing, is_new) = self.kept(pair, common);
-        let may_be = is_new && self.start.has_begun && self.law.is_elastic();
+    /// Adds the springs of a pair, which has a number if it was there in the last step.
+    fn connect(&mut self, pair: [u32; 2], before: Option<usize>, common: &Common, sweep: Sweep<'_, 3>, springs: &mut Springs<3>) {
+        let mut facing = self.kept(pair, before, common);
+        let may_be = before.is_none() && self.start.has_begun && self.law.is_elastic();
         let at_once = may_be && {
             let old = self.pairs.frames_at(pair, sweep.old);
-            Common::new([&old[0], &old[1]], true, 0.0).is_some_and(|before| before.fraction() > AT_ONCE)
+            Common::new([&old[0], &old[1]], true, 0.0, self.level).is_some_and(|before| before.fraction() > AT_ONCE)
         };
         let surfaces = self.pairs.surfaces();
         let [own, other] = [0, 1].map(|k| self.stiffness[surfaces[k]][pair[k] as usize]);
@@ -260,7 +268,7 @@ impl Segment {
             while now.next_if(|&pair| pair < before.pair).is_some() {}
             if now.peek() != Some(&before.pair) && before.stored > 0.0 {
                 let frames = self.pairs.frames_at(before.pair, positions);
-                let common = Common::new([&frames[0], &frames[1]], true, 0.0);
+                let common = Common::new([&frames[0], &frames[1]], true, 0.0, self.level);
                 sum += if common.is_some_and(|common| common.fraction() > AT_ONCE) { before.stored } else { 0.0 };
             }
         }
@@ -289,10 +297,16 @@ impl Formulation<3> for Segment {
         self.facing.clear();
         self.by_second.clear();
         self.used.clear();
+        let mut at = 0;
         for index in 0..self.pairs.list.len() {
             let pair = self.pairs.list[index];
-            if let Some(common) = self.common(pair, scene.sweep.new) {
-                self.connect(pair, &common, scene.sweep, springs);
+            // Both lists ascend.
+            while self.before.get(at).is_some_and(|facing| facing.pair < pair) {
+                at += 1;
+            }
+            let before = self.before.get(at).is_some_and(|facing| facing.pair == pair).then_some(at);
+            if let Some(common) = self.common(pair, before.is_some(), scene.sweep.new) {
+                self.connect(pair, before, &common, scene.sweep, springs);
             }
         }
         self.pairs.note_touches(scene.sweep.new);
@@ -318,6 +332,9 @@ impl Formulation<3> for Segment {
                 facing.stored += answer.stored_new();
                 areas[slot as usize] = answer.spring.area;
             }
+            if !facing.knows() {
+                continue;
+            }
             // Those that are not there begin with the mean.
             let mean = facing.evened(areas);
             for slot in (0..PARTS).filter(|&slot| areas[slot] == 0.0) {
@@ -329,7 +346,7 @@ impl Formulation<3> for Segment {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            law: _, penalty: _, is_mean: _, slips: _, stiffness: _, before: _, by_second: _, used: _, lost_contact_energy: _,
+            law: _, penalty: _, is_mean: _, slips: _, level: _, stiffness: _, before: _, by_second: _, used: _, lost_contact_energy: _,
             pairs, proof, overlap_check, start, facing, nets,
         } = self;
         pairs.persist(archive)?;

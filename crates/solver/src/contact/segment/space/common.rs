@@ -4,7 +4,8 @@
 //! Nodes and positions come from the formulation ([`super`], which has the equations); rows of rates go to
 //! its springs.
 
-use super::polygon::{Linear, Moments, Polygon, Triangle};
+use super::fan::{Fan, Flat, MIDDLE, PIECES, Sector};
+use super::polygon::{Linear, Moments};
 use crate::contact::Sweep;
 use crate::contact::projection::node_facet::unit;
 use crate::contact::spin;
@@ -12,11 +13,14 @@ use crate::contact::springs::{End, TangentSpace};
 use crate::mesh::surface::Corners;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{any_tangent, length, minus};
+use embate_lanes::Level;
 
 type Vector = [f64; 3];
 
 /// Common parts smaller than this fraction of the smaller facet are round-off.
 const SLIVER: f64 = 1e-12;
+/// Springs that stand for less than this fraction of the smaller facet are round-off.
+const NOTHING: f64 = 1e-24;
 /// Facets count whole where the cosine of the angle between them is more than this, and fade out towards a
 /// right angle.
 const FACING: f64 = 0.5;
@@ -26,22 +30,21 @@ const COVERS: [f64; 2] = [0.5, 0.8];
 /// The same for the square of its extent, against that of a facet in the direction in which that is most.
 const SPANS: [f64; 2] = [0.6, 0.9];
 
-/// A corner of a common part is on an edge of a facet if the share of the opposite corner is smaller there.
-const ON_EDGE: f64 = 1e-9;
+/// A common part smaller than the first fraction of the smaller facet has no springs at corners, whatever it
+/// spans: facets that lie corner on corner overlap their neighbours by strips that come and go.
+const NARROW: [f64; 2] = [1e-4, 1e-2];
 
 /// Springs of a pair at most: of the mean gap, and at the corners of a facet.
 pub(super) const PARTS: usize = 5;
-/// The middle of a facet of four nodes among its corners.
-const MIDDLE: usize = 4;
 
 /// A facet as it is in a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Frame {
     pub(super) nodes: [u32; 4],
-    corners: [Vector; 4],
+    pub(super) corners: [Vector; 4],
     count: usize,
     /// Mean of the corners, m.
-    middle: Vector,
+    pub(super) middle: Vector,
     /// Unit outward normal: of four nodes that of the diagonals.
     normal: Vector,
     /// m².
@@ -78,78 +81,8 @@ impl Frame {
     }
 }
 
-/// A facet in the common plane: its triangles, of which each knows its corners among those of the facet and
-/// its middle.
-struct Projected {
-    triangles: [(Triangle, [usize; 3]); 4],
-    count: usize,
-    /// Heights of the corners and the middle above the plane, m.
-    heights: [f64; 5],
-    /// Number of its corners.
-    corners: usize,
-    /// What its triangles have together.
-    moments: Moments,
-}
-
-impl Projected {
-    /// `is_turned`: it is seen from behind.
-    fn new(frame: &Frame, origin: Vector, [first, second, normal]: [Vector; 3], is_turned: bool) -> Self {
-        let (mut places, mut heights) = ([[0.0; 2]; 5], [0.0; 5]);
-        for (k, x) in frame.corners.into_iter().chain([frame.middle]).enumerate() {
-            let off = minus(x, origin);
-            (places[k], heights[k]) = ([dot(off, first), dot(off, second)], dot(off, normal));
-        }
-        let corners = frame.count;
-        let mut projected = Self { triangles: Default::default(), count: 0, heights, corners, moments: Moments::default() };
-        let mut add = |[a, b, c]: [usize; 3]| {
-            let labels = if is_turned { [b, a, c] } else { [a, b, c] };
-            if let Some(triangle) = Triangle::new(labels.map(|k| places[k])) {
-                projected.moments.add(&triangle.moments());
-                projected.triangles[projected.count] = (triangle, labels);
-                projected.count += 1;
-            }
-        };
-        if corners == 3 {
-            add([0, 1, 2]);
-        } else {
-            (0..4).for_each(|k| add([k, (k + 1) % 4, MIDDLE]));
-        }
-        projected
-    }
-
-    fn triangles(&self) -> &[(Triangle, [usize; 3])] {
-        &self.triangles[..self.count]
-    }
-
-    /// Edges of the facet at which a part of one of its triangles ends, as bits.
-    fn edges(&self, polygon: &Polygon, triangle: &Triangle, labels: &[usize; 3]) -> u8 {
-        let mut edges = 0;
-        for k in 0..3 {
-            let [from, to] = [labels[(k + 1) % 3], labels[(k + 2) % 3]];
-            // Edges to the middle are within.
-            if from == MIDDLE || to == MIDDLE {
-                continue;
-            }
-            let [c0, c1, c2] = triangle.shares[k];
-            let is_there = |[x, y]: &[f64; 2]| (c0 + c1 * x + c2 * y).abs() < ON_EDGE;
-            if polygon.corners().iter().filter(|corner| is_there(corner)).count() > 1 {
-                edges |= 1 << if (from + 1) % self.corners == to { from } else { to };
-            }
-        }
-        edges
-    }
-
-    /// Shares of the corners, where those of the corners and the middle are given.
-    fn spread(&self, of: &[f64; 5]) -> [f64; 4] {
-        let more = if self.corners == 3 { 0.0 } else { 0.25 * of[MIDDLE] };
-        let mut shares = [0.0; 4];
-        (0..self.corners).for_each(|k| shares[k] = of[k] + more);
-        shares
-    }
-}
-
 /// What a spring of a pair stands for.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Part {
     /// Which: 0 the mean gap, then those at the corners of a facet.
     pub(super) slot: usize,
@@ -164,8 +97,44 @@ pub(super) struct Part {
 /// A piece of the common part, of one triangle of each facet.
 #[derive(Clone, Copy, Default)]
 struct Piece {
-    triangles: [u8; 2],
+    sectors: [u8; 2],
     moments: Moments,
+}
+
+/// All pieces of a common part.
+struct Pieces {
+    list: [Piece; PIECES],
+    count: usize,
+    /// What they have together.
+    whole: Moments,
+    /// Deepest gap, m.
+    lowest: f64,
+    /// Edges of both facets at which they end, as bits.
+    edges: [u8; 2],
+}
+
+impl Pieces {
+    /// Those of two facets, the smaller of which is of this size, m.
+    fn of(sides: &[Fan; 2], size: f64, level: Level) -> Self {
+        let mut all = Self { list: [Piece::default(); PIECES], count: 0, whole: Moments::default(), lowest: f64::INFINITY, edges: [0; 2] };
+        sides[0].meet(&sides[1], size, level, |[i, j], polygon| {
+            let moments = polygon.moments();
+            if !(moments.area() > 0.0) {
+                return;
+            }
+            let of = [&sides[0].sectors()[i], &sides[1].sectors()[j]];
+            let gap = [0, 1, 2].map(|k| of[0].height[k] - of[1].height[k]);
+            for [x, y] in polygon.corners() {
+                let here = gap[0] + gap[1] * x + gap[2] * y;
+                all.lowest = if here < all.lowest { here } else { all.lowest };
+            }
+            (0..2).for_each(|k| all.edges[k] |= sides[k].ends(polygon, of[k]));
+            all.whole.add(&moments);
+            all.list[all.count] = Piece { sectors: [i as u8, j as u8], moments };
+            all.count += 1;
+        });
+        all
+    }
 }
 
 /// The common part of two facets.
@@ -190,7 +159,7 @@ impl Common {
     /// `None` where facets don't face each other or have nothing in common; `is_mean`: the mean gap alone
     /// gets a spring. `lead` is 0 where the normal halves the angle between both facets, 1 where it is that
     /// of the second, −1 where that of the first.
-    pub(super) fn new(frames: [&Frame; 2], is_mean: bool, lead: f64) -> Option<Self> {
+    pub(super) fn new(frames: [&Frame; 2], is_mean: bool, lead: f64, level: Level) -> Option<Self> {
         let [a, b] = frames;
         let facing = -dot(a.normal, b.normal);
         let apart = minus(a.middle, b.middle);
@@ -203,30 +172,14 @@ impl Common {
         let origin = [0, 1, 2].map(|d| 0.5 * (a.middle[d] + b.middle[d]));
         let first = any_tangent(normal);
         let axes = [first, cross(normal, first), normal];
-        let sides = [Projected::new(a, origin, axes, true), Projected::new(b, origin, axes, false)];
-        let (mut pieces, mut count, mut edges) = ([Piece::default(); 16], 0, [0; 2]);
-        let (mut whole, mut lowest) = (Moments::default(), f64::INFINITY);
-        for (i, (one, from)) in (0..).zip(sides[0].triangles()) {
-            let above = height(&sides[0].heights, one, from);
-            for (j, (other, to)) in (0..).zip(sides[1].triangles()) {
-                let polygon = one.common(other);
-                let moments = polygon.moments();
-                if !(moments.area() > 0.0) {
-                    continue;
-                }
-                let below = height(&sides[1].heights, other, to);
-                let gap = [0, 1, 2].map(|k| above[k] - below[k]);
-                for [x, y] in polygon.corners() {
-                    lowest = lowest.min(gap[0] + gap[1] * x + gap[2] * y);
-                }
-                for (k, (triangle, labels)) in [(one, from), (other, to)].into_iter().enumerate() {
-                    edges[k] |= sides[k].edges(&polygon, triangle, labels);
-                }
-                whole.add(&moments);
-                pieces[count] = Piece { triangles: [i, j], moments };
-                count += 1;
-            }
+        let flats = [Flat::new(a, origin, axes, true), Flat::new(b, origin, axes, false)];
+        // A strip so narrow is a sliver of the smaller facet.
+        let width = SLIVER * a.area.min(b.area) / (2.0 * a.radius.min(b.radius));
+        if flats[0].is_apart(&flats[1], width) || flats[1].is_apart(&flats[0], width) {
+            return None;
         }
+        let sides = [Fan::new(&flats[0]), Fan::new(&flats[1])];
+        let Pieces { list: pieces, count, whole, lowest, edges } = Pieces::of(&sides, a.radius.min(b.radius), level);
         if !(whole.area() > SLIVER * a.area.min(b.area)) {
             return None;
         }
@@ -243,7 +196,9 @@ impl Common {
             count: 0,
         };
         let corners = if is_mean { 0.0 } else { at_corners(&whole, &sides, frames[owner].area) };
-        common.add_mean(&sides, &pieces[..count], weight * (1.0 - corners));
+        if corners < 1.0 {
+            common.add_mean(&sides, &pieces[..count], weight * (1.0 - corners));
+        }
         if corners > 0.0 {
             common.add_corners(&sides, &pieces[..count], weight * corners);
         }
@@ -255,8 +210,8 @@ impl Common {
     }
 
     /// Adds what has integrals of the shares of corners and middles; `weight` of the area.
-    fn add(&mut self, slot: usize, sides: &[Projected; 2], [area, weight]: [f64; 2], sums: [[f64; 5]; 2]) {
-        if !(weight * area > SLIVER * SLIVER * self.frames[0].area.min(self.frames[1].area)) {
+    fn add(&mut self, slot: usize, sides: &[Fan; 2], [area, weight]: [f64; 2], sums: [[f64; 5]; 2]) {
+        if !(weight * area > NOTHING * self.frames[0].area.min(self.frames[1].area)) {
             return;
         }
         let means = sums.map(|sums| sums.map(|sum| sum / area));
@@ -266,37 +221,42 @@ impl Common {
         self.count += 1;
     }
 
-    fn add_mean(&mut self, sides: &[Projected; 2], pieces: &[Piece], weight: f64) {
-        let (mut area, mut sums) = (0.0, [[0.0; 5]; 2]);
-        for Piece { triangles, moments } in pieces {
+    fn add_mean(&mut self, sides: &[Fan; 2], pieces: &[Piece], weight: f64) {
+        // Integrals of 1, x and y over each triangle's share of it.
+        let (mut area, mut of) = (0.0, [[[0.0; 3]; 4]; 2]);
+        for Piece { sectors, moments } in pieces {
             area += moments.area();
             for k in 0..2 {
-                let (triangle, labels) = &sides[k].triangles[triangles[k] as usize];
-                let [first, second] = [0, 1].map(|i| moments.of(triangle.shares[i]));
+                of[k][sectors[k] as usize].iter_mut().zip(moments.0).for_each(|(sum, more)| *sum += more);
+            }
+        }
+        let mut sums = [[0.0; 5]; 2];
+        for k in 0..2 {
+            for (sector, of) in sides[k].sectors().iter().zip(of[k]) {
+                let [first, second] = [0, 1].map(|i| integral(sector.shares[i], of));
                 // Of a needle too all three are the whole.
-                let all = [first, second, moments.area() - first - second];
-                (0..3).for_each(|i| sums[k][labels[i]] += all[i]);
+                let all = [first, second, of[0] - first - second];
+                (0..3).for_each(|i| sums[k][sector.labels[i]] += all[i]);
             }
         }
         self.add(0, sides, [area, weight], sums);
     }
 
     /// The same of the gap that is weighted by the shares of each corner of the owner.
-    fn add_corners(&mut self, sides: &[Projected; 2], pieces: &[Piece], weight: f64) {
+    fn add_corners(&mut self, sides: &[Fan; 2], pieces: &[Piece], weight: f64) {
         let owner = self.owner as usize;
         // By the owner's corners and middle: area, and the sums of both facets.
         let (mut areas, mut sums) = ([0.0; 5], [[[0.0; 5]; 2]; 5]);
-        for Piece { triangles, moments } in pieces {
-            let of = [0, 1].map(|k| &sides[k].triangles[triangles[k] as usize]);
-            let (own, own_labels) = of[owner];
+        for Piece { sectors, moments } in pieces {
+            let of = [0, 1].map(|k| &sides[k].sectors()[sectors[k] as usize]);
+            let own = of[owner];
             let [first, second] = [0, 1].map(|i| moments.weighted(own.shares[i]));
             let third = [0, 1, 2].map(|i| moments.0[i] - first[i] - second[i]);
-            for (by, &corner) in [first, second, third].into_iter().zip(own_labels) {
+            for (by, corner) in [first, second, third].into_iter().zip(own.labels) {
                 areas[corner] += by[0];
                 for k in 0..2 {
-                    let (triangle, labels) = of[k];
-                    let at = |share: Linear| share[0] * by[0] + share[1] * by[1] + share[2] * by[2];
-                    let [first, second] = [0, 1].map(|i| at(triangle.shares[i]));
+                    let Sector { shares, labels, .. } = of[k];
+                    let [first, second] = [0, 1].map(|i| integral(shares[i], by));
                     let all = [first, second, by[0] - first - second];
                     (0..3).for_each(|i| sums[corner][k][labels[i]] += all[i]);
                 }
@@ -379,6 +339,11 @@ impl Common {
     }
 }
 
+/// That of a linear function, from those of 1, x and y.
+fn integral([c0, c1, c2]: Linear, [one, x, y]: [f64; 3]) -> f64 {
+    c0 * one + c1 * x + c2 * y
+}
+
 /// From 0 to 1 without a kink at either end.
 fn smooth(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
@@ -390,15 +355,6 @@ fn between([low, high]: [f64; 2], x: f64) -> f64 {
     smooth((x - low) / (high - low))
 }
 
-/// Heights of a triangle's points as a linear function.
-fn height(heights: &[f64; 5], triangle: &Triangle, labels: &[usize; 3]) -> Linear {
-    let mut sum = [0.0; 3];
-    for (share, &label) in triangle.shares.iter().zip(labels) {
-        (0..3).for_each(|k| sum[k] += heights[label] * share[k]);
-    }
-    sum
-}
-
 /// The smaller facet, of equal ones that with the lower nodes: whichever is the first of the pair.
 fn owner([a, b]: [&Frame; 2]) -> usize {
     let least = a.area.min(b.area);
@@ -408,21 +364,22 @@ fn owner([a, b]: [&Frame; 2]) -> usize {
 /// How much of a common part has springs at corners: all of it where it covers the smaller facet (m²), or
 /// spans either facet in some direction, in which its mean gap would not see that facet's corners move
 /// against each other.
-fn at_corners(whole: &Moments, sides: &[Projected; 2], least: f64) -> f64 {
-    let covers = between(COVERS, whole.area() / least);
-    if covers == 1.0 {
-        return 1.0;
+fn at_corners(whole: &Moments, sides: &[Fan; 2], least: f64) -> f64 {
+    let covered = whole.area() / least;
+    let (covers, is_wide) = (between(COVERS, covered), between(NARROW, covered));
+    if covers == 1.0 || is_wide == 0.0 {
+        return covers;
     }
     let part = whole.covariance();
-    let span = |side: &Projected| {
-        let [xx, xy, yy] = side.moments.covariance();
+    let span = |side: &Fan| {
+        let [xx, xy, yy] = side.moments().covariance();
         // Largest eigenvalue of part/side.
         let (det, trace) = (xx * yy - xy * xy, yy * part[0] - 2.0 * xy * part[1] + xx * part[2]);
         let product = (part[0] * part[2] - part[1] * part[1]) * det;
         let root = (trace * trace - 4.0 * product).max(0.0).sqrt();
         if det > 0.0 { 0.5 * (trace + root) / det } else { 0.0 }
     };
-    covers.max(between(SPANS, span(&sides[0]).max(span(&sides[1]))))
+    covers.max(is_wide * between(SPANS, span(&sides[0]).max(span(&sides[1]))))
 }
 
 #[cfg(test)]

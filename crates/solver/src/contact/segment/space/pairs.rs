@@ -24,6 +24,8 @@ pub(super) struct Pairs {
     layers: Vec<Layer>,
     /// Pairs of this step, ascending.
     pub(super) list: Vec<[u32; 2]>,
+    /// What leads to them: the first facet above the second one, as often as a node touches.
+    found: Vec<u64>,
     /// Number of this step.
     step: u32,
     /// Energy at the rims of both bodies of a pair of bodies in the last step, J: (bodies ascending, [at the
@@ -54,7 +56,7 @@ impl Pairs {
                 local: surface.facets.iter().map(local).collect(),
             }
         });
-        Self { layers: layers.collect(), tracker, list: Vec::new(), step: 0, rims: Vec::new() }
+        Self { layers: layers.collect(), tracker, list: Vec::new(), found: Vec::new(), step: 0, rims: Vec::new() }
     }
 
     /// Surfaces of the facets of a pair.
@@ -66,7 +68,7 @@ impl Pairs {
     /// not touch.
     pub(super) fn find(&mut self, sweep: Sweep<'_, 3>, extra: f64) {
         self.step = self.step.wrapping_add(1).max(1);
-        self.list.clear();
+        self.found.clear();
         for layer in &mut self.layers {
             for node in layer.deep.drain(..) {
                 layer.depth[node as usize] = f64::NEG_INFINITY;
@@ -88,13 +90,16 @@ impl Pairs {
                     let meets = !is_one || !shares_a_node(target.facets[a as usize], target.facets[b as usize]);
                     if meets {
                         let forward = if is_one { a < b } else { slave == 0 };
-                        self.list.push(if forward { [a, b] } else { [b, a] });
+                        let [first, second] = if forward { [a, b] } else { [b, a] };
+                        self.found.push(u64::from(first) << 32 | u64::from(second));
                     }
                 }
             }
         }
-        self.list.sort_unstable();
-        self.list.dedup();
+        self.found.sort_unstable();
+        self.found.dedup();
+        self.list.clear();
+        self.list.extend(self.found.iter().map(|&pair| [(pair >> 32) as u32, pair as u32]));
     }
 
     /// Depth of the deepest node of a pair, m.
@@ -155,16 +160,16 @@ impl Pairs {
     }
 
     /// The facets of a pair in this step.
-    pub(super) fn frames(&mut self, pair: [u32; 2], positions: &[Vector]) -> [Frame; 2] {
+    pub(super) fn frames(&mut self, pair: [u32; 2], positions: &[Vector]) -> [&Frame; 2] {
         let (surfaces, step) = (self.surfaces(), self.step);
-        [0, 1].map(|k| {
+        for k in 0..2 {
             let (of, frame) = &mut self.layers[surfaces[k]].frames[pair[k] as usize];
             if *of != step {
                 *of = step;
                 *frame = Frame::new(self.tracker.surfaces()[surfaces[k]].facets[pair[k] as usize], positions);
             }
-            *frame
-        })
+        }
+        [0, 1].map(|k| &self.layers[surfaces[k]].frames[pair[k] as usize].1)
     }
 
     /// The same at any positions, m.

@@ -15,7 +15,7 @@ use super::search::Search;
 use super::slaves::{Face, PassInput, Slave};
 use super::springs::TangentSpace;
 use super::tracker::Tracker;
-use super::{Formulation, Tributary, node_segment, pinball, segment, tied};
+use super::{Formulation, Tributary, node_segment, pinball, segment};
 use crate::contact::messages::COMBINATION;
 use crate::error::Fault;
 use crate::mesh::cell::Cell;
@@ -40,6 +40,8 @@ pub struct FormulationKind {
     pub source: &'static str,
     /// Which nodes meet which surface.
     pub passes: fn(&model::Contact) -> Passes,
+    /// What it is in contacts with `tied`; `None`: it can't hold surfaces together.
+    pub tied: Option<&'static FormulationKind>,
     /// Makes one in 2D; `None`: there is none.
     pub in_2d: Option<Make<2>>,
     /// Makes one in 3D; `None`: there is none.
@@ -80,11 +82,9 @@ impl FormulationKind {
 /// The formulation of a contact.
 #[must_use]
 pub fn kind_of(contact: &model::Contact) -> Option<&'static FormulationKind> {
-    if contact.tied.is_some() {
-        return Some(&tied::KIND);
-    }
     let name = contact.formulation.name();
-    FORMULATIONS.iter().find(|kind| kind.name == name)
+    let kind = FORMULATIONS.iter().find(|kind| kind.name == name)?;
+    if contact.tied.is_some() { kind.tied } else { Some(kind) }
 }
 
 /// Passes of a contact: (slave, target).

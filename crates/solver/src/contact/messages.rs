@@ -98,7 +98,7 @@ pub(crate) static TIE: Message = Message {
     code: "E0408",
     title: "a tie that binds nothing",
     example: Example::Model("[[contact]]\nname = \"hit\"\nbetween = [\"block.left\", \"wall.right\"]\ntied = true\n"),
-    cause: "No node of one surface lies near the other one.",
+    cause: "Nothing of one surface lies near the other one.",
     remedy: "Let the surfaces touch, raise `thickness`, or leave `tied` out.",
 };
 

@@ -31,6 +31,7 @@ pub const DOUBLE_PASS: FormulationKind = FormulationKind {
     doc: "nodes against segments or facets; each surface is slave once and target once in every force evaluation",
     source: "Bittencourt and Creus (1995)",
     passes: both_passes,
+    tied: Some(&super::tied::NODES),
     in_2d: Some(|setup| Ok(Box::new(NodeSegment::of(setup)))),
     in_3d: Some(|setup| Ok(Box::new(NodeFacet::checked(setup)))),
 };
@@ -41,6 +42,7 @@ pub const SINGLE_PASS: FormulationKind = FormulationKind {
     doc: "nodes against segments or facets; only the nodes of the slave surface are checked against the other one",
     source: "Bittencourt and Creus (1995)",
     passes: one_pass,
+    tied: Some(&super::tied::NODES),
     in_2d: Some(|setup| Ok(Box::new(NodeSegment::of(setup)))),
     in_3d: Some(|setup| Ok(Box::new(NodeFacet::checked(setup)))),
 };

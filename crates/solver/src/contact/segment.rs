@@ -20,13 +20,15 @@
 mod common;
 mod space;
 mod start;
+mod tied;
 
 use super::checked::Look;
 use super::depths::Depths;
 use super::findings::Findings;
-use super::formulation::{FormulationKind, Setup, both_passes};
+use super::formulation::{FormulationKind, Setup, Side, both_passes};
 use super::law::{Law, penalty};
 use super::springs::{Answers, Patch, Spring, Springs};
+use super::tied::surfaces::Bound;
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
@@ -35,7 +37,8 @@ use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
 use crate::rows::Rows;
 use common::Common;
-use start::{ByNodes, Start, Unseen};
+pub(in crate::contact) use start::ByNodes;
+use start::{Start, Unseen};
 use std::any::Any;
 
 /// Registry entry.
@@ -44,6 +47,7 @@ pub const KIND: FormulationKind = FormulationKind {
     doc: "segments (in 3D facets) against each other, integrated over their common part: passes the contact patch test on any meshes",
     source: "Papadopoulos and Taylor (1992); common plane as in Puso and Laursen (2004)",
     passes: both_passes,
+    tied: Some(&tied::SURFACES),
     in_2d: Some(|setup| Ok(Box::new(Segment::of(setup)))),
     in_3d: Some(|setup| Ok(Box::new(space::Segment::of(setup)))),
 };
@@ -159,7 +163,10 @@ impl Segment {
         let rule = if matches!(setup.contact.interface.law, ContactLaw::Multiplier) { ONE } else { TWO };
         let law = (setup.law)();
         let (penalty, depth, start) = (setup.penalty(), setup.depth, Start::of(&setup, law.reach()));
-        let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.surface.target.surface, side.stiffness.clone())).collect();
+        // Ties hold all elements: the pressure of unlike ones is even where their springs are alike.
+        let is_tied = setup.contact.tied.is_some();
+        let stiffness = |side: &Side<'_, 2>| if is_tied { side.softest.clone() } else { side.stiffness.clone() };
+        let chains: Vec<Chain> = setup.sides.iter().map(|side| Chain::new(&side.surface.target.surface, stiffness(side))).collect();
         let count = chains.iter().map(|chain| chain.depth.len()).sum();
         let tracker = setup.tracker().with_ends(setup.positions);
         Self {
@@ -194,8 +201,8 @@ impl Segment {
         [0, 1].map(|k| self.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize])
     }
 
-    /// The pairs that touching nodes lead to.
-    fn pair_up(&mut self, scene: &Scene<'_, 2>) {
+    /// The pairs that touching nodes lead to, without those that are bound.
+    fn pair_up(&mut self, bound: &Bound, scene: &Scene<'_, 2>) {
         self.pairs.clear();
         for chain in &mut self.chains {
             for node in chain.deep.drain(..) {
@@ -224,6 +231,7 @@ impl Segment {
         self.depths.end();
         self.pairs.sort_unstable();
         self.pairs.dedup();
+        self.pairs.retain(|&pair| bound.frees(pair));
     }
 
     /// What two segments have in common; `None` where they don't face each other. Those that had springs in
@@ -292,6 +300,13 @@ impl Segment {
     fn root(&mut self, pair: [u32; 2]) -> u32 {
         let at = self.place(pair, 0, 0);
         root(&mut self.tree, at)
+    }
+
+    /// Pressure per depth of a pair, Pa/m.
+    fn pressure(&self, pair: [u32; 2]) -> f64 {
+        let surfaces = self.surfaces();
+        let [own, other] = [0, 1].map(|k| self.chains[surfaces[k]].stiffness[pair[k] as usize]);
+        penalty::pressure(self.penalty, own, other)
     }
 
     /// Adds the springs of a pair.
@@ -395,17 +410,16 @@ fn root(tree: &mut [u32], mut at: u32) -> u32 {
     at
 }
 
-impl Formulation<2> for Segment {
-    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
-        self.pair_up(scene);
-        let surfaces = self.surfaces();
+impl Segment {
+    /// [`Formulation::detect`] for what is not bound.
+    fn detect_free(&mut self, bound: &Bound, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
+        self.pair_up(bound, scene);
         self.commons.clear();
         for index in 0..self.pairs.len() {
             let pair = self.pairs[index];
             if let Some(common) = self.common(pair, scene.sweep.new) {
-                let [own, other] = [0, 1].map(|k| self.chains[surfaces[k]].stiffness[pair[k] as usize]);
-                let pressure = penalty::pressure(self.penalty, own, other);
-                self.commons.push(Meeting { pair, pressure, distance: self.start.distance([&common.nodes[0], &common.nodes[1]]), common });
+                let (pressure, distance) = (self.pressure(pair), self.start.distance([&common.nodes[0], &common.nodes[1]]));
+                self.commons.push(Meeting { pair, common, pressure, distance });
             }
         }
         self.join();
@@ -416,6 +430,12 @@ impl Formulation<2> for Segment {
         }
         self.lost_contact_energy = self.missing(scene.sweep.new);
         self.start.has_begun = true;
+    }
+}
+
+impl Formulation<2> for Segment {
+    fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
+        self.detect_free(&Bound::default(), scene, springs);
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {

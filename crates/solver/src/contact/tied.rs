@@ -1,16 +1,18 @@
 //! Tied contact: what touches at the start stays together, as if glued, until the traction exceeds a
 //! strength.
 //!
-//! Each slave node near the target is bound to the segment below it, in 3D to a triangle of the facet below
-//! it: its place along it and its distance from it at the start are kept by springs (law
-//! [`super::law::tie::Tie`], or multipliers), whose rows are those of ordinary contact at the node's present
-//! foot: objective, and exact in both momenta. One surface is slave (the first one, unless the formulation is
-//! `single_pass` with another): binding the nodes of both would hold more than there is to hold.
+//! What is bound is for the formulation to say (trait `Bindable`): each slave node near the target to the
+//! segment below it, in 3D to a triangle of the facet below it (`nodes.rs`), or both surfaces over what their
+//! segments or facets have in common (`surfaces.rs`). Place along each other and distance at the start are
+//! kept by springs (law [`super::law::tie::Tie`], or multipliers) whose rows are objective, and exact in both
+//! momenta.
 //!
 //! Where √(⟨−F⟩² + T²) / area exceeds the strength the tie is gone for good; pressing does not break it. What
-//! was stored in pulling and in slip is lost, and reported to the ledger. Nodes that are free, and those
-//! whose ties are gone, are in ordinary contact with the same surface. What differs between 2D and 3D is
-//! the trait `Bindable`.
+//! was stored in pulling and in slip is lost, and reported to the ledger. What is free, and what is so
+//! because its ties are gone, is in ordinary contact with the same surface.
+
+pub(super) mod nodes;
+pub(super) mod surfaces;
 
 use super::checked::Checked;
 use super::formulation::{FormulationKind, Setup, Surfaces, one_pass};
@@ -18,107 +20,126 @@ use super::node_facet::NodeFacet;
 use super::node_segment::NodeSegment;
 use super::search::Search;
 use super::slaves::PassInput;
-use super::springs::{Answers, Spring, Springs};
+use super::springs::{Answer, Answers, Spring, Springs};
 use super::{Formulation, Scene};
-use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
+use crate::archive::{Archive, ArchiveResult, Persist, Plain, persist_each};
 use crate::contact::messages::TIE;
 use crate::error::Fault;
-use crate::mesh::surface::{Facet, Sided};
 use crate::tensor::Dim;
 use std::any::Any;
 
-/// What makes contacts with `tied`; it stands in for the formulation.
-pub const KIND: FormulationKind = FormulationKind {
+/// What nodes have that are tied.
+pub const NODES: FormulationKind = FormulationKind {
     name: "tied",
-    doc: "nodes bound to segments until the traction exceeds a strength, then ordinary contact",
+    doc: "nodes bound to segments or facets until the traction exceeds a strength, then ordinary contact",
     source: "two-way springs or multipliers on gap and slip",
     passes: one_pass,
+    tied: None,
     in_2d: Some(|setup| {
-        let (pending, at_start) = (PendingTies::of(&setup), setup.binds_at_start().then_some(setup.positions));
+        let (pending, at_start) = PendingTies::of(&setup);
         Ok(Box::new(Tied::new(pending, NodeSegment::of(setup), at_start)?))
     }),
     in_3d: Some(|setup| {
-        let (pending, at_start) = (PendingTies::of(&setup), setup.binds_at_start().then_some(setup.positions));
+        let (pending, at_start) = PendingTies::of(&setup);
         let (loose, overlap_check) = NodeFacet::of(setup);
         // What weighs forces has to see those of the ties.
         Ok(Box::new(Checked::new(Box::new(Tied::new(pending, loose, at_start)?), overlap_check)))
     }),
 };
 
-/// Nodes within this fraction of a segment's length, or of a facet's width, are bound (beyond the thickness).
+/// What is nearer than this fraction of a segment's length, or of a facet's width, is bound (beyond the
+/// thickness).
 pub(super) const NEAR: f64 = 0.05;
 
-/// Ordinary contact in one pass, and what nodes can be bound to beside it.
+/// Ordinary contact, and what can be bound beside it.
 pub(super) trait Bindable<const D: usize>: Formulation<D> + Sized
 where
     Dim<D>: Surfaces<D>,
 {
-    /// Where a node is bound to a facet.
-    type Place: Copy + Default + Persist + Send + Sync + 'static;
-    /// What [`NEAR`] is a fraction of.
-    const WIDTH: &'static str;
+    /// What a spring of a tie holds.
+    type Hold: Hold;
+    /// What is bound, as ordinary contact asks for it.
+    type Bound: Send + Sync + 'static;
+    /// What is bound, and what [`NEAR`] is a fraction of.
+    const WORDS: [&'static str; 2];
 
-    /// The slave nodes.
-    fn slaves(&self) -> &[u32];
+    /// Ties of what is near.
+    fn bind(&self, pending: PendingTies<D>, positions: &[[f64; D]]) -> Vec<Tie<Self::Hold>>;
 
-    /// The surface that they are bound to.
-    fn target(&self) -> &<Dim<D> as Surfaces<D>>::Target;
+    /// What these ties bind.
+    fn bound(&self, ties: &[Tie<Self::Hold>]) -> Self::Bound;
 
-    /// Those of the slaves that are near a facet, ascending, with their places on the nearest one.
-    fn near(&self, search: &mut dyn Search<D>, thickness: f64, positions: &[[f64; D]]) -> Vec<Bond<Self::Place>>;
+    /// Whether that can be held, of a model with so many nodes.
+    fn is_there(&self, hold: &Self::Hold, nodes: usize) -> bool;
 
-    /// Whether a facet has such a place.
-    fn is_place(_: Facet<D>, _: &Self::Place) -> bool {
-        true
+    /// Where that is found again of what `old` held, whose surfaces were those before they changed.
+    fn again<'a>(&'a self, old: &'a Self) -> impl Fn(&Self::Hold) -> Option<Self::Hold> + 'a;
+
+    /// Adds the springs of the ties of a unit, one each; `side` is that of [`Spring`].
+    fn hold(&self, ties: &[Tie<Self::Hold>], side: f32, positions: &[[f64; D]], springs: &mut Springs<D>);
+
+    /// [`Formulation::detect`] for what is not bound.
+    fn detect_free(&mut self, bound: &Self::Bound, scene: &Scene<'_, D>, springs: &mut Springs<D>);
+
+    /// [`Formulation::remember`], where `all` has the ties too.
+    fn remember_free(&mut self, _all: &Answers<'_, D>, own: Answers<'_, D>) {
+        self.remember(own);
     }
 
-    /// Adds the spring of a tie, of which `spring` has stiffness, area and side.
-    fn hold(&self, tie: &Tie<Self::Place>, spring: Spring<D>, positions: &[[f64; D]], springs: &mut Springs<D>);
-
-    /// [`Formulation::detect`] for those slaves of the first pass that are not bound (`bound` by index;
-    /// empty: all).
-    fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, D>, springs: &mut Springs<D>);
+    /// Begins where a unit broke whose springs had the energy `pressing` (J, in 2D J/m) of those that press;
+    /// returns what is lost of it.
+    fn take_over(&mut self, _ties: &[Tie<Self::Hold>], _pressing: f64) -> f64 {
+        0.0
+    }
 }
 
-/// A slave near a facet.
-pub(super) struct Bond<P> {
-    /// Index in the slave surface.
-    pub(super) slave: u32,
-    pub(super) facet: u32,
-    pub(super) place: P,
-    /// Distance, m.
-    pub(super) gap: f64,
+/// What a spring of a tie holds.
+pub(super) trait Hold: Plain {
+    /// What it belongs to: springs of one unit stand one after the other, and break together.
+    fn unit(&self) -> [u32; 2];
+
+    /// The node that no other tie may hold, if there is one.
+    fn node(&self) -> Option<u32>;
 }
 
-/// A bound node.
+/// A spring of a tie.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Tie<P> {
-    pub(super) node: u32,
-    /// Index in the slave surface.
-    slave: u32,
-    /// Index in the target.
-    pub(super) facet: u32,
-    /// Where on it at the start.
-    pub(super) place: P,
+pub(super) struct Tie<H> {
+    pub(super) hold: H,
     /// Distance at the start, m.
     pub(super) gap: f64,
-    stiffness: f64,
-    area: f64,
+    pub(super) stiffness: f64,
+    pub(super) area: f64,
 }
 
-impl<P: Persist> Persist for Tie<P> {
+impl<H> Tie<H> {
+    /// The spring without its place; `side` is that of [`Spring`].
+    pub(super) fn spring<const D: usize>(&self, side: f32) -> Spring<D>
+    where
+        Dim<D>: Surfaces<D>,
+    {
+        Spring { stiffness: self.stiffness, area: self.area, side, ..Spring::default() }
+    }
+}
+
+impl<H: Persist> Persist for Tie<H> {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { node, slave, facet, place, gap, stiffness, area } = self;
-        persist_each!(archive; node, slave, facet, place, gap, stiffness, area);
+        let Self { hold, gap, stiffness, area } = self;
+        persist_each!(archive; hold, gap, stiffness, area);
         Ok(())
     }
 }
 
+/// The ties of each unit.
+fn units<H: Hold>(ties: &[Tie<H>]) -> impl Iterator<Item = &[Tie<H>]> {
+    ties.chunk_by(|a, b| a.hold.unit() == b.hold.unit())
+}
+
 /// What binds.
 pub(super) struct PendingTies<const D: usize> {
-    search: Box<dyn Search<D>>,
+    pub(super) search: Box<dyn Search<D>>,
     input: PassInput,
-    thickness: f64,
+    pub(super) thickness: f64,
     /// Traction that breaks a tie, Pa.
     strength: f64,
     /// Which terms ties follow.
@@ -131,18 +152,20 @@ impl<const D: usize> PendingTies<D>
 where
     Dim<D>: Surfaces<D>,
 {
-    fn of(setup: &Setup<'_, D>) -> Self {
+    /// And the positions (m) at which they bind before the first step, if they do.
+    pub(super) fn of<'a>(setup: &Setup<'a, D>) -> (Self, Option<&'a [[f64; D]]>) {
         let (slave, target) = setup.passes[0];
         // The element that a node is bound to counts, not the softest of its part.
         let moduli = setup.sides[target].stiffness.clone();
-        Self {
+        let pending = Self {
             search: (setup.search)(),
             input: PassInput { moduli, ..setup.input((slave, target), 1) },
             thickness: setup.contact.interface.thickness,
             strength: setup.contact.tied.unwrap_or(f64::INFINITY),
             terms: setup.tie_terms,
             slave,
-        }
+        };
+        (pending, setup.binds_at_start().then_some(setup.positions))
     }
 }
 
@@ -162,7 +185,7 @@ where
     L: Bindable<D>,
     Dim<D>: Surfaces<D>,
 {
-    ties: Vec<Tie<L::Place>>,
+    ties: Vec<Tie<L::Hold>>,
     /// What binds at birth; `None` when it has.
     unborn: Option<PendingTies<D>>,
     /// Traction that breaks a tie, Pa.
@@ -170,9 +193,10 @@ where
     /// Which terms ties follow.
     terms: usize,
     side: f32,
-    /// Ordinary contact, and which of its slave nodes are bound.
+    /// Ordinary contact, and what of it is bound.
     loose: L,
-    bound: Vec<bool>,
+    bound: L::Bound,
+    /// Units that are gone.
     broken: usize,
     /// Energy of the ties that broke in this step, J (in 2D J/m).
     freed: f64,
@@ -183,16 +207,17 @@ where
     L: Bindable<D>,
     Dim<D>: Surfaces<D>,
 {
-    /// Ties beside the only pass of `loose`; with the positions at the start they bind at once.
-    fn new(pending: PendingTies<D>, loose: L, at_start: Option<&[[f64; D]]>) -> Result<Self, Fault> {
+    /// Ties beside `loose`; with the positions at the start they bind at once.
+    pub(super) fn new(pending: PendingTies<D>, loose: L, at_start: Option<&[[f64; D]]>) -> Result<Self, Fault> {
         let (strength, terms, slave) = (pending.strength, pending.terms, pending.slave);
-        let (bound, side) = (vec![false; loose.slaves().len()], [1.0, -1.0][slave]);
+        let (bound, side) = (loose.bound(&[]), [1.0, -1.0][slave]);
         let mut tied = Self { ties: Vec::new(), unborn: Some(pending), strength, terms, side, loose, bound, broken: 0, freed: 0.0 };
         if let Some(positions) = at_start {
             tied.bind(positions);
             if tied.ties.is_empty() {
                 let (first, second) = [("first", "second"), ("second", "first")][slave];
-                let message = format!("it binds nothing: no node of the {first} surface is within 5 % of {} of the {second}", L::WIDTH);
+                let [what, width] = L::WORDS;
+                let message = format!("it binds nothing: no {what} of the {first} surface is within 5 % of {width} of the {second}");
                 return Err(Fault::new(&TIE, "tied", message, "let the surfaces touch, raise `thickness`, or leave `tied` out"));
             }
         }
@@ -201,12 +226,41 @@ where
 
     /// Binds what is near, if that was not done before.
     fn bind(&mut self, positions: &[[f64; D]]) {
-        let Some(PendingTies { mut search, input, thickness, .. }) = self.unborn.take() else { return };
-        for Bond { slave, facet, place, gap } in self.loose.near(&mut *search, thickness, positions) {
-            let (node, of) = (self.loose.slaves()[slave as usize], slave as usize);
-            let (stiffness, area) = (input.stiffness_at(of, facet), input.slaves[of].area);
-            self.bound[of] = true;
-            self.ties.push(Tie { node, slave, facet, place, gap, stiffness, area });
+        if let Some(pending) = self.unborn.take() {
+            self.ties = self.loose.bind(pending, positions);
+            self.bound = self.loose.bound(&self.ties);
+        }
+    }
+
+    /// Lets go of the units of which a spring has a traction above the strength.
+    fn break_units(&mut self, answers: &Answers<'_, D>) {
+        let (mut kept, mut at) = (0, 0);
+        while at < self.ties.len() {
+            let (from, to) = (at, at + units(&self.ties[at..]).next().map_or(1, <[_]>::len));
+            at = to;
+            let holds = |(tie, answer): (&Tie<L::Hold>, Answer<'_, D>)| {
+                let (pull, shear) = ((-answer.solved.force).max(0.0), answer.solved.friction);
+                let square = (0..D - 1).fold(pull * pull, |sum, d| sum + shear[d] * shear[d]);
+                square.sqrt() <= self.strength * tie.area
+            };
+            if self.ties[from..to].iter().zip(answers.part(from, to)).all(holds) {
+                self.ties.copy_within(from..to, kept);
+                kept += to - from;
+                continue;
+            }
+            self.broken += 1;
+            let mut pressing = 0.0;
+            for answer in answers.part(from, to) {
+                let [gap, slip] = answer.books().stored;
+                let (pulls, presses) = if answer.solved.force < 0.0 { (gap, 0.0) } else { (0.0, gap) };
+                self.freed += slip + pulls;
+                pressing += presses;
+            }
+            self.freed += self.loose.take_over(&self.ties[from..to], pressing);
+        }
+        if kept < self.ties.len() {
+            self.ties.truncate(kept);
+            self.bound = self.loose.bound(&self.ties);
         }
     }
 }
@@ -219,79 +273,48 @@ where
     fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>) {
         let positions = scene.sweep.new;
         self.bind(positions);
-        for tie in &self.ties {
-            let spring = Spring { stiffness: tie.stiffness, area: tie.area, side: self.side, ..Spring::default() };
-            self.loose.hold(tie, spring, positions, springs);
-        }
+        units(&self.ties).for_each(|unit| self.loose.hold(unit, self.side, positions, springs));
         springs.close_group(self.terms);
         self.loose.detect_free(&self.bound, scene, springs);
     }
 
     fn remember(&mut self, solved: Answers<'_, D>) {
-        let (mut ties, loose) = (solved.clone().part(0, self.ties.len()), solved.part(self.ties.len(), usize::MAX));
-        self.loose.remember(loose);
+        let ties = solved.part(0, self.ties.len());
+        self.loose.remember_free(&solved, solved.part(self.ties.len(), usize::MAX));
         self.freed = 0.0;
-        if self.strength == f64::INFINITY {
-            return;
+        if self.strength < f64::INFINITY {
+            self.break_units(&ties);
         }
-        let (strength, bound) = (self.strength, &mut self.bound);
-        let (broken, freed) = (&mut self.broken, &mut self.freed);
-        self.ties.retain(|tie| {
-            let Some(answer) = ties.next() else { return true };
-            let (pull, shear) = ((-answer.solved.force).max(0.0), answer.solved.friction);
-            let square = (0..D - 1).fold(pull * pull, |sum, d| sum + shear[d] * shear[d]);
-            let holds = square.sqrt() <= strength * tie.area;
-            if !holds {
-                bound[tie.slave as usize] = false;
-                *broken += 1;
-                let stored = answer.books().stored;
-                *freed += stored[1] + if answer.solved.force < 0.0 { stored[0] } else { 0.0 };
-            }
-            holds
-        });
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { ties, unborn, strength: _, terms: _, side: _, loose, bound, broken, freed } = self;
         let mut is_unborn = unborn.is_some();
-        persist_each!(archive; &mut is_unborn, ties, &mut bound[..], broken, freed);
+        persist_each!(archive; &mut is_unborn, ties, broken, freed);
         archive.check(unborn.is_some() || !is_unborn, "ties of this contact are there from the start")?;
         if !is_unborn {
             *unborn = None;
         }
-        let is_tie = |tie: &Tie<L::Place>| {
-            let facet = loose.target().facets().get(tie.facet as usize);
-            (tie.node as usize) < archive.nodes
-                && (tie.slave as usize) < bound.len()
-                && facet.is_some_and(|&facet| L::is_place(facet, &tie.place))
-        };
-        archive.check(ties.iter().all(is_tie), "a tie binds what is not there")?;
+        archive.check(ties.iter().all(|tie| loose.is_there(&tie.hold, archive.nodes)), "a tie binds what is not there")?;
+        *bound = loose.bound(ties);
         loose.persist(archive)
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
         let Ok(old) = old.downcast::<Self>() else { return };
         let Self { ties, unborn, loose, broken, .. } = *old;
-        let before = loose.target().facets();
-        let ties: Vec<_> = ties.into_iter().map(|tie| (before[tie.facet as usize], tie)).collect();
-        self.loose.inherit(Box::new(loose));
         self.broken = broken;
-        if unborn.is_some() || self.unborn.take().is_none() {
-            return;
-        }
-        let mut by_nodes: Vec<(Facet<D>, u32)> = self.loose.target().facets().iter().copied().zip(0..).collect();
-        by_nodes.sort_unstable();
-        for (facet, tie) in ties {
-            let at = by_nodes.binary_search_by_key(&facet, |&(nodes, _)| nodes).ok().map(|at| by_nodes[at].1);
-            // Ties go with the elements on either side.
-            match (at, self.loose.slaves().binary_search(&tie.node)) {
-                (Some(facet), Ok(slave)) => {
-                    self.bound[slave] = true;
-                    self.ties.push(Tie { slave: slave as u32, facet, ..tie });
-                }
-                _ => self.broken += 1,
+        if unborn.is_none() && self.unborn.take().is_some() {
+            let again = self.loose.again(&loose);
+            for unit in units(&ties) {
+                let count = self.ties.len();
+                self.ties.extend(unit.iter().filter_map(|tie| Some(Tie { hold: again(&tie.hold)?, ..*tie })));
+                // Ties go with the elements on either side.
+                self.broken += usize::from(self.ties.len() == count);
             }
+            self.bound = self.loose.bound(&self.ties);
         }
+        self.loose.inherit(Box::new(loose));
     }
 
     fn within(&self) -> Option<&dyn Formulation<D>> {
@@ -303,15 +326,18 @@ where
     }
 
     fn ties(&self) -> Option<Ties> {
-        Some(Ties { nodes: self.ties.iter().map(|tie| tie.node).collect(), broken: self.broken })
+        let nodes = self.ties.iter().filter_map(|tie| tie.hold.node()).collect();
+        Some(Ties { nodes, held: units(&self.ties).count(), broken: self.broken })
     }
 }
 
 /// What a tied contact holds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ties {
-    /// Nodes that are bound, ascending.
+    /// Nodes that no other tie may hold, ascending.
     pub nodes: Vec<u32>,
+    /// How many ties there are: nodes, or pairs of segments or facets.
+    pub held: usize,
     /// How many were and are no more.
     pub broken: usize,
 }

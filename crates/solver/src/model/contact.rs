@@ -350,7 +350,8 @@ section! {
             pass also edges edges; segments are facets, and the elements have balls.";
     "slave" = Reference, Optional("needed for, and only for, `single_pass`"),
         "The surface of `between` whose nodes are checked.";
-    "tied" = Flag, Default("false"), "Whether what touches at the start stays together.";
+    "tied" = Flag, Default("false"), "Whether what touches at the start stays together: nodes of one surface on segments or facets of the other, with \
+            `segment` both surfaces over what they have in common.";
     "tie_strength" = Quantity(Dimension::PRESSURE, Positive), Optional("it never breaks"),
         "Traction above which a tie breaks.";
     search: String = Choice(Choices::Searches), Optional("`grid`"), "How near pairs are found; changes no result.";

@@ -23,11 +23,11 @@ where
         let mut report = |kind, text: String| warnings.push(Notice::new(kind, text));
         for contact in &self.system.contacts {
             let Some(ties) = contact.ties() else { continue };
-            let all = ties.nodes.len() + ties.broken;
+            let all = ties.held + ties.broken;
             if ties.broken > 0 {
                 report(&TIES_BROKE, format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
             } else if all == 0 {
-                report(&TIES_BROKE, format!("contact \"{}\": its ties bound no node", contact.name));
+                report(&TIES_BROKE, format!("contact \"{}\": its ties bound nothing", contact.name));
             }
         }
         if let Some(Erosion { elements, first: Eroded { part, element, at, time, criterion }, .. }) = self.erosion() {

@@ -249,7 +249,7 @@ fn a_soft_layer_takes_the_energy_that_its_table_says() {
 }
 
 /// Two tied bars that fly apart at 2 v: the tie is pulled with ρ c v.
-fn tied_bars(strength: f64, law: ContactLaw, turned: bool) -> Model {
+fn tied_bars(formulation: Formulation, strength: f64, law: ContactLaw, turned: bool) -> Model {
     let (sin, cos) = if turned { (0.5, 0.75_f64.sqrt()) } else { (0.0, 1.0) };
     let turn = move |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
     let mut model = slender(1.5e-4, 1e9, 1000.0);
@@ -259,6 +259,7 @@ fn tied_bars(strength: f64, law: ContactLaw, turned: bool) -> Model {
     add_mesh(&mut model, "right", bar([20, 4], 1e-4), turn([10.0, 0.0]));
     model.contacts.push(Contact {
         tied: Some(strength),
+        formulation,
         interface: Interface { law, ..Interface::default() },
         ..Contact::between("glue", "right", "left")
     });
@@ -269,10 +270,16 @@ fn tied_bars(strength: f64, law: ContactLaw, turned: bool) -> Model {
 fn ties_hold_up_to_their_strength_and_break_beyond_it() {
     let traction = 1000.0 * 1000.0 * 10.0;
     // A tie of the elements' stiffness would be late by ρ c / 2 κ.
-    for law in [ContactLaw::Penalty(Penalty::automatic(10.0)), ContactLaw::Multiplier] {
+    let stiff = ContactLaw::Penalty(Penalty::automatic(10.0));
+    // Nodes of the first surface, or what 4 and 3 segments have in common.
+    for (formulation, law, count) in [
+        (Formulation::DoublePass, stiff.clone(), 5),
+        (Formulation::DoublePass, ContactLaw::Multiplier, 5),
+        (Formulation::Segment, stiff, 6),
+    ] {
         for turned in [false, true] {
             let held = |strength: f64| {
-                let (simulation, history) = run(&tied_bars(strength, law.clone(), turned));
+                let (simulation, history) = run(&tied_bars(formulation, strength, law.clone(), turned));
                 let summary = simulation.summary();
                 assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12, "{summary:?}");
                 assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 0.01, "{summary:?}");
@@ -284,21 +291,31 @@ fn ties_hold_up_to_their_strength_and_break_beyond_it() {
             assert!((speed - 5.0).abs() < 0.4 && warnings.is_empty(), "{speed} {warnings:?}");
             let (speed, warnings) = held(0.5 * traction);
             assert!(speed > 9.0, "{speed}");
-            assert!(warnings.iter().any(|warning| warning.text.contains("\"glue\": 5 of 5 ties broke")), "{warnings:?}");
+            let broke = format!("\"glue\": {count} of {count} ties broke");
+            assert!(warnings.iter().any(|warning| warning.text.contains(&broke)), "{warnings:?}");
         }
     }
 }
 
 #[test]
 fn a_broken_tie_is_ordinary_contact() {
+    is_torn_and_hit(Formulation::DoublePass, 5);
+    is_torn_and_hit(Formulation::Segment, 6);
+}
+
+fn is_torn_and_hit(formulation: Formulation, count: usize) {
     // Torn apart, then thrown together again by another body: they must not go through each other.
-    let mut model = tied_bars(1e5, ContactLaw::default(), false);
+    let mut model = tied_bars(formulation, 1e5, ContactLaw::default(), false);
     model.run.end = 6e-4;
     add(&mut model, "hammer", rectangle([0.104, 0.0], [0.1, 0.04], [20, 3]), [-60.0, 0.0]);
     touch(&mut model, "right", "hammer");
     let (simulation, history) = run(&model);
     let summary = simulation.summary();
-    assert!(summary.warnings.iter().any(|warning| warning.text.contains("5 of 5 ties broke")), "{:?}", summary.warnings);
+    assert!(
+        summary.warnings.iter().any(|warning| warning.text.contains(&format!("{count} of {count} ties broke"))),
+        "{:?}",
+        summary.warnings
+    );
     assert!(history.last("left.vx") < -20.0, "{}", history.last("left.vx"));
     assert!(summary.penetration_max < 1e-3 && summary.energy_drift < 0.01, "{summary:?}");
 }
@@ -309,13 +326,13 @@ fn ties_that_bind_nothing_or_a_node_twice_are_reported() {
         Err(Error::Model(faults)) => faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
         other => panic!("{:?}", other.err()),
     };
-    let mut apart = tied_bars(f64::INFINITY, ContactLaw::default(), false);
+    let mut apart = tied_bars(Formulation::DoublePass, f64::INFINITY, ContactLaw::default(), false);
     apart.contacts[0].interface.active = [0.0, 1.0];
     add(&mut apart, "far", rectangle([0.5, 0.0], [0.1, 0.04], [4, 4]), [0.0; 2]);
     apart.contacts.push(Contact { tied: Some(1.0), ..Contact::between("loose", "far", "left") });
     let reported = faults(&apart);
     assert!(reported.contains("contact[1].tied") && reported.contains("binds nothing"), "{reported}");
-    let mut twice = tied_bars(f64::INFINITY, ContactLaw::default(), false);
+    let mut twice = tied_bars(Formulation::DoublePass, f64::INFINITY, ContactLaw::default(), false);
     add(&mut twice, "third", rectangle([-0.1, 0.0401], [0.3, 0.02], [12, 2]), [0.0; 2]);
     twice.contacts.push(Contact { tied: Some(1.0), ..Contact::between("second", "right", "third") });
     let reported = faults(&twice);

@@ -69,6 +69,7 @@ mod steering;
 mod stress_states;
 mod symmetry_planes;
 mod swept;
+mod surface_ties;
 mod ties_in_3d;
 mod reported_obstacles;
 mod triangles;

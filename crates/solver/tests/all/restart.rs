@@ -354,7 +354,7 @@ fn runs_in_which_elements_are_eroded_continue() {
 
 #[test]
 fn runs_of_ties_that_break_and_contacts_that_begin_later_continue() {
-    for formulation in [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }] {
+    for formulation in [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }, Formulation::Segment] {
         for (active, strength) in [([0.0, f64::INFINITY], f64::INFINITY), ([0.0, 4e-4], 2e6), ([1e-4, 5e-4], 2e6)] {
             let mut model = model(1e-3);
             add(&mut model, "left", rectangle([0.0, 0.0], [0.1, 0.1], [6, 6]), [-3.0, 0.0]);

@@ -219,9 +219,11 @@ fn a_rigid_body_on_the_axis_moves_along_it() {
 
 #[test]
 fn a_tie_breaks_at_its_strength_all_around() {
-    for (strength, breaks) in [(0.4, true), (2.5, false)] {
+    let nodes = [(Formulation::DoublePass, 0.4, true), (Formulation::DoublePass, 2.5, false)];
+    for (formulation, strength, breaks) in nodes.into_iter().chain([(Formulation::Segment, 0.4, true), (Formulation::Segment, 2.5, false)])
+    {
         // Pulled apart with ½ ρ c v.
-        let mut model = rods(Formulation::DoublePass, Interface::default(), [3, 3], 1.5e-4);
+        let mut model = rods(formulation, Interface::default(), [3, 4], 1.5e-4);
         model.parts.iter_mut().for_each(|part| part.velocity[1] = -part.velocity[1]);
         model.contacts[0].tied = Some(strength * DENSITY * (YOUNG / DENSITY).sqrt());
         let simulation = {
@@ -230,7 +232,7 @@ fn a_tie_breaks_at_its_strength_all_around() {
             simulation
         };
         let apart = simulation.frame().positions::<2>().iter().filter(|x| x[1].abs() > 1e-5 && x[1].abs() < 0.5e-3).count();
-        assert_eq!(apart > 0, breaks, "{strength}");
+        assert_eq!(apart > 0, breaks, "{formulation:?} {strength}");
     }
 }
 

@@ -303,7 +303,7 @@ fn keys_of_contacts_that_contradict_each_other_are_refused() {
         (with("birth = \"2 ms\"\ndeath = \"1 ms\""), "contact[0].death", "it ends at 0.001 s, not after its beginning at 0.002 s"),
         (with("tie_strength = 1"), "contact[0].tie_strength", "goes only with `tied = true`"),
         (with("formulation = \"segment\"\npenalty = \"1 N/m/m\""), "contact[0].penalty", "no slave nodes"),
-        (with("tied = true\nformulation = \"segment\""), "contact[0].formulation", "ties hold nodes"),
+        (with("tied = true\nformulation = \"segment\"\nlaw = \"multiplier\""), "contact[0].law", "more springs than their nodes can meet"),
         (with("tied = true\nformulation = \"pinball\""), "contact[0].formulation", "pinballs only push"),
         (with(&format!("tied = true\n{table}")), "contact[0].law", "a pressure can't hold"),
     ]);

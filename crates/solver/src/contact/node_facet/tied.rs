@@ -4,28 +4,76 @@
 use super::super::projection::node_facet::{Feature, Placed, Projection, Vector};
 use super::super::search::{Pair, Query, Search};
 use super::super::springs::{Spring, Springs, TangentSpace};
-use super::super::tied::{Bindable, Bond, NEAR, Tie};
+use super::super::tied::nodes::{self, Bond, NodeHold};
+use super::super::tied::{Bindable, NEAR, PendingTies, Tie};
 use super::groups::{bend, halves};
 use super::{NodeFacet, ends, first_edge, tangent};
 use crate::contact::Scene;
-use crate::mesh::surface::{Corners, SpaceSurface};
+use crate::mesh::surface::Corners;
 use crate::tensor::{Dim, dot};
 
-impl Bindable<3> for NodeFacet {
-    /// A triangle, and the shares of its corners in the node's foot at the start.
-    type Place = (u32, Vector);
-    const WIDTH: &'static str = "a facet's width";
+/// A triangle, and the shares of its corners in the node's foot at the start.
+type Place = (u32, Vector);
 
+impl Bindable<3> for NodeFacet {
+    type Hold = NodeHold<Place>;
+    type Bound = Vec<bool>;
+    const WORDS: [&'static str; 2] = ["node", "a facet's width"];
+
+    fn bind(&self, mut pending: PendingTies<3>, positions: &[Vector]) -> Vec<Tie<NodeHold<Place>>> {
+        let bonds = self.near(&mut *pending.search, pending.thickness, positions);
+        nodes::ties(bonds, self.slaves(), &pending)
+    }
+
+    fn bound(&self, ties: &[Tie<NodeHold<Place>>]) -> Vec<bool> {
+        nodes::bound(ties, self.slaves().len())
+    }
+
+    fn is_there(&self, hold: &NodeHold<Place>, nodes: usize) -> bool {
+        let is_place = |facet: &[u32; 4]| hold.place.0 < if facet.corners().len() == 3 { 1 } else { 4 };
+        (hold.node as usize) < nodes
+            && (hold.slave as usize) < self.slaves().len()
+            && self.tracker.target(0).facets.get(hold.facet as usize).is_some_and(is_place)
+    }
+
+    fn again<'a>(&'a self, old: &'a Self) -> impl Fn(&NodeHold<Place>) -> Option<NodeHold<Place>> + 'a {
+        let facets = |of: &'a Self| &of.tracker.target(0).facets[..];
+        nodes::again(self.slaves(), facets(self), facets(old))
+    }
+
+    fn hold(&self, ties: &[Tie<NodeHold<Place>>], side: f32, positions: &[Vector], springs: &mut Springs<3>) {
+        let Some((&Tie { hold, gap: begin, .. }, spring)) = nodes::only(ties, side) else { return };
+        let placed = Placed { surface: self.tracker.target(0), positions };
+        let (facet, triangle, place) = (hold.facet, hold.place.0 as usize, hold.place.1);
+        let corners = placed.triangle(facet, triangle);
+        // A triangle without area is reported with the elements; the tie does nothing.
+        let above = placed.above(positions[hold.node as usize], facet, triangle);
+        let (weights, gap, normal) = above.unwrap_or((place, begin, [0.0, 0.0, 1.0]));
+        let at = |shares: Vector| [0, 1, 2].map(|d| (0..3).map(|k| shares[k] * corners[k][d]).sum::<f64>());
+        let (foot, place) = (at(weights), at(place));
+        let along = tangent(normal, first_edge(&placed, facet));
+        let off = [0, 1, 2].map(|d| foot[d] - place[d]);
+        let slip = Dim::<3>::tangents(normal, &along).map(|t| dot(t, off));
+        // Forces act at the present foot of the node, so that both are collinear.
+        let weights = placed.spread(facet, triangle, weights);
+        let projection = Projection { facet, feature: Feature::Face, triangle, weights, foot, gap, normal };
+        let (ends, known) = ends(&placed, hold.node, &projection);
+        springs.push(Spring { normal, gap: gap - begin, slip, tangent: along, ..spring }, &ends[..known]);
+    }
+
+    fn detect_free(&mut self, bound: &Vec<bool>, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+        Self::detect_free(self, bound, scene, springs);
+    }
+}
+
+impl NodeFacet {
     fn slaves(&self) -> &[u32] {
         &self.tracker.surfaces()[self.tracker.slave(0)].nodes
     }
 
-    fn target(&self) -> &SpaceSurface {
-        self.tracker.target(0)
-    }
-
-    fn near(&self, search: &mut dyn Search<3>, thickness: f64, positions: &[Vector]) -> Vec<Bond<(u32, Vector)>> {
-        let (slaves, surface) = (self.slaves(), self.target());
+    /// Those of the slaves that are near a facet, ascending, with their places on the nearest one.
+    fn near(&self, search: &mut dyn Search<3>, thickness: f64, positions: &[Vector]) -> Vec<Bond<Place>> {
+        let (slaves, surface) = (self.slaves(), self.tracker.target(0));
         let placed = Placed { surface, positions };
         let triangles: Vec<[u32; 3]> = surface.facets.iter().flat_map(halves).collect();
         let width = |facet: u32| placed.area(facet).sqrt();
@@ -58,32 +106,5 @@ impl Bindable<3> for NodeFacet {
             Some(Bond { slave, facet, place: (triangle as u32, place), gap })
         };
         pairs.chunk_by(|a, b| a.slave == b.slave).filter_map(of_slave).collect()
-    }
-
-    fn is_place(facet: [u32; 4], &(triangle, _): &(u32, Vector)) -> bool {
-        triangle < if facet.corners().len() == 3 { 1 } else { 4 }
-    }
-
-    fn hold(&self, tie: &Tie<(u32, Vector)>, spring: Spring<3>, positions: &[Vector], springs: &mut Springs<3>) {
-        let placed = Placed { surface: self.target(), positions };
-        let (facet, triangle, place) = (tie.facet, tie.place.0 as usize, tie.place.1);
-        let corners = placed.triangle(facet, triangle);
-        // A triangle without area is reported with the elements; the tie does nothing.
-        let above = placed.above(positions[tie.node as usize], facet, triangle);
-        let (weights, gap, normal) = above.unwrap_or((place, tie.gap, [0.0, 0.0, 1.0]));
-        let at = |shares: Vector| [0, 1, 2].map(|d| (0..3).map(|k| shares[k] * corners[k][d]).sum::<f64>());
-        let (foot, place) = (at(weights), at(place));
-        let along = tangent(normal, first_edge(&placed, facet));
-        let off = [0, 1, 2].map(|d| foot[d] - place[d]);
-        let slip = Dim::<3>::tangents(normal, &along).map(|t| dot(t, off));
-        // Forces act at the present foot of the node, so that both are collinear.
-        let weights = placed.spread(facet, triangle, weights);
-        let projection = Projection { facet, feature: Feature::Face, triangle, weights, foot, gap, normal };
-        let (ends, known) = ends(&placed, tie.node, &projection);
-        springs.push(Spring { normal, gap: gap - tie.gap, slip, tangent: along, ..spring }, &ends[..known]);
-    }
-
-    fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
-        Self::detect_free(self, bound, scene, springs);
     }
 }

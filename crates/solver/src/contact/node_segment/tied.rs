@@ -1,27 +1,65 @@
 //! What ties bind nodes to in 2D: a segment, at a place along it.
 
-use super::super::projection::node_segment::{Projection, Target};
+use super::super::projection::node_segment::Projection;
 use super::super::search::{Pair, Query, Search};
 use super::super::springs::{Spring, Springs};
-use super::super::tied::{Bindable, Bond, NEAR, Tie};
+use super::super::tied::nodes::{self, Bond, NodeHold};
+use super::super::tied::{Bindable, NEAR, PendingTies, Tie};
 use super::super::{Scene, Vector, length};
 use super::{NodeSegment, ends};
 
 impl Bindable<2> for NodeSegment {
     /// Along the segment: 0 and 1 are its nodes.
-    type Place = f64;
-    const WIDTH: &'static str = "a segment's length";
+    type Hold = NodeHold<f64>;
+    type Bound = Vec<bool>;
+    const WORDS: [&'static str; 2] = ["node", "a segment's length"];
 
+    fn bind(&self, mut pending: PendingTies<2>, positions: &[Vector]) -> Vec<Tie<NodeHold<f64>>> {
+        let bonds = self.near(&mut *pending.search, pending.thickness, positions);
+        nodes::ties(bonds, self.slaves(), &pending)
+    }
+
+    fn bound(&self, ties: &[Tie<NodeHold<f64>>]) -> Vec<bool> {
+        nodes::bound(ties, self.slaves().len())
+    }
+
+    fn is_there(&self, hold: &NodeHold<f64>, nodes: usize) -> bool {
+        let (slaves, facets) = (self.slaves().len(), self.tracker.target(0).surface.segments.len());
+        (hold.node as usize) < nodes && (hold.slave as usize) < slaves && (hold.facet as usize) < facets
+    }
+
+    fn again<'a>(&'a self, old: &'a Self) -> impl Fn(&NodeHold<f64>) -> Option<NodeHold<f64>> + 'a {
+        let segments = |of: &'a Self| &of.tracker.target(0).surface.segments[..];
+        nodes::again(self.slaves(), segments(self), segments(old))
+    }
+
+    fn hold(&self, ties: &[Tie<NodeHold<f64>>], side: f32, positions: &[Vector], springs: &mut Springs<2>) {
+        let Some((&Tie { hold, gap: begin, .. }, spring)) = nodes::only(ties, side) else { return };
+        let target = self.tracker.target(0);
+        // A segment without length is reported with the elements; the tie does nothing.
+        let segment = target.surface.segments[hold.facet as usize];
+        let [along, gap, whole] = place(positions, hold.node, segment).unwrap_or([0.0, begin, 1.0]);
+        let [a, b] = segment.map(|node| positions[node as usize]);
+        let normal = [-(b[1] - a[1]) / whole, (b[0] - a[0]) / whole];
+        // Forces act at the present foot of the node, so that both are collinear.
+        let projection = Projection { segment: hold.facet, weights: [1.0 - along / whole, along / whole], gap, normal };
+        let slip = [along - hold.place * whole];
+        springs.push(Spring { normal, gap: gap - begin, slip, ..spring }, &ends(hold.node, &projection, target, positions));
+    }
+
+    fn detect_free(&mut self, bound: &Vec<bool>, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
+        Self::detect_free(self, bound, scene, springs);
+    }
+}
+
+impl NodeSegment {
     fn slaves(&self) -> &[u32] {
         &self.tracker.targets()[self.tracker.slave(0)].surface.nodes
     }
 
-    fn target(&self) -> &Target {
-        self.tracker.target(0)
-    }
-
+    /// Those of the slaves that are near a segment, ascending, with their places on the nearest one.
     fn near(&self, search: &mut dyn Search<2>, thickness: f64, positions: &[Vector]) -> Vec<Bond<f64>> {
-        let (slaves, surface) = (self.slaves(), &self.target().surface);
+        let (slaves, surface) = (self.slaves(), &self.tracker.target(0).surface);
         let longest = surface.segments.iter().map(|&segment| length(segment, positions)).fold(0.0, f64::max);
         let reach = thickness + 1.01 * NEAR * longest;
         let query = Query { positions_old: positions, positions_new: positions, slaves, facets: &surface.segments, reach };
@@ -44,22 +82,6 @@ impl Bindable<2> for NodeSegment {
             best.map(|(_, bond)| bond)
         };
         pairs.chunk_by(|a, b| a.slave == b.slave).filter_map(of_slave).collect()
-    }
-
-    fn hold(&self, tie: &Tie<f64>, spring: Spring<2>, positions: &[Vector], springs: &mut Springs<2>) {
-        let segment = self.target().surface.segments[tie.facet as usize];
-        // A segment without length is reported with the elements; the tie does nothing.
-        let [along, gap, whole] = place(positions, tie.node, segment).unwrap_or([0.0, tie.gap, 1.0]);
-        let [a, b] = segment.map(|node| positions[node as usize]);
-        let normal = [-(b[1] - a[1]) / whole, (b[0] - a[0]) / whole];
-        // Forces act at the present foot of the node, so that both are collinear.
-        let projection = Projection { segment: tie.facet, weights: [1.0 - along / whole, along / whole], gap, normal };
-        let slip = [along - tie.place * whole];
-        springs.push(Spring { normal, gap: gap - tie.gap, slip, ..spring }, &ends(tie.node, &projection, self.target(), positions));
-    }
-
-    fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
-        Self::detect_free(self, bound, scene, springs);
     }
 }
 

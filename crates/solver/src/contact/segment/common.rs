@@ -8,6 +8,33 @@ use crate::contact::springs::End;
 use crate::contact::{Sweep, Vector};
 use crate::vector::{dot, minus};
 
+/// Direction of a segment, and its length, m.
+fn direction([begin, end]: [Vector; 2]) -> (Vector, f64) {
+    let along = minus(end, begin);
+    let length = dot(along, along).sqrt();
+    ([along[0] / length, along[1] / length], length)
+}
+
+/// The common direction t of two segments with these directions.
+fn between([ta, tb]: [Vector; 2]) -> Vector {
+    let sum = minus(ta, tb);
+    let size = dot(sum, sum).sqrt();
+    [sum[0] / size, sum[1] / size]
+}
+
+/// Normal of two segments, from the second to the first; `None`: there is none.
+pub(super) fn normal(positions: [[Vector; 2]; 2]) -> Option<Vector> {
+    let t = between(positions.map(|ends| direction(ends).0));
+    (t[0].is_finite() && t[1].is_finite()).then_some([t[1], -t[0]])
+}
+
+/// Half of the rate at which a segment turns by the velocity of its end i, 1/m.
+pub(super) fn half_angle([begin, end]: [Vector; 2], i: usize) -> Vector {
+    let chord = minus(end, begin);
+    let per_length = (i as f64 - 0.5) / dot(chord, chord);
+    [-chord[1] * per_length, chord[0] * per_length]
+}
+
 /// The common part of two segments.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Common {
@@ -30,19 +57,13 @@ pub(super) struct Common {
 impl Common {
     pub(super) fn new(nodes: [[u32; 2]; 2], positions: &[Vector]) -> Option<Self> {
         let positions = nodes.map(|nodes| nodes.map(|node| positions[node as usize]));
-        let [ta, tb] = positions.map(|[begin, end]| {
-            let along = minus(end, begin);
-            let length = dot(along, along).sqrt();
-            ([along[0] / length, along[1] / length], length)
-        });
+        let [ta, tb] = positions.map(direction);
         let facing = -dot(ta.0, tb.0);
         // NaN (a segment without length) fails the comparison too
         if !(facing > 0.0) {
             return None;
         }
-        let sum = minus(ta.0, tb.0);
-        let size = dot(sum, sum).sqrt();
-        let t = [sum[0] / size, sum[1] / size];
+        let t = between([ta.0, tb.0]);
         let origin = positions[0][0];
         let along = positions.map(|ends| ends.map(|x| dot(minus(x, origin), t)));
         let [[a0, a1], [b0, b1]] = along;
@@ -162,9 +183,7 @@ impl Common {
 
     /// ½ dφ_k of segment k by the position of its end i.
     fn half_angle(&self, k: usize, i: usize) -> Vector {
-        let chord = minus(self.positions[k][1], self.positions[k][0]);
-        let per_length = (i as f64 - 0.5) / dot(chord, chord);
-        [-chord[1] * per_length, chord[0] * per_length]
+        half_angle(self.positions[k], i)
     }
 
     /// Adds `factor` times the derivative of ln(r) to the rows of the gap, with the radius r half way between

@@ -40,6 +40,7 @@ mod common;
 mod fan;
 mod pairs;
 mod polygon;
+mod tied;
 
 use super::super::checked::Look;
 use super::super::continuity::Closed;
@@ -53,6 +54,7 @@ use super::super::search::registry;
 use super::super::spin;
 use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Spring, Springs};
+use super::super::tied::surfaces::Bound;
 use super::super::tracker::{Certificate, SearchReport};
 use super::super::{Formulation, Scene, Sweep};
 use super::start::{ByNodes, Start, Unseen};
@@ -165,7 +167,10 @@ impl Segment {
         let tracker = setup.tracker();
         let surfaces = tracker.surfaces();
         let proof = MissedContactCheck::new(surfaces, passes, setup.bodies, setup.positions, false, registry::<3>()[0].make);
-        let overlap_check = make::with_moduli(setup.overlap_check, surfaces, passes, &inputs);
+        let overlap_check = match setup.contact.tied {
+            Some(_) => setup.overlap_check.without_nets(),
+            None => make::with_moduli(setup.overlap_check, surfaces, passes, &inputs),
+        };
         Self {
             pairs: Pairs::new(tracker),
             proof,
@@ -230,6 +235,13 @@ impl Segment {
         Facing { slips: [slip; PARTS], offsets: [offset; PARTS], ..now }
     }
 
+    /// Pressure per depth of a pair, Pa/m.
+    fn pressure(&self, pair: [u32; 2]) -> f64 {
+        let surfaces = self.pairs.surfaces();
+        let [own, other] = [0, 1].map(|k| self.stiffness[surfaces[k]][pair[k] as usize]);
+        penalty::pressure(self.penalty, own, other)
+    }
+
     /// Adds the springs of a pair, which has a number if it was there in the last step.
     fn connect(&mut self, pair: [u32; 2], before: Option<usize>, common: &Common, sweep: Sweep<'_, 3>, springs: &mut Springs<3>) {
         let mut facing = self.kept(pair, before, common);
@@ -238,9 +250,7 @@ impl Segment {
             let old = self.pairs.frames_at(pair, sweep.old);
             Common::new([&old[0], &old[1]], true, 0.0, self.level).is_some_and(|before| before.fraction() > AT_ONCE)
         };
-        let surfaces = self.pairs.surfaces();
-        let [own, other] = [0, 1].map(|k| self.stiffness[surfaces[k]][pair[k] as usize]);
-        let pressure = penalty::pressure(self.penalty, own, other);
+        let (surfaces, pressure) = (self.pairs.surfaces(), self.pressure(pair));
         let distance = self.start.distance([common.frames[0].nodes(), common.frames[1].nodes()]);
         let side = if surfaces[0] == surfaces[1] { 0.0 } else { 1.0 };
         let turn = if self.slips && facing.slips != [[0.0; 3]; PARTS] { common.turn(sweep) } else { [0.0; 3] };
@@ -284,8 +294,9 @@ fn push_with_slip(common: &Common, part: &Part, spring: Spring<3>, slip: Vector,
     springs.push(Spring { slip: cone::carried(slip, tangents), ..spring }, &ends[..count]);
 }
 
-impl Formulation<3> for Segment {
-    fn detect(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+impl Segment {
+    /// [`Formulation::detect`] for what is not bound.
+    fn detect_free(&mut self, bound: &Bound, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         self.overlap_check.see_step(scene);
         self.pairs.find(scene.sweep, self.start.within());
         self.proof.look_at(&self.pairs.tracker, None, scene.sweep);
@@ -305,7 +316,9 @@ impl Formulation<3> for Segment {
                 at += 1;
             }
             let before = self.before.get(at).is_some_and(|facing| facing.pair == pair).then_some(at);
-            if let Some(common) = self.common(pair, before.is_some(), scene.sweep.new) {
+            if bound.frees(pair)
+                && let Some(common) = self.common(pair, before.is_some(), scene.sweep.new)
+            {
                 self.connect(pair, before, &common, scene.sweep, springs);
             }
         }
@@ -316,11 +329,11 @@ impl Formulation<3> for Segment {
         self.start.has_begun = true;
     }
 
-    fn remember(&mut self, solved: Answers<'_, 3>) {
+    /// [`Formulation::remember`] without weighing forces.
+    fn keep(&mut self, solved: &Answers<'_, 3>) {
         let count = self.used.len();
         self.nets = Closed::default();
         self.overlap_check.note_nets(solved.part(count, usize::MAX), |stored| self.nets.add(stored));
-        self.overlap_check.weigh(&solved);
         self.facing.iter_mut().for_each(|facing| facing.stored = 0.0);
         let mut answers = solved.part(0, count);
         for of_pair in self.used.chunk_by(|a, b| a.0 == b.0) {
@@ -341,6 +354,17 @@ impl Formulation<3> for Segment {
                 (facing.slips[slot], facing.offsets[slot]) = (mean.slips[slot], mean.offsets[slot]);
             }
         }
+    }
+}
+
+impl Formulation<3> for Segment {
+    fn detect(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
+        self.detect_free(&Bound::default(), scene, springs);
+    }
+
+    fn remember(&mut self, solved: Answers<'_, 3>) {
+        self.keep(&solved);
+        self.overlap_check.weigh(&solved);
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {

@@ -29,17 +29,17 @@ pub(super) struct Unseen {
 }
 
 /// Segments or facets by their nodes, to find them again after a surface was rebuilt.
-pub(super) struct ByNodes<const N: usize>(Vec<([u32; N], u32)>);
+pub(in crate::contact) struct ByNodes<F>(Vec<(F, u32)>);
 
-impl<const N: usize> ByNodes<N> {
-    pub(super) fn new(list: &[[u32; N]]) -> Self {
-        let mut list: Vec<([u32; N], u32)> = list.iter().copied().zip(0..).collect();
+impl<F: Copy + Ord> ByNodes<F> {
+    pub(in crate::contact) fn new(list: &[F]) -> Self {
+        let mut list: Vec<(F, u32)> = list.iter().copied().zip(0..).collect();
         list.sort_unstable();
         Self(list)
     }
 
     /// The number of the one with these nodes.
-    pub(super) fn number_of(&self, nodes: [u32; N]) -> Option<u32> {
+    pub(in crate::contact) fn number_of(&self, nodes: F) -> Option<u32> {
         self.0.binary_search_by_key(&nodes, |&(nodes, _)| nodes).ok().map(|at| self.0[at].1)
     }
 }

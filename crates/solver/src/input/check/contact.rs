@@ -288,13 +288,13 @@ fn contradictions(contact: &Contact) -> [Contradiction; 6] {
             pinball && tied,
             "formulation",
             "pinballs only push, so they can't hold surfaces together",
-            "take `double_pass` or `single_pass` for a tie",
+            "take `double_pass`, `single_pass` or `segment` for a tie",
         ),
         (
-            tied && segment,
-            "formulation",
-            "ties hold nodes, so there is no tie of segments",
-            "take `double_pass` or `single_pass` for a tie",
+            tied && segment && interface.law == ContactLaw::Multiplier,
+            "law",
+            "segments or facets that are tied have more springs than their nodes can meet as conditions",
+            "take `penalty`, or tie nodes by `double_pass` or `single_pass`",
         ),
         (tied && pressure_gap, "law", "a pressure can't hold surfaces together", "take `penalty` or `multiplier` for a tie"),
     ]

@@ -46,9 +46,9 @@ pub(super) struct Frame {
     /// Mean of the corners, m.
     pub(super) middle: Vector,
     /// Unit outward normal: of four nodes that of the diagonals.
-    normal: Vector,
+    pub(super) normal: Vector,
     /// m².
-    area: f64,
+    pub(super) area: f64,
     /// All corners are nearer to the middle than this, m.
     radius: f64,
 }
@@ -70,7 +70,7 @@ impl Frame {
 
     /// By what of the velocities of its corners the direction `along` × its spin goes: rows of ω·`by` with
     /// the spin ω = Θ⁻¹ Σ r × v of every rigid motion.
-    fn spins(&self, by: [Vector; 2]) -> [[Vector; 4]; 2] {
+    pub(super) fn spins<const N: usize>(&self, by: [Vector; N]) -> [[Vector; 4]; N] {
         let arms = self.corners.map(|x| minus(x, self.middle));
         let mut inertia = [[0.0; 3]; 3];
         arms[..self.count].iter().for_each(|&arm| spin::add_arm(arm, &mut inertia));

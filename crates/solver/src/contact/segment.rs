@@ -37,7 +37,7 @@ use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
 use crate::rows::Rows;
 use common::Common;
-pub(in crate::contact) use start::ByNodes;
+pub(in crate::contact) use start::{ByNodes, pairs_again};
 use start::{Start, Unseen};
 use std::any::Any;
 
@@ -441,7 +441,8 @@ impl Formulation<2> for Segment {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            chains: _, law: _, penalty: _, rule: _, depth: _, pairs: _, commons: _, tree: _, least: _, free_ends: _, owners: _, before: _, lost_contact_energy: _,
+            chains: _, law: _, penalty: _, rule: _, depth: _, pairs: _, commons: _,
+            tree: _, least: _, free_ends: _, owners: _, before: _, lost_contact_energy: _,
             tracker, start, facing, depths,
         } = self;
         tracker.persist(archive)?;
@@ -457,13 +458,9 @@ impl Formulation<2> for Segment {
         self.tracker.inherit(&old.tracker);
         self.start.has_begun = old.start.has_begun;
         self.depths.inherit(&old.depths);
-        let (surfaces, before) = (self.surfaces(), &old.facing);
-        let by_nodes = surfaces.map(|surface| ByNodes::new(&self.tracker.targets()[surface].surface.segments));
+        let (surfaces, again) = (self.surfaces(), pairs_again(self.segments(), old.segments()));
         let now = |facing: &Facing| {
-            let mut pair = facing.pair;
-            for k in 0..2 {
-                pair[k] = by_nodes[k].number_of(old.tracker.targets()[surfaces[k]].surface.segments[pair[k] as usize])?;
-            }
+            let mut pair = again(facing.pair)?;
             // A surface that meets itself has each pair once.
             if surfaces[0] == surfaces[1] {
                 pair.sort_unstable();
@@ -471,7 +468,7 @@ impl Formulation<2> for Segment {
             // What is not found again went with its surface.
             Some(Facing { pair, stored: 0.0, ..*facing })
         };
-        self.facing = before.iter().filter_map(now).collect();
+        self.facing = old.facing.iter().filter_map(now).collect();
         self.facing.sort_by_key(|facing| facing.pair);
     }
 

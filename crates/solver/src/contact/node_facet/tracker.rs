@@ -216,7 +216,8 @@ impl Tracker {
         let bodies = bodies_of(&surfaces, bodies);
         #[rustfmt::skip]
         let tracker = Self {
-            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0, travel: 0.0, task: Task::default(), chunks: Vec::new(), level: Some(Level::best()),
+            surfaces, passes, reach, triangles, corners, bodies, is_new: true, band: f64::INFINITY, radius: 0.0,
+            travel: 0.0, task: Task::default(), chunks: Vec::new(), level: Some(Level::best()),
         };
         tracker
     }

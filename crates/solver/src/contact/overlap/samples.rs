@@ -9,6 +9,7 @@ use super::super::projection::node_facet::{Vector, corners_below, square_to_tria
 use super::OverlapCheck;
 use super::regions::Region;
 use super::skin::Edge;
+use super::thickness::least_sharing;
 use crate::mesh::surface::NONE;
 use crate::tensor::dot;
 use rayon::prelude::*;
@@ -205,8 +206,7 @@ impl Looking<'_> {
     /// The least thickness of the facets that share vertices, m.
     fn thickness(&self, vertices: &[u32]) -> f64 {
         let skin = &self.check.skin;
-        let surface = skin.sharing(vertices).filter(|&triangle| !skin.is_mirror(triangle));
-        surface.map(|triangle| self.walls[skin.facet_of[triangle as usize] as usize]).fold(f64::INFINITY, f64::min)
+        least_sharing(skin, vertices, |triangle| self.walls[skin.facet_of[triangle as usize] as usize])
     }
 
     fn look(&self, &Site { own, vertex, place, behind }: &Site) -> Option<Sample> {

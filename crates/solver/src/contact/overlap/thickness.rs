@@ -98,8 +98,7 @@ impl Thickness {
 
     /// The least of the facets that share these vertices now, m: whichever of them is taken for the nearest.
     pub(super) fn sharing(&self, skin: &Skin, vertices: &[u32]) -> f64 {
-        let surface = skin.sharing(vertices).filter(|&triangle| !skin.is_mirror(triangle));
-        surface.map(|triangle| self.of(skin, triangle)).fold(f64::INFINITY, f64::min)
+        least_sharing(skin, vertices, |triangle| self.of(skin, triangle))
     }
 
     /// The largest of each body, m.
@@ -118,6 +117,12 @@ impl Thickness {
         let surface = skin.facets.iter().filter(|facet| !facet.is_mirror);
         surface.map(|facet| self.of(skin, facet.first)).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// The least thickness of the facets that share vertices, where `of` says that of the facet of a triangle, m.
+pub(super) fn least_sharing(skin: &Skin, vertices: &[u32], of: impl Fn(u32) -> f64) -> f64 {
+    let surface = skin.sharing(vertices).filter(|&triangle| !skin.is_mirror(triangle));
+    surface.map(of).fold(f64::INFINITY, f64::min)
 }
 
 /// Bodies with how thick they are, for what meets their facets one by one.

@@ -57,7 +57,7 @@ use super::super::springs::{Answers, End, Spring, Springs};
 use super::super::tied::surfaces::Bound;
 use super::super::tracker::{Certificate, SearchReport};
 use super::super::{Formulation, Scene, Sweep};
-use super::start::{ByNodes, Start, Unseen};
+use super::start::{Start, Unseen, pairs_again};
 use super::{AT_ONCE, DEEPER};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::SpaceSurface;
@@ -388,13 +388,10 @@ impl Formulation<3> for Segment {
         self.proof.inherit(&old.proof, self.pairs.tracker.surfaces());
         self.overlap_check.inherit(&old.overlap_check);
         self.start.has_begun = old.start.has_begun;
-        let by_nodes = [0, 1].map(|k| ByNodes::new(&self.surface(k).facets));
+        let again = pairs_again(self.facets(), old.facets());
         let is_one = self.pairs.surfaces()[0] == self.pairs.surfaces()[1];
         let now = |facing: &Facing| {
-            let mut pair = facing.pair;
-            for k in 0..2 {
-                pair[k] = by_nodes[k].number_of(old.surface(k).facets[pair[k] as usize])?;
-            }
+            let mut pair = again(facing.pair)?;
             let is_turned = is_one && pair[0] > pair[1];
             if is_turned {
                 pair.reverse();

@@ -44,6 +44,16 @@ impl<F: Copy + Ord> ByNodes<F> {
     }
 }
 
+/// Finds pairs of segments or facets of two surfaces, as they were `before` and are `now`, again.
+pub(in crate::contact) fn pairs_again<'a, F: Copy + Ord>(
+    now: [&[F]; 2],
+    before: [&'a [F]; 2],
+) -> impl Fn([u32; 2]) -> Option<[u32; 2]> + use<'a, F> {
+    let by_nodes = now.map(ByNodes::new);
+    let again = move |k: usize, pair: [u32; 2]| by_nodes[k].number_of(before[k][pair[k] as usize]);
+    move |pair| Some([again(0, pair)?, again(1, pair)?])
+}
+
 impl<const D: usize> Start<D>
 where
     Dim<D>: Surfaces<D>,

@@ -93,7 +93,7 @@ impl Bindable<2> for Segment {
 
 impl Segment {
     /// The segments of both surfaces.
-    fn segments(&self) -> [&[[u32; 2]]; 2] {
+    pub(super) fn segments(&self) -> [&[[u32; 2]]; 2] {
         self.surfaces().map(|surface| &self.tracker.targets()[surface].surface.segments[..])
     }
 

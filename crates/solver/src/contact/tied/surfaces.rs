@@ -16,7 +16,7 @@ use super::{Hold, Tie};
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::contact::formulation::Surfaces;
 use crate::contact::search::{Query, Search};
-use crate::contact::segment::ByNodes;
+use crate::contact::segment::pairs_again;
 use crate::mesh::surface::{Corners, Facet};
 use crate::tensor::Dim;
 use crate::vector::{length, minus};
@@ -141,12 +141,6 @@ pub(in crate::contact) fn again<'a, F: Copy + Ord, const N: usize>(
     now: [&[F]; 2],
     before: [&'a [F]; 2],
 ) -> impl Fn(&PairHold<N>) -> Option<PairHold<N>> + use<'a, F, N> {
-    let by_nodes = now.map(ByNodes::new);
-    move |hold| {
-        let mut pair = hold.pair;
-        for k in 0..2 {
-            pair[k] = by_nodes[k].number_of(before[k][pair[k] as usize])?;
-        }
-        Some(PairHold { pair, ..*hold })
-    }
+    let again = pairs_again(now, before);
+    move |hold| Some(PairHold { pair: again(hold.pair)?, ..*hold })
 }

@@ -105,7 +105,7 @@ impl Bindable<3> for Segment {
 
 impl Segment {
     /// The facets of both surfaces.
-    fn facets(&self) -> [&[[u32; 4]]; 2] {
+    pub(super) fn facets(&self) -> [&[[u32; 4]]; 2] {
         [0, 1].map(|k| &self.surface(k).facets[..])
     }
 

@@ -114,3 +114,21 @@ fn run_avx512<K: Kernel>(kernel: K) -> K::Output {
     align_the_stack();
     kernel.run::<crate::x86::F64x8>()
 }
+
+/// Asks the memory for something that is read soon: a hint, which changes nothing but time.
+#[inline(always)]
+pub fn prefetch<T>(of: &T) {
+    #[cfg(target_arch = "x86_64")]
+    for line in (0..size_of::<T>()).step_by(LINE) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: the address lies in what is borrowed; every x86-64 processor has the instruction, which
+        // reads nothing that a program could see.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(of).cast::<i8>().add(line)) }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = of;
+}
+
+/// Bytes of a line of the cache.
+#[cfg(target_arch = "x86_64")]
+const LINE: usize = 64;

@@ -20,7 +20,7 @@ mod team;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use dispatch::{Kernel, Level};
+pub use dispatch::{Kernel, Level, prefetch};
 pub use gather::{Indices, Moving, Places, Room, VectorSums};
 pub use lane::{BATCH, Batch, Lane};
 pub use team::{Chunks, Parts, Team};

@@ -3,7 +3,7 @@
 
 use super::findings::Findings;
 use super::springs::{Answers, Springs};
-use super::{Formulation, Scene};
+use super::{Formulation, Scene, both};
 use crate::archive::{Archive, ArchiveResult};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
@@ -62,8 +62,8 @@ where
     Dim<D>: TangentSpace<D>,
 {
     fn detect(&mut self, scene: &Scene<'_, D>, springs: &mut Springs<D>) {
-        self.overlap_check.see_step(scene);
-        self.contact.detect(scene, springs);
+        let Self { contact, overlap_check } = self;
+        both(|| overlap_check.see_step(scene), || contact.detect(scene, springs));
     }
 
     fn remember(&mut self, solved: Answers<'_, D>) {

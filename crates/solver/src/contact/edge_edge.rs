@@ -34,6 +34,7 @@ use crate::mesh::surface::SpaceSurface;
 use crate::rows::Rows;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{length, minus};
+use std::mem::take;
 
 /// How well the normal must be between those of the facets: of one edge at least, of the other one where a
 /// spring begins (on a flat face it is along a facet's), and as long as it is closed.
@@ -145,6 +146,9 @@ pub struct EdgeTracker {
     /// Depth of the deepest spring of the last step, m.
     deepest: f64,
     found: Vec<Pair>,
+    /// The touches of a step in the order in which they get springs, and whether each pair has one.
+    order: Vec<usize>,
+    taken: Vec<bool>,
 }
 
 impl EdgeTracker {
@@ -165,6 +169,8 @@ impl EdgeTracker {
             touches: Vec::new(),
             deepest: 0.0,
             found: Vec::new(),
+            order: Vec::new(),
+            taken: Vec::new(),
         }
     }
 
@@ -259,7 +265,7 @@ impl EdgeTracker {
                 && !b.iter().any(|node| is_joined(node, 0))
                 && (distance(placed(a), placed(b)) <= radius || [a, b].iter().flatten().any(|&node| way(node) > skin))
         });
-        let old = std::mem::take(&mut self.pairs);
+        let old = take(&mut self.pairs);
         let kept = old.iter().filter(|pair| pair.touches);
         near.extend(kept.clone().map(|pair| pair.edges));
         near.sort_unstable();
@@ -286,15 +292,18 @@ impl EdgeTracker {
         self.deepest = springs
             .map(|pair| pair.memory.spring.offset.abs() + pair.memory.spring.half.abs() + pair.memory.carried.abs())
             .fold(0.0, f64::max);
-        let mut found: Vec<EdgeTouch> = Vec::new();
+        let (mut found, mut order, mut taken) = (take(&mut self.touches), take(&mut self.order), take(&mut self.taken));
+        found.clear();
         for number in 0..self.pairs.len() {
             found.extend(self.look_at(number, around, &is_held));
         }
         // What had a spring comes first; then one spring for each place at which two lines of edges cross;
         // then what had one beyond an end. The deepest first: numbers say nothing.
-        let mut order: Vec<usize> = (0..found.len()).collect();
-        order.sort_by(|&a, &b| found[a].crossing.gap.total_cmp(&found[b].crossing.gap).then(a.cmp(&b)));
-        let mut taken: Vec<bool> = vec![false; self.pairs.len()];
+        order.clear();
+        order.extend(0..found.len());
+        order.sort_unstable_by(|&a, &b| found[a].crossing.gap.total_cmp(&found[b].crossing.gap).then(a.cmp(&b)));
+        taken.clear();
+        taken.resize(self.pairs.len(), false);
         for turn in 0..3 {
             let is_beyond = |touch: &EdgeTouch| !touch.crossing.is_within(BEYOND);
             let turn_of = |touch: &EdgeTouch| if touch.is_new { 1 } else { 2 * u32::from(is_beyond(touch)) };
@@ -335,7 +344,7 @@ impl EdgeTracker {
             pair.touches = *taken;
         }
         found.retain(|touch| taken[touch.pair as usize]);
-        self.touches = found;
+        (self.touches, self.order, self.taken) = (found, order, taken);
         &self.touches
     }
 

@@ -277,10 +277,10 @@ where
         time_step: f64,
     ) {
         let answers = springs.answers(self.found.clone());
-        let (mut sum, formulation) = (|| answers.clone().collect_into(forces, bodies, traces), &mut self.formulation);
-        let mut remember = || formulation.remember(answers.clone());
+        let (sum, formulation) = (|| answers.clone().collect_into(forces, bodies, traces), &mut self.formulation);
+        let remember = || formulation.remember(answers.clone());
         // Neither reads what the other one writes.
-        let (found, ()) = if rayon::current_thread_index().is_some() { rayon::join(sum, remember) } else { (sum(), remember()) };
+        let (found, ()) = both(sum, remember);
         (self.totals, self.penetration) = found;
         self.has_pressed |= self.totals.pressing > 0.0;
         self.friction_work += self.totals.lost.friction;
@@ -421,6 +421,11 @@ where
         Ok(())
     }
     fn inherit(&mut self, _: Box<dyn Any>) {}
+}
+
+/// Does both, at the same time within a pool of threads.
+fn both<A: Send, B: Send>(one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B + Send) -> (A, B) {
+    if rayon::current_thread_index().is_some() { rayon::join(one, other) } else { (one(), other()) }
 }
 
 pub(crate) fn length(segment: [u32; 2], positions: &[Vector]) -> f64 {

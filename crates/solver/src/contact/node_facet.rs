@@ -31,7 +31,7 @@ use super::spin;
 use super::springs::friction::cone;
 use super::springs::{Answer, Answers, End, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
-use super::{Formulation, Scene, Sweep};
+use super::{Formulation, Scene, Sweep, both};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::{Corners, NONE};
@@ -190,6 +190,32 @@ impl NodeFacet {
         surface.sharing(touch.projection.facet, rest).any(|facet| self.superseded.binary_search(&(side, touch.node, facet)).is_ok())
     }
 
+    /// The springs of the nodes that touch, so many of them; the energy that they had. See
+    /// [`Self::detect_free`].
+    fn push_nodes(&mut self, (count, bound): (usize, &[bool]), scene: &Scene<'_, 3>, springs: &mut Springs<3>) -> Closed {
+        self.find_superseded();
+        let (mut again, reach) = (Closed::default(), self.continuity.reach);
+        self.used.clear();
+        for index in 0..count {
+            let touch = self.tracker.touches()[index];
+            if touch.pass == 0 && bound.get(touch.slave as usize).copied().unwrap_or(false) {
+                continue;
+            }
+            // Who stands for nothing presses on nothing.
+            if self.passes[touch.pass as usize].slaves[touch.slave as usize].area == 0.0 {
+                continue;
+            }
+            let spring = &self.tracker.kept(&touch).spring;
+            if !self.superseded.is_empty() && spring.half() >= reach && self.is_superseded(&touch, scene) {
+                continue;
+            }
+            again.add(spring.stored);
+            self.push_node(index, scene, springs);
+            self.used.push(index as u32);
+        }
+        again
+    }
+
     /// The spring of a node that touches.
     fn push_node(&mut self, index: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         let touch = self.tracker.touches()[index];
@@ -279,32 +305,16 @@ impl NodeFacet {
         let count = self.tracker.track(scene.sweep, thickness + reach).len();
         let is_searched = self.tracker.search_report().searches != searches;
         self.track_edges(scene, is_searched);
-        if let Some(proof) = &mut self.proof {
-            proof.look_at(&self.tracker, self.edges.as_ref(), scene.sweep);
-        }
-        if let Some(overlap_check) = &mut self.overlap_check {
-            overlap_check.see_step(scene);
-        }
-        self.find_superseded();
-        let mut again = Closed::default();
-        self.used.clear();
-        for index in 0..count {
-            let touch = self.tracker.touches()[index];
-            if touch.pass == 0 && bound.get(touch.slave as usize).copied().unwrap_or(false) {
-                continue;
+        // The bodies know nothing of springs.
+        let mut overlap_check = self.overlap_check.take();
+        let look = || overlap_check.as_mut().into_iter().for_each(|overlap_check| overlap_check.see_step(scene));
+        let ((), mut again) = both(look, || {
+            if let Some(proof) = &mut self.proof {
+                proof.look_at(&self.tracker, self.edges.as_ref(), scene.sweep);
             }
-            // Who stands for nothing presses on nothing.
-            if self.passes[touch.pass as usize].slaves[touch.slave as usize].area == 0.0 {
-                continue;
-            }
-            let SpringHistory { stored, .. } = self.tracker.kept(&touch).spring;
-            if !self.superseded.is_empty() && self.tracker.kept(&touch).spring.half() >= reach && self.is_superseded(&touch, scene) {
-                continue;
-            }
-            again.add(stored);
-            self.push_node(index, scene, springs);
-            self.used.push(index as u32);
-        }
+            self.push_nodes((count, bound), scene, springs)
+        });
+        self.overlap_check = overlap_check;
         for at in 0..self.edges.as_ref().map_or(0, |edges| edges.touches().len()) {
             again.add(self.push_edges(at, scene, springs));
         }

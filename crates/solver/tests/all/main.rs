@@ -10,6 +10,7 @@ mod solids;
 mod point;
 
 mod adding;
+mod allocations;
 mod bars;
 mod blocks;
 mod certificate;

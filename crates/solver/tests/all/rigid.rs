@@ -2,7 +2,8 @@
 
 use crate::bodies::*;
 use embate_solver::model::{
-    Constraint, Curve, Disk, Drive, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Penalty, PenaltySource, Ring, Shape, Symmetry,
+    Constraint, Contact, Curve, Disk, Drive, Friction, Interface, Load, Model, Motion, Obstacle, ObstacleShape, Partners, Penalty,
+    PenaltySource, Ring, Shape, Symmetry,
 };
 use embate_solver::simulation::{Options, Simulation};
 use std::f64::consts::TAU;
@@ -374,5 +375,35 @@ fn rigid_bodies_give_the_same_bits_for_any_number_of_threads() {
     let reference = outcome(1);
     for threads in [2, 3, 7] {
         assert!(outcome(threads) == reference, "{threads} threads");
+    }
+}
+
+/// A rigid slab that falls on another one: more springs than one island is solved with at once, of which all
+/// push on one body.
+#[test]
+fn a_rigid_slab_on_hundreds_of_springs_keeps_momenta_and_energy_with_the_same_bits_for_any_threads() {
+    for (density, friction) in [(78.0, 0.0), (78.0, 0.3), (78000.0, 0.0)] {
+        let mut model = embate_solver::bench::slabs(20, 2.0, 0.3);
+        let mut light = model.materials["steel"].clone();
+        light.parameters.insert("density".into(), density);
+        model.materials.insert("light".into(), light);
+        model.parts[1].material = "light".into();
+        model.parts[1].rigid = Some(Motion::default());
+        model.parts[1].velocity = [0.7, 0.0, -2.0];
+        let friction = Friction { coefficient: friction, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
+        let interface = Interface { friction: (friction.coefficient > 0.0).then_some(friction), ..Interface::default() };
+        model.contacts.push(Contact { name: "slabs".into(), partners: Partners::Bodies(Vec::new()), interface, ..Contact::default() });
+        model.run.end = 5e-6;
+        let case = format!("density {density}, {friction:?}");
+        let hash = hash_of_equal_bits(&model, &[1, 2, 3], &case);
+        let mut run = simulation(&model);
+        run.advance(6e-7, u64::MAX).unwrap();
+        continues_to(&hash, &model, &mut run, &case);
+        run.advance(f64::INFINITY, u64::MAX).unwrap();
+        let (after, sweeps) = (run.summary(), run.sweeps());
+        assert!((5..100).contains(&sweeps.0) && sweeps.1 == 0, "{case}: {sweeps:?}");
+        assert!(after.ledger_residual < 1e-12 && after.energy_drift < 1e-3, "{case}: {after:?}");
+        let drifts = [after.momentum_drift_linear, after.momentum_drift_angular].map(Option::unwrap);
+        assert!(drifts.iter().all(|drift| *drift < 1e-11), "{case}: {drifts:?}");
     }
 }

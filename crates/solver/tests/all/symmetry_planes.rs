@@ -125,8 +125,10 @@ fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_2d_does() 
         let space = extruded_by(depth, plane.clone(), 1);
         let [in_plane, in_3d] = [&plane, &space].map(|model| every_step(model).column("top.y").into_iter().fold(f64::INFINITY, f64::min));
         // The inside meets its image, and goes no deeper than the springs give. What the ring does before,
-        // bent by the plate, differs from the first touch on by 1e-8 and grows.
-        assert!((in_plane - 0.5 * thickness).abs() < 2e-4 && (in_3d - in_plane).abs() < 1e-5, "{in_3d} of {in_plane}");
+        // bent by the plate, differs from the first touch on by 1e-8 and grows: steps that are longer by
+        // 1e-13 of themselves change either number by up to 2.3e-5, and their difference from -2.6e-5 to
+        // 1.5e-5.
+        assert!((in_plane - 0.5 * thickness).abs() < 2e-4 && (in_3d - in_plane).abs() < 6e-5, "{in_3d} of {in_plane}");
         let summary = to_end(&space).summary();
         assert!(summary.energy_drift < 0.01 && summary.ledger_residual < 1e-12 && summary.contact.unverified == 0, "{summary:?}");
     }

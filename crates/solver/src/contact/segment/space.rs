@@ -13,7 +13,7 @@
 //! the latter where P covers that facet or spans one in a direction, between both by parts that sum up to
 //! one. For where facets lie on each other corner on corner, the means alone do not see corners move in and
 //! out in turn, and elsewhere they do; they are a quarter of the springs. Narrow strips have the mean alone.
-//! All integrals are exact (`fan.rs`, `polygon.rs`).
+//! All integrals are exact, where no corner is within a millionth of an edge (`fan.rs`, `polygon.rs`).
 //!
 //! *Patch test.* The shares of all springs sum up to ∫ N_k dA: a uniform gap between flat surfaces gives the
 //! consistent loads of a uniform pressure, whatever the meshes. So that it is uniform beside elements of any
@@ -62,7 +62,7 @@ use super::{AT_ONCE, DEEPER};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::SpaceSurface;
 use crate::model::{ContactLaw, Penalty};
-use common::{Common, PARTS, Part};
+use common::{Common, Facets, PARTS, Part, Room};
 use embate_lanes::Level;
 use pairs::Pairs;
 use std::any::Any;
@@ -104,7 +104,7 @@ pub(super) struct Segment {
 struct Facing {
     pair: [u32; 2],
     area: f64,
-    /// Of which facet the corners have springs, and edges of both at which the common part ends, as bits.
+    /// Of which facet the corners have springs, and rims of both at which the common part ends, as bits.
     owner: u8,
     edges: [u8; 2],
     slips: [Vector; PARTS],
@@ -195,15 +195,16 @@ impl Segment {
         &self.pairs.tracker.surfaces()[self.pairs.surfaces()[k]]
     }
 
-    /// What two facets have in common; `None` where they don't face each other. Those that had springs in the
-    /// last step keep them, however deep they are; what else is deeper than its nodes belongs to another side
-    /// of a corner.
-    fn common(&mut self, pair: [u32; 2], was_there: bool, positions: &[Vector]) -> Option<Common> {
+    /// Whether two facets have something in common: not where they don't face each other. Those that had
+    /// springs in the last step keep them, however deep they are; what else is deeper than its nodes belongs
+    /// to another side of a corner.
+    fn meet(&mut self, pair: [u32; 2], was_there: bool, positions: &[Vector], common: &mut Common, room: &mut Room) -> bool {
         let lead = self.pairs.lead(pair);
-        let common = Common::new(self.pairs.frames(pair, positions), self.is_mean, lead, self.level)?;
+        if !common.find(&self.pairs.facets(pair, positions), self.is_mean, lead, room, self.level) {
+            return false;
+        }
         let depth = || self.pairs.depth(pair);
-        let is_sound = was_there || common.lowest >= 0.0 || -common.lowest <= DEEPER * depth() + ROUNDING * common.size();
-        is_sound.then_some(common)
+        was_there || common.lowest >= 0.0 || -common.lowest <= DEEPER * depth() + ROUNDING * common.size()
     }
 
     /// What the springs of a pair know: what they knew (by the number of the pair in the last step), or the
@@ -248,7 +249,7 @@ impl Segment {
         let may_be = before.is_none() && self.start.has_begun && self.law.is_elastic();
         let at_once = may_be && {
             let old = self.pairs.frames_at(pair, sweep.old);
-            Common::new([&old[0], &old[1]], true, 0.0, self.level).is_some_and(|before| before.fraction() > AT_ONCE)
+            Common::new(&Facets::alone([&old[0], &old[1]]), true, 0.0, self.level).is_some_and(|before| before.fraction() > AT_ONCE)
         };
         let (surfaces, pressure) = (self.pairs.surfaces(), self.pressure(pair));
         let distance = self.start.distance([common.frames[0].nodes(), common.frames[1].nodes()]);
@@ -278,7 +279,7 @@ impl Segment {
             while now.next_if(|&pair| pair < before.pair).is_some() {}
             if now.peek() != Some(&before.pair) && before.stored > 0.0 {
                 let frames = self.pairs.frames_at(before.pair, positions);
-                let common = Common::new([&frames[0], &frames[1]], true, 0.0, self.level);
+                let common = Common::new(&Facets::alone([&frames[0], &frames[1]]), true, 0.0, self.level);
                 sum += if common.is_some_and(|common| common.fraction() > AT_ONCE) { before.stored } else { 0.0 };
             }
         }
@@ -302,12 +303,13 @@ impl Segment {
         self.proof.look_at(&self.pairs.tracker, None, scene.sweep);
         self.pairs.begin_rims();
         for facing in &self.facing {
-            self.pairs.note_rims(facing.pair, facing.edges, facing.stored, scene.sweep.new);
+            self.pairs.note_rims(facing.pair, facing.edges, facing.stored);
         }
         std::mem::swap(&mut self.facing, &mut self.before);
         self.facing.clear();
         self.by_second.clear();
         self.used.clear();
+        let (mut common, mut room) = (Common::default(), Room::default());
         let mut at = 0;
         for index in 0..self.pairs.list.len() {
             let pair = self.pairs.list[index];
@@ -316,9 +318,7 @@ impl Segment {
                 at += 1;
             }
             let before = self.before.get(at).is_some_and(|facing| facing.pair == pair).then_some(at);
-            if bound.frees(pair)
-                && let Some(common) = self.common(pair, before.is_some(), scene.sweep.new)
-            {
+            if bound.frees(pair) && self.meet(pair, before.is_some(), scene.sweep.new, &mut common, &mut room) {
                 self.connect(pair, before, &common, scene.sweep, springs);
             }
         }

@@ -9,69 +9,15 @@
 //! [`super::relax`].
 
 use super::batches::Batches;
+use super::grips::{Grip, Pushes, Velocities};
+use super::head::{Axes, Gaps, Head, Rub};
 use super::islands::NONE;
 use super::link::{Joints, begins};
-use super::{NodeResponse, NodeResponses, Solved, Spring, TangentSpace, Tangential, Terms};
+use super::sweep::{gap_row, normal};
+use super::{Along, NodeResponse, NodeResponses, TangentSpace, Tangential};
 use crate::tensor::Dim;
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Places, Room};
 use std::ops::Range;
-
-/// Eight springs: across the surface.
-#[derive(Clone, Copy)]
-pub(super) struct Head {
-    /// Rows of the arms: the first one, and how many.
-    pub(super) first: u32,
-    pub(super) count: u32,
-    /// g^{n−½}, and g^{n+½} without any force, m.
-    pub(super) gap_old: Batch,
-    pub(super) gap_free: Batch,
-    /// Change of g^{n+½} per normal force.
-    pub(super) compliance: Batch,
-    /// k / (2 + k c): force per sum of both gaps, while it is linear in them.
-    pub(super) stiffness: Batch,
-    /// Gaps at n + ½ between which it is; none if it is not at n − ½.
-    pub(super) linear: [Batch; 2],
-    /// Gap without force from which on it stays open; none if it was not at n − ½.
-    pub(super) open: Batch,
-}
-
-impl Default for Head {
-    fn default() -> Self {
-        let zero = Batch::default();
-        let open = Batch::splat(f64::INFINITY);
-        let linear = [Batch::splat(f64::NEG_INFINITY), open];
-        Self { first: 0, count: 0, gap_old: zero, gap_free: zero, compliance: zero, stiffness: zero, linear, open }
-    }
-}
-
-impl Head {
-    /// Numbers of the rows.
-    #[inline(always)]
-    pub(super) fn arms(&self) -> Range<usize> {
-        self.first as usize..(self.first + self.count) as usize
-    }
-}
-
-/// Eight springs: along the surface, where friction has a finite stiffness. Entries from 1 on are those along
-/// the tangents.
-#[derive(Clone, Copy)]
-pub(super) struct Rub<const D: usize> {
-    /// Of the elastic slip, N/m.
-    pub(super) stiffness: Batch,
-    /// Most friction: per normal force, what it has beyond, and the most that there ever is, N.
-    pub(super) limit: [Batch; 3],
-    /// Elastic slip at n − ½ and n + ½, m, and ones where friction is at its limit.
-    pub(super) slip: [Batch; D],
-    pub(super) slip_new: [Batch; D],
-    pub(super) slides: Batch,
-}
-
-impl<const D: usize> Default for Rub<D> {
-    fn default() -> Self {
-        let (zero, one) = (Batch::default(), Batch::splat(1.0));
-        Self { stiffness: one, limit: [zero, zero, one], slip: [zero; D], slip_new: [zero; D], slides: zero }
-    }
-}
 
 /// Springs that agree by themselves.
 #[derive(Clone, Copy, Debug, Default)]
@@ -84,9 +30,22 @@ pub(super) struct Part {
     pub(super) before: f64,
     pub(super) sweeps: u32,
     pub(super) is_done: bool,
+    /// Whether it is one spring across the surface: what it finds first is its force.
+    pub(super) is_alone: bool,
     /// Whether it always goes to [`super::relax`] instead, and whether it does in this step.
     pub(super) is_barred: bool,
     pub(super) is_general: bool,
+}
+
+/// What rows have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A share of the normal, on what yields in all directions.
+    Plain,
+    /// More across the surface, and nothing along it.
+    Normal,
+    /// Also something along the surface.
+    Sliding,
 }
 
 /// Springs, eight at a time.
@@ -96,26 +55,36 @@ where
     Dim<D>: TangentSpace<D>,
 {
     batches: Batches,
-    /// Numbers of the springs, batch and lane of each, and what is found of them.
-    springs: Vec<u32>,
-    at: Vec<(u32, u8)>,
-    pub(super) found: Vec<Solved<D>>,
+    /// Numbers of the springs, and batch and lane of each.
+    pub(super) springs: Vec<u32>,
+    pub(super) at: Vec<(u32, u8)>,
     /// Spring (counted from the first of the block) and part of each lane; [`NONE`]: no spring.
     pub(super) lanes: Vec<[u32; BATCH]>,
     pub(super) part_of: Vec<[u32; BATCH]>,
     pub(super) parts: Vec<Part>,
+    /// Of each batch the first of its arms, and where they end.
+    arms_of: Vec<[u32; 2]>,
     pub(super) heads: Vec<Head>,
+    pub(super) gaps: Vec<Gaps>,
     /// Normal forces and friction along each tangent, N/m.
-    pub(super) forces: Vec<[Batch; D]>,
+    pub(super) forces: Axes,
     /// Rates of the gap and of the slips before the update, and after it without springs, m/s.
-    pub(super) old: Vec<[Batch; D]>,
-    pub(super) free: Vec<[Batch; D]>,
+    pub(super) old: Axes,
+    pub(super) free: Axes,
     /// What forces of a spring do to its own rates; empty where none cares for slip.
     pub(super) own: Vec<[[Batch; D]; D]>,
     /// As long as that where friction is found in lanes.
     pub(super) rubs: Vec<Rub<D>>,
-    /// Rooms, rows of the gap, and of the slips D − 1 for each; the last are empty where none cares.
+    /// Of each spring its elastic slip at n + ½, m, and whether friction is at its limit, where it is found
+    /// one by one.
+    pub(super) slid: Vec<(Along<D>, bool)>,
+    /// Room of each arm, and its share in the gap: with the normals of the springs the row of the gap's rate,
+    /// where these are all there is to it.
     pub(super) places: Places,
+    pub(super) shares: Vec<Batch>,
+    pub(super) normals: Vec<[Batch; D]>,
+    is_plain: bool,
+    /// Else rows of the gap, and of the slips D − 1 for each; the last are empty where none cares.
     pub(super) rows: Vec<[Batch; D]>,
     pub(super) slips: Vec<[Batch; D]>,
     /// What springs added to the velocity of each mover, then its mobility; the first is nobody's.
@@ -124,13 +93,20 @@ where
     rooms_old: Vec<Room>,
     rooms_free: Vec<Room>,
     axes: Vec<Room>,
-    /// Whether springs end at what does not move, and whether some end twice at the same.
+    /// Whether springs end at what they do not move while they are swept, whether some end twice at the same,
+    /// and whether some end at rigid bodies that follow after each sweep.
     has_fixed_ends: bool,
     has_common_ends: bool,
+    pub(super) has_grips: bool,
+    /// Springs at those bodies, what these have added to the rates of gap and slips in the present sweep, and
+    /// what the springs push with.
+    pub(super) grips: Vec<Grip<D>>,
+    pub(super) lent: Axes,
+    pub(super) pushes: Pushes,
     /// Place and part of each mover.
     movers: Vec<(u32, u32)>,
     /// Row of each end; [`NONE`]: it does not move.
-    arms: Vec<u32>,
+    pub(super) arms: Vec<u32>,
     /// The rooms of a spring while it is placed.
     slots: Vec<u32>,
     /// Rooms that other blocks have as well, and their numbers there.
@@ -152,6 +128,22 @@ where
         !self.own.is_empty()
     }
 
+    /// Arms of a batch.
+    #[inline(always)]
+    pub(super) fn arms(&self, batch: usize) -> Range<usize> {
+        let [first, end] = self.arms_of[batch];
+        first as usize..end as usize
+    }
+
+    /// With which kernels it is solved.
+    pub(super) fn kind(&self) -> Kind {
+        match self.slides() {
+            true => Kind::Sliding,
+            false if self.is_plain => Kind::Plain,
+            false => Kind::Normal,
+        }
+    }
+
     /// Takes the `springs` of islands that end at `ends`. `rooms` is memory to work in: a [`NONE`] for each
     /// place.
     pub(super) fn arrange<M: NodeResponses<D> + Sync>(
@@ -159,20 +151,25 @@ where
         joints: &Joints<'_, M, D>,
         springs: &[u32],
         ends: impl Iterator<Item = u32>,
-        rooms: &mut [u32],
+        (rooms, is_cluster): (&mut [u32], bool),
     ) {
         self.parts.clear();
         self.parts.extend(ends.map(|end| Part { end, ..Part::default() }));
         self.springs.clear();
         self.springs.extend_from_slice(springs);
-        self.find_movers(joints, rooms);
+        self.find_movers(joints, (rooms, is_cluster));
         self.set_lanes(joints);
+        let (slides, mut begin) = (self.slides(), 0);
+        for part in &mut self.parts {
+            part.is_alone = part.end - begin == 1 && !slides;
+            begin = part.end;
+        }
         self.set_arms(joints);
         self.movers[1..].iter().for_each(|&(place, _)| rooms[place as usize] = NONE);
     }
 
     /// What the springs move, and which spring goes where; rooms of the ends go to `arms`.
-    fn find_movers<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, rooms: &mut [u32]) {
+    fn find_movers<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, (rooms, is_cluster): (&mut [u32], bool)) {
         let Self { batches, at, springs, parts, movers, arms, slots, .. } = self;
         let (nodes, mut part) = (joints.update.nodes.count(), 0);
         batches.clear();
@@ -181,14 +178,17 @@ where
         movers.clear();
         movers.push((NONE, 0));
         arms.clear();
-        (self.has_fixed_ends, self.has_common_ends) = (false, false);
+        (self.has_fixed_ends, self.has_common_ends, self.has_grips) = (false, false, false);
         for (spring, &number) in springs.iter().enumerate() {
             part += usize::from(spring as u32 == parts[part].end);
             let mut is_general = !joints.laws.terms(number).law.is_elastic();
             slots.clear();
             for k in joints.laws.list[number as usize].ends() {
                 let place = joints.places[k];
-                if joints.slots[place as usize] == NONE {
+                let is_body = joints.at[place as usize] as usize >= nodes;
+                let is_fixed = joints.slots[place as usize] == NONE;
+                if is_fixed || (is_body && is_cluster) {
+                    self.has_grips |= !is_fixed;
                     self.has_fixed_ends = true;
                     arms.push(NONE);
                     continue;
@@ -198,7 +198,7 @@ where
                     *room = movers.len() as u32;
                     movers.push((place, part as u32));
                     batches.add_slot();
-                    is_general |= joints.at[place as usize] as usize >= nodes;
+                    is_general |= is_body;
                 }
                 arms.push(*room);
                 if slots.contains(room) {
@@ -216,18 +216,18 @@ where
     fn set_lanes<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) {
         let count = self.batches.filled.len();
         let slides = self.springs.iter().any(|&number| !matches!(joints.laws.terms(number).tangential, Tangential::Free));
-        self.found.clear();
-        self.found.resize(self.springs.len(), Solved::default());
         self.heads.clear();
         self.heads.resize(count, Head::default());
+        self.arms_of.clear();
+        self.arms_of.resize(count, [0; 2]);
         self.lanes.clear();
         self.lanes.resize(count, [NONE; BATCH]);
         self.part_of.clear();
         self.part_of.resize(count, [0; BATCH]);
         for list in [&mut self.forces, &mut self.old, &mut self.free] {
-            list.clear();
-            list.resize(count, [Batch::default(); D]);
+            list.clear(count, if slides { D } else { 1 });
         }
+        self.lent.clear(if self.has_grips { count } else { 0 }, if slides { D } else { 1 });
         self.own.clear();
         self.own.resize(if slides { count } else { 0 }, [[Batch::default(); D]; D]);
         let in_lanes = |&number: &u32| match joints.laws.terms(number).tangential {
@@ -237,25 +237,34 @@ where
         };
         self.rubs.clear();
         self.rubs.resize(if slides && self.springs.iter().all(in_lanes) { count } else { 0 }, Rub::default());
+        self.slid.clear();
+        self.slid.resize(if slides && self.rubs.is_empty() { self.springs.len() } else { 0 }, Default::default());
+        self.gaps.clear();
+        self.gaps.resize(count, Gaps::default());
+        self.normals.clear();
+        self.normals.resize(if slides { 0 } else { count }, [Batch::default(); D]);
         let mut part = 0;
         for (spring, &(batch, lane)) in self.at.iter().enumerate() {
             part += u32::from(spring as u32 == self.parts[part as usize].end);
             if batch != NONE {
-                let head = &mut self.heads[batch as usize];
-                head.count = head.count.max(joints.laws.list[self.springs[spring] as usize].count);
+                let [_, count] = &mut self.arms_of[batch as usize];
+                *count = (*count).max(joints.laws.list[self.springs[spring] as usize].count);
                 self.lanes[batch as usize][usize::from(lane)] = spring as u32;
                 self.part_of[batch as usize][usize::from(lane)] = part;
             }
         }
         let mut arms = 0;
-        for head in &mut self.heads {
-            head.first = arms;
-            arms += head.count;
+        for [first, end] in &mut self.arms_of {
+            *first = arms;
+            arms += *end;
+            *end = arms;
         }
         self.places.clear();
         self.places.resize(arms as usize);
+        self.shares.clear();
+        self.shares.resize(if slides { 0 } else { arms as usize }, Batch::default());
+        // Filled where they are needed.
         self.rows.clear();
-        self.rows.resize(arms as usize, [Batch::default(); D]);
         self.slips.clear();
         self.slips.resize(if slides { (D - 1) * arms as usize } else { 0 }, [Batch::default(); D]);
     }
@@ -269,7 +278,7 @@ where
                 if *end == NONE || batch == NONE {
                     continue;
                 }
-                let first = self.heads[batch as usize].first;
+                let [first, _] = self.arms_of[batch as usize];
                 let known = (first..first + count).find(|&arm| self.places.get(arm as usize, lane) == *end as usize);
                 let arm = known.unwrap_or(first + count);
                 count += u32::from(known.is_none());
@@ -279,33 +288,32 @@ where
         }
     }
 
-    /// Takes the state of the step: no force acts yet.
-    pub(super) fn load<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) {
+    /// Takes the state of the step: no force acts yet; `bodies` are those that follow after each sweep.
+    pub(super) fn load<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, bodies: &Velocities<D>) {
         for part in &mut self.parts {
-            *part =
-                Part { end: part.end, is_barred: part.is_barred, is_general: part.is_barred, is_done: part.is_barred, ..Part::default() };
+            let Part { end, is_alone, is_barred, .. } = *part;
+            *part = Part { end, is_alone, is_barred, is_general: is_barred, is_done: is_barred, ..Part::default() };
         }
-        self.load_movers(joints);
-        let axes = if self.slides() { D } else { 1 };
-        self.forces.iter_mut().for_each(|forces| forces[..axes].fill(Batch::default()));
+        self.is_plain = self.load_movers(joints) && !self.slides() && !self.has_common_ends;
+        self.forces.fill();
+        self.slid.fill(Default::default());
         if self.has_fixed_ends {
-            self.old.iter_mut().chain(&mut self.free).for_each(|rates| rates[..axes].fill(Batch::default()));
+            self.old.fill();
+            self.free.fill();
         }
-        if self.has_common_ends {
-            self.rows.iter_mut().chain(&mut self.slips).for_each(|row| row.fill(Batch::default()));
+        self.is_plain = self.is_plain && self.load_shares(joints);
+        if !self.is_plain {
+            self.load_rows(joints);
         }
-        let mut end = 0;
-        for spring in 0..self.springs.len() {
-            if self.at[spring].0 != NONE {
-                self.load_rows(joints, spring, end);
-            }
-            end += joints.laws.list[self.springs[spring] as usize].count as usize;
+        if self.has_fixed_ends {
+            self.add_fixed_ends(joints);
         }
+        self.load_grips(joints, bodies);
         let (level, half) = (joints.update.level, 0.5 * joints.laws.time_steps[1]);
-        if self.slides() {
-            level.run(Prepare::<true, D> { block: self, half });
-        } else {
-            level.run(Prepare::<false, D> { block: self, half });
+        match self.kind() {
+            Kind::Plain => level.run(Prepare::<false, true, D> { block: self, half }),
+            Kind::Normal => level.run(Prepare::<false, false, D> { block: self, half }),
+            Kind::Sliding => level.run(Prepare::<true, false, D> { block: self, half }),
         }
         for spring in 0..self.springs.len() {
             if self.at[spring].0 != NONE {
@@ -315,8 +323,9 @@ where
     }
 
     /// Velocities and mobilities of the movers; parts with one that does not yield alike along all axes that
-    /// are free are for others.
-    fn load_movers<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) {
+    /// are free are for others. Whether all axes of all movers are free.
+    fn load_movers<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) -> bool {
+        let mut are_free = true;
         let Self { movers, parts, rooms, rooms_old, rooms_free, axes, .. } = self;
         for list in [&mut *rooms, rooms_old, rooms_free, axes] {
             list.clear();
@@ -333,6 +342,7 @@ where
             for i in 0..D {
                 let moves = entries[Dim::<D>::AT[i][i]] != 0.0;
                 axes[room].0[i] = if moves { 1.0 } else { 0.0 };
+                are_free &= moves;
                 for j in i..D {
                     let expected = if i == j && moves { mobility } else { 0.0 };
                     part.is_general |= entries[Dim::<D>::AT[i][j]] != expected;
@@ -343,45 +353,84 @@ where
             rooms_old[room].0[..D].copy_from_slice(&velocity_old);
             rooms_free[room].0[..D].copy_from_slice(&velocity);
         }
+        are_free
     }
 
-    /// The rows of a spring, whose ends are those from `first` on.
-    fn load_rows<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, spring: usize, first: usize) {
-        let (number, (batch, lane)) = (self.springs[spring], self.at[spring]);
-        let (data, lane) = (&joints.laws.list[number as usize], usize::from(lane));
-        let has_slip = self.slides() && !matches!(joints.laws.terms(number).tangential, Tangential::Free);
-        let tangents = if has_slip { data.tangents() } else { Default::default() };
-        for (index, k) in data.ends().enumerate() {
-            let (arm, end) = (self.arms[first + index], joints.ends.get(k));
-            if arm == NONE {
-                self.add_fixed(joints, k, batch as usize, lane);
-                continue;
+    /// Goes through the springs that are in lanes: number of each in the list, of its first end in `arms`,
+    /// and batch and lane.
+    pub(super) fn in_lanes<'a, M: NodeResponses<D> + Sync>(
+        (springs, at): (&'a [u32], &'a [(u32, u8)]),
+        joints: &'a Joints<'_, M, D>,
+    ) -> impl Iterator<Item = (u32, usize, [usize; 2])> {
+        let mut next = 0;
+        springs.iter().zip(at).filter_map(move |(&number, &(batch, lane))| {
+            let first = next;
+            next += joints.laws.list[number as usize].count as usize;
+            (batch != NONE).then_some((number, first, [batch as usize, usize::from(lane)]))
+        })
+    }
+
+    /// Shares and normals; `false`: some row has more.
+    fn load_shares<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) -> bool {
+        let Self { springs, at, arms, shares, normals, .. } = self;
+        for (number, first, [batch, lane]) in Self::in_lanes((springs, at), joints) {
+            let spring = &joints.laws.list[number as usize];
+            normals[batch].iter_mut().zip(spring.normal).for_each(|(normal, n)| normal.0[lane] = n);
+            for (&arm, k) in arms[first..].iter().zip(spring.ends()).filter(|(arm, _)| **arm != NONE) {
+                let Some(share) = joints.ends.share_alone(k) else { return false };
+                shares[arm as usize].0[lane] = share;
             }
-            let turned = |row: [f64; D]| end.image().map_or(row, |turn| Dim::<D>::pull_back(turn, row));
-            let arm = arm as usize;
-            set_row(&mut self.rows[arm], lane, turned(end.gap_row(data.normal)), self.has_common_ends);
-            if has_slip {
-                let slips = end.slip_rows(&tangents);
-                for a in 0..D - 1 {
-                    set_row(&mut self.slips[(D - 1) * arm + a], lane, turned(slips[a]), self.has_common_ends);
+        }
+        true
+    }
+
+    /// Rows of all springs.
+    fn load_rows<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) {
+        let (slides, adds) = (self.slides(), self.has_common_ends);
+        let Self { springs, at, arms, rows, slips, places, .. } = self;
+        rows.resize(places.len(), [Batch::default(); D]);
+        slips.resize(if slides { (D - 1) * places.len() } else { 0 }, [Batch::default(); D]);
+        if adds {
+            rows.iter_mut().chain(&mut *slips).for_each(|row| row.fill(Batch::default()));
+        }
+        for (number, first, [_, lane]) in Self::in_lanes((springs, at), joints) {
+            let spring = &joints.laws.list[number as usize];
+            let has_slip = slides && !matches!(joints.laws.terms(number).tangential, Tangential::Free);
+            let tangents = if has_slip { spring.tangents() } else { Default::default() };
+            for (&arm, k) in arms[first..].iter().zip(spring.ends()).filter(|(arm, _)| **arm != NONE) {
+                let (arm, end) = (arm as usize, joints.ends.get(k));
+                let turned = |row: [f64; D]| end.image().map_or(row, |turn| Dim::<D>::pull_back(turn, row));
+                set_row(&mut rows[arm], lane, turned(end.gap_row(spring.normal)), adds);
+                if has_slip {
+                    let of_slips = end.slip_rows(&tangents);
+                    for a in 0..D - 1 {
+                        set_row(&mut slips[(D - 1) * arm + a], lane, turned(of_slips[a]), adds);
+                    }
                 }
             }
         }
     }
 
-    /// What an end that does not move by forces adds to the rates of its spring.
-    fn add_fixed<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>, k: usize, batch: usize, lane: usize) {
-        let spring = &joints.laws.list[self.springs[self.lanes[batch][lane] as usize] as usize];
-        let (end, fixed) = (joints.ends.get(k), joints.movable(k));
-        let mut add = |axis: usize, row: [f64; D]| {
-            let [old, free] = fixed.rates(row, &end);
-            self.old[batch][axis].0[lane] += old;
-            self.free[batch][axis].0[lane] += free;
-        };
-        add(0, end.gap_row(spring.normal));
-        if !matches!(joints.laws.terms(self.springs[self.lanes[batch][lane] as usize]).tangential, Tangential::Free) {
-            let slips = end.slip_rows(&spring.tangents());
-            (1..D).for_each(|axis| add(axis, slips[axis - 1]));
+    /// What ends that do not move by forces add to the rates of their springs.
+    fn add_fixed_ends<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) {
+        let Self { springs, at, arms, old, free, .. } = self;
+        for (number, first, [batch, lane]) in Self::in_lanes((springs, at), joints) {
+            let spring = &joints.laws.list[number as usize];
+            let has_slip = !matches!(joints.laws.terms(number).tangential, Tangential::Free);
+            let is_fixed = |k: usize| joints.slots[joints.places[k] as usize] == NONE;
+            for (_, k) in arms[first..].iter().zip(spring.ends()).filter(|(arm, k)| **arm == NONE && is_fixed(*k)) {
+                let (end, fixed) = (joints.ends.get(k), joints.movable(k));
+                let mut add = |axis: usize, row: [f64; D]| {
+                    let [before, after] = fixed.rates(row, &end);
+                    old[batch][axis].0[lane] += before;
+                    free[batch][axis].0[lane] += after;
+                };
+                add(0, end.gap_row(spring.normal));
+                if has_slip {
+                    let slips = end.slip_rows(&spring.tangents());
+                    (1..D).for_each(|axis| add(axis, slips[axis - 1]));
+                }
+            }
         }
     }
 
@@ -393,22 +442,14 @@ where
         let [before, after] = joints.laws.time_steps;
         let (old, free) = (&self.old[batch], &self.free[batch]);
         let (gap, gap_old) = begins(joints, number, old[0].0[lane], before);
-        let slips = |rates: &[Batch; D]| Dim::<D>::tangent_vector(|a| rates[a + 1].0[lane]);
-        let (rates, slip_rates) = ([old[0].0[lane], free[0].0[lane]], [slips(old), slips(free)]);
-        self.found[spring] = Solved { gap, rates, slip_rates, ..Solved::default() };
         if let Some(rub) = self.rubs.get_mut(batch) {
-            set_rub(rub, lane, data, terms, Dim::<D>::size(&slip_rates[0]));
+            let slip_rate = Dim::<D>::tangent_vector(|a| old[a + 1].0[lane]);
+            rub.set(lane, (data, terms), Dim::<D>::size(&slip_rate));
         }
-        let head = &mut self.heads[batch];
-        let compliance = head.compliance.0[lane];
-        head.gap_old.0[lane] = gap_old;
-        head.gap_free.0[lane] = gap + 0.5 * after * rates[1];
-        let linear = if terms.damping > 0.0 { None } else { terms.law.linear(&data.patch()) };
-        let [low, high] = linear.filter(|[low, high]| (*low..=*high).contains(&gap_old)).unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
-        (head.linear[0].0[lane], head.linear[1].0[lane]) = (low, high);
-        head.stiffness.0[lane] = data.stiffness / (2.0 + data.stiffness * compliance);
-        let reach = linear.map_or_else(|| terms.law.reach(), |[_, high]| high);
-        head.open.0[lane] = if gap_old >= reach { reach } else { f64::INFINITY };
+        let gaps = &mut self.gaps[batch];
+        let (compliance, gap_free) = (gaps.compliance.0[lane], gap + 0.5 * after * free[0].0[lane]);
+        (gaps.now.0[lane], gaps.old.0[lane], gaps.free.0[lane]) = (gap, gap_old, gap_free);
+        self.heads[batch].set(lane, (data, terms), [gap_old, gap_free, compliance], after);
     }
 
     /// Notes which rooms other blocks have as well; `of` says the number of a place there.
@@ -419,12 +460,22 @@ where
         self.shared.extend(shared);
     }
 
-    /// Takes what others know of the rooms that they have as well.
+    /// Takes what others know of the rooms that they have as well; whether that is something new.
     #[inline]
-    pub(super) fn take_over(&mut self, known: &[Room]) {
+    pub(super) fn take_over(&mut self, known: &[Room]) -> bool {
+        let mut is_new = false;
         for &[room, shared] in &self.shared {
-            self.rooms[room as usize] = known[shared as usize];
+            let (own, known) = (&mut self.rooms[room as usize], known[shared as usize]);
+            is_new |= *own != known;
+            *own = known;
         }
+        is_new
+    }
+
+    /// Whether its last sweep changed nothing at all: no more would, as long as others change nothing.
+    pub(super) fn is_still(&self) -> bool {
+        let Part { sweeps, change, .. } = self.parts[0];
+        sweeps > 0 && change == 0.0 && self.grips.is_empty()
     }
 
     /// The other way round.
@@ -434,19 +485,6 @@ where
             known[shared as usize] = self.rooms[room as usize];
         }
     }
-}
-
-/// Puts friction of a spring that slid at a rate (m/s) into a lane.
-fn set_rub<const D: usize>(rub: &mut Rub<D>, lane: usize, spring: &Spring<D>, terms: &Terms, slip_rate: f64)
-where
-    Dim<D>: TangentSpace<D>,
-{
-    let Tangential::Friction(friction) = terms.tangential else { return };
-    rub.stiffness.0[lane] = terms.law.slip_stiffness(&spring.patch());
-    for (kept, value) in rub.limit.iter_mut().zip(friction.limits(spring.area, slip_rate)) {
-        kept.0[lane] = value;
-    }
-    (1..D).for_each(|axis| rub.slip[axis].0[lane] = spring.slip[axis - 1]);
 }
 
 /// Sets a row in a lane, or adds it to what is there.
@@ -459,7 +497,7 @@ fn set_row<const D: usize>(rows: &mut [Batch; D], lane: usize, row: [f64; D], ad
 
 /// Finds the rates of all springs without forces, and what their own forces do to them; rows lose what is
 /// along axes on which nothing moves.
-struct Prepare<'a, const SLIDES: bool, const D: usize>
+struct Prepare<'a, const SLIDES: bool, const PLAIN: bool, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -468,7 +506,7 @@ where
     half: f64,
 }
 
-impl<const SLIDES: bool, const D: usize> Kernel for Prepare<'_, SLIDES, D>
+impl<const SLIDES: bool, const PLAIN: bool, const D: usize> Kernel for Prepare<'_, SLIDES, PLAIN, D>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -478,7 +516,7 @@ where
     fn run<L: Lane>(self) {
         for batch in 0..self.block.heads.len() {
             for at in (0..BATCH).step_by(L::WIDTH) {
-                prepare::<L, SLIDES, D>(self.block, batch, at, self.half);
+                prepare::<L, SLIDES, PLAIN, D>(self.block, batch, at, self.half);
             }
         }
     }
@@ -486,7 +524,7 @@ where
 
 /// The same for the lanes of a batch from `at` on.
 #[inline(always)]
-fn prepare<L: Lane, const SLIDES: bool, const D: usize>(block: &mut Block<D>, batch: usize, at: usize, half: f64)
+fn prepare<L: Lane, const SLIDES: bool, const PLAIN: bool, const D: usize>(block: &mut Block<D>, batch: usize, at: usize, half: f64)
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -498,22 +536,31 @@ where
             free[axis] = L::load(&block.free[batch][axis], at);
         }
     }
-    let Block { heads, rows, slips, rooms, rooms_old, rooms_free, axes: free_axes, places, .. } = &mut *block;
-    let head = &heads[batch];
-    for arm in head.arms() {
+    let normal = normal::<L, PLAIN, D>(block, batch, at);
+    for arm in block.arms(batch) {
+        let mut kept = [[L::splat(0.0); D]; D];
+        kept[0] = gap_row::<L, PLAIN, D>(block, arm, at, &normal);
+        let Block { rows, slips, rooms, rooms_old, rooms_free, axes: free_axes, places, .. } = &mut *block;
         let before = L::gather_rooms(rooms_old, places, arm, at);
         let after = L::gather_rooms(rooms_free, places, arm, at);
         let mobility = L::gather_rooms(rooms, places, arm, at)[D];
-        let moves = L::gather_rooms(free_axes, places, arm, at);
-        let mut kept = [[L::splat(0.0); D]; D];
+        for axis in 1..axes {
+            (0..D).for_each(|d| kept[axis][d] = L::load(&slips[(D - 1) * arm + axis - 1][d], at));
+        }
         for axis in 0..axes {
-            let row = if axis == 0 { &mut rows[arm] } else { &mut slips[(D - 1) * arm + axis - 1] };
             for d in 0..D {
-                let value = L::load(&row[d], at);
-                old[axis] += value * before[d];
-                free[axis] += value * after[d];
-                kept[axis][d] = value * moves[d];
-                kept[axis][d].store(&mut row[d], at);
+                old[axis] += kept[axis][d] * before[d];
+                free[axis] += kept[axis][d] * after[d];
+            }
+        }
+        if !PLAIN {
+            let moves = L::gather_rooms(free_axes, places, arm, at);
+            for axis in 0..axes {
+                let row = if axis == 0 { &mut rows[arm] } else { &mut slips[(D - 1) * arm + axis - 1] };
+                for d in 0..D {
+                    kept[axis][d] = kept[axis][d] * moves[d];
+                    kept[axis][d].store(&mut row[d], at);
+                }
             }
         }
         for on in 0..axes {
@@ -534,5 +581,5 @@ where
             }
         }
     }
-    (L::splat(half) * own[0][0]).store(&mut block.heads[batch].compliance, at);
+    (L::splat(half) * own[0][0]).store(&mut block.gaps[batch].compliance, at);
 }

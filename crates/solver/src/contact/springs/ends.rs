@@ -5,6 +5,7 @@ use super::{End, Solved, Spring};
 use crate::contact::springs::TangentSpace;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
+use std::ops::Range;
 
 /// No more.
 const NONE: u32 = u32::MAX;
@@ -103,10 +104,22 @@ where
         KeptEnd { at, share, turn: self.turns.get(k), more: self.more.get(more as usize) }
     }
 
+    /// Share of an end in the gap; `None`: it has more than that and what is along the surface.
+    #[inline]
+    pub(super) fn share_alone(&self, k: usize) -> Option<f64> {
+        let PackedEnd { more, share, .. } = self.list[k];
+        (more == NONE).then_some(share)
+    }
+
     /// Node or rigid body of an end.
     #[inline]
     pub(super) fn at(&self, k: usize) -> u32 {
         self.list[k].at
+    }
+
+    /// Whether some ends are at these nodes or rigid bodies.
+    pub(super) fn all_at(&self, ends: Range<usize>, at: &[u32]) -> bool {
+        self.list[ends].iter().zip(at).all(|(end, &at)| end.at == at)
     }
 
     /// Lets the end act at a place, m.

@@ -26,10 +26,10 @@ where
     Dim<D>: TangentSpace<D>,
 {
     /// x, y (and z) and, of a rigid body, angular.
-    velocity_old: Row<D>,
+    pub(super) velocity_old: Row<D>,
     /// v^{n+½} without springs.
-    velocity_free: Row<D>,
-    mobility: <Dim<D> as TangentSpace<D>>::Mobility,
+    pub(super) velocity_free: Row<D>,
+    pub(super) mobility: <Dim<D> as TangentSpace<D>>::Mobility,
     /// Centre of a rigid body; `None`: a node.
     centre: Option<[f64; D]>,
 }
@@ -78,7 +78,7 @@ where
     /// A row of force `row` at an end, with its moment on a rigid body; of the image of a node as its leader
     /// feels it.
     #[inline]
-    fn row(&self, mut row: [f64; D], end: &KeptEnd<'_, D>) -> Row<D> {
+    pub(super) fn row(&self, mut row: [f64; D], end: &KeptEnd<'_, D>) -> Row<D> {
         if let Some(turn) = end.image() {
             row = Dim::<D>::pull_back(turn, row);
         }

@@ -3,11 +3,13 @@
 //! Springs come from the contacts, the state of the step from [`crate::step`]; what was found stays until the
 //! next one, and while springs keep their ends what follows from these ([`super::topology`]). Small islands
 //! are solved some together ([`super::block`]), large ones cluster by cluster ([`super::clusters`]), those
-//! that sweeps do not solve, or that have rigid bodies or constraints, one after the other
+//! that sweeps do not solve, and small ones with rigid bodies or constraints, one after the other
 //! ([`super::relax`]). Within a pool of threads all share the work; results do not depend on their number.
 
 use super::block::Block;
-use super::clusters::{CLUSTER, Clusters, Problem, relax, settle};
+use super::clusters::{Clusters, Problem, relax, settle};
+use super::colours::Colouring;
+use super::grips::Velocities;
 use super::link::{Bench, Joints, Laws};
 use super::newton::Newton;
 use super::relax::{Effort, Island};
@@ -20,7 +22,7 @@ use crate::tensor::Dim;
 /// Fewer springs are solved by one thread.
 const SERIAL: usize = 4 * CHUNK;
 /// Springs from which on an island is solved cluster by cluster.
-const LARGE: usize = 2 * CLUSTER;
+const LARGE: usize = 512;
 
 /// Memory of the solution.
 #[derive(Default)]
@@ -109,7 +111,7 @@ where
                 large.push(Clusters::default());
             }
             let own = &mut solved[topology.links(chunk..chunk + 1)];
-            effort.join(plan.solve_large(chunk, own, &mut large[number], &mut desks[0], threads));
+            effort.join(plan.solve_large((chunk, &topology.colourings[number]), own, &mut large[number], &mut desks[0], threads));
         }
         tasks[..chunks].iter().for_each(|task| effort.join(task.effort));
         self.sweeps_max = self.sweeps_max.max(effort.sweeps);
@@ -166,14 +168,14 @@ where
             let base = self.topology.before(islands.start);
             desk.rooms.resize(self.joints.at.len(), u32::MAX);
             let ends = islands.map(|island| (self.topology.before(island + 1) - base) as u32);
-            block.arrange(&self.joints, springs, ends, &mut desk.rooms);
+            block.arrange(&self.joints, springs, ends, (&mut desk.rooms, false));
         }
-        block.load(&self.joints);
+        block.load(&self.joints, &Velocities::default());
         while block.parts.iter().any(|part| !part.is_done) {
             relax(block, self.joints.laws, self.joints.update.level);
             block.parts.iter_mut().filter(|part| !part.is_done).for_each(|part| part.close_sweep(MOST));
         }
-        settle(block, self.joints.laws, self.joints.update.level);
+        settle(block, solved, self.joints.laws, self.joints.update.level);
         let mut begin = 0;
         for part in &block.parts {
             let own = begin..part.end as usize;
@@ -182,15 +184,21 @@ where
                 effort.join(self.solve_island(&springs[own.clone()], &mut solved[own], desk));
             } else {
                 effort.join(Effort { sweeps: part.sweeps as usize, unsolved: false });
-                solved[own.clone()].copy_from_slice(&block.found[own]);
             }
         }
     }
 
     /// Solves a large island.
-    fn solve_large(&self, chunk: usize, solved: &mut [Solved<D>], clusters: &mut Clusters<D>, desk: &mut Desk<D>, tasks: usize) -> Effort {
+    fn solve_large(
+        &self,
+        (chunk, colouring): (usize, &Colouring),
+        solved: &mut [Solved<D>],
+        clusters: &mut Clusters<D>,
+        desk: &mut Desk<D>,
+        tasks: usize,
+    ) -> Effort {
         let springs = self.topology.springs_of(chunk);
-        let problem = Problem { joints: &self.joints, springs, tasks };
+        let problem = Problem { joints: &self.joints, springs, colouring, shared: &self.topology.shared.number, tasks };
         if self.is_new {
             clusters.arrange(&problem);
         }

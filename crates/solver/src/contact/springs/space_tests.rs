@@ -385,3 +385,126 @@ fn a_spring_that_is_open_in_the_end_remembers_no_slip_of_an_earlier_sweep() {
         }
     }
 }
+
+/// A rigid body that lies on a bed of nodes: springs between each of these and the body, and, as nodes of the
+/// body would have them, between the body and the middle of each four.
+fn bed(count: usize, heaviness: f64, stiffness: f64) -> (Cloud, Bodies<3>, [f64; 4]) {
+    let mut cloud = Cloud { dt: 0.01, ..Cloud::default() };
+    let place = |i: usize| i as f64 / (count - 1) as f64 - 0.5;
+    for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
+        cloud.mass.push(1.0 / (count * count) as f64);
+        cloud.positions.push([place(i), place(j), 0.0]);
+        cloud.velocities.push([0.05 * (5.0 * place(j)).cos(), 0.1, 0.5 + 0.7 * (9.0 * place(i)).sin()]);
+    }
+    let corners = [[0.5, 0.4, 0.1], [-0.5, 0.4, 0.1], [0.5, -0.4, 0.1], [-0.5, -0.4, 0.1]];
+    let all = corners.into_iter().flat_map(|[x, y, z]| [[x, y, z], [x, y, -z]]);
+    let mass = heaviness / 8.0;
+    let turning = Turning::of_masses(all.map(|corner| (mass, corner)));
+    // About x, y and z.
+    let inertia = [0.4f64.powi(2) + 0.01, 0.5f64.powi(2) + 0.01, 0.5f64.powi(2) + 0.4f64.powi(2)].map(|square| heaviness * square);
+    let velocity = [0.3, -0.1, -1.0, 0.4, -0.2, 0.3];
+    let body =
+        Body { centre: [0.03, -0.02, 0.2], velocity, turning, mass: [heaviness, heaviness, heaviness, 0.0, 0.0, 0.0], ..Body::default() };
+    let mut bodies = Bodies::<3>::default();
+    bodies.add(body);
+    let curves = Curves::default();
+    bodies.start(&curves, &[], &mut []);
+    #[rustfmt::skip]
+    bodies.set_free(&Acting {
+        mean_step: cloud.dt, from: 0.0, to: cloud.dt, curves: &curves, positions: &[], loads: &[], internal: |_| [0.0; 3], moment: &|_| None,
+    });
+    let mut push = |point: Vector, ends: Vec<End<3>>| {
+        let gap = 2e-3 * (3.0 * point[0]).cos() * (4.0 * point[1]).sin() - 1e-3;
+        let (tangent, area) = ([1.0, 0.0, 0.0], 1.0 / (count * count) as f64);
+        let spring = Spring { normal: [0.0, 0.0, 1.0], gap, stiffness, area, tangent, ..Spring::default() };
+        let own = End { at: (count * count) as u32, share: 1.0, point, ..End::default() };
+        cloud.springs.push((spring, [vec![own], ends].concat()));
+    };
+    let at = |i: usize, j: usize| (i * count + j) as u32;
+    for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
+        push([place(i), place(j), 0.0], vec![End::node(at(i, j), -1.0)]);
+        if i + 1 < count && j + 1 < count {
+            let middle = |k: usize| 0.5 * (place(k) + place(k + 1));
+            let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            push([middle(i), middle(j), 0.0], corners.map(|corner| End::node(corner, -0.25)).to_vec());
+        }
+    }
+    (cloud, bodies, [heaviness, inertia[0], inertia[1], inertia[2]])
+}
+
+#[test]
+fn a_rigid_body_on_a_thousand_springs_moves_as_their_forces_want_it_however_light_it_is() {
+    for heaviness in [1e-3, 0.1, 1.0, 100.0] {
+        for (tangential, scale) in [(Tangential::Free, 0.3), (Tangential::Free, 10.0), (coulomb(0.3), 1.0), (coulomb(3.0), 1.0)] {
+            let count = 24;
+            let unit = 1e4 / (count * count) as f64;
+            let (cloud, bodies, [mass, inertia @ ..]) = bed(count, heaviness, scale * unit);
+            let springs = cloud.solve(terms(tangential), &bodies);
+            let (dt, body, nodes) = (cloud.dt, bodies.state(0), count * count);
+            let answers = || springs.answers(0..springs.list.len());
+            // What all move with, from the forces alone.
+            let (mut velocities, mut push, mut moment) = (cloud.velocities.clone(), [0.0; 3], [0.0; 3]);
+            for answer in answers() {
+                for end in answer.ends() {
+                    let (force, node) = (end.force(answer.spring, answer.solved), end.at as usize);
+                    if node < nodes {
+                        (0..3).for_each(|d| velocities[node][d] += dt * force[d] / cloud.mass[node]);
+                    } else {
+                        let turn = cross([0, 1, 2].map(|d| end.point()[d] - body.centre[d]), force);
+                        (0..3).for_each(|d| (push[d], moment[d]) = (push[d] + force[d], moment[d] + turn[d]));
+                    }
+                }
+            }
+            let moved = |velocity: &[f64; 6], forces: f64| {
+                let linear = [0, 1, 2].map(|d| velocity[d] + forces * dt * push[d] / mass);
+                (linear, [0, 1, 2].map(|d| velocity[3 + d] + forces * dt * moment[d] / inertia[d]))
+            };
+            let states = [(moved(&body.velocity_old, 0.0), &cloud.velocities), (moved(&body.velocity_free, 1.0), &velocities)];
+            let rate = |answer: &Answer<'_, 3>, along: Vector, state: usize| {
+                let ((linear, spin), nodes_move) = &states[state];
+                let of = |end: KeptEnd<'_, 3>| {
+                    let velocity = nodes_move.get(end.at as usize).copied().unwrap_or_else(|| {
+                        let turn = cross(*spin, [0, 1, 2].map(|d| end.point()[d] - body.centre[d]));
+                        [0, 1, 2].map(|d| linear[d] + turn[d])
+                    });
+                    end.share * dot(along, velocity)
+                };
+                answer.ends().map(of).sum::<f64>()
+            };
+            let largest = answers().map(|answer| answer.solved.force).fold(0.0, f64::max);
+            let (mut worst, mut open, mut slides) = (0.0f64, 0, 0);
+            for answer in answers() {
+                let Answer { spring, solved, .. } = answer;
+                let tangents = spring.tangents();
+                // Any share of its own answer may be left out.
+                let own: f64 = answer.ends().filter(|end| (end.at as usize) < nodes).map(|end| end.share.powi(2) * dt * nodes as f64).sum();
+                let [old, new] = [0, 1].map(|state| rate(&answer, spring.normal, state));
+                let closing = Closing {
+                    spring: &spring.patch(),
+                    old: spring.gap - 0.5 * dt * old,
+                    free: spring.gap + 0.5 * dt * (new - own * solved.force),
+                    compliance: 0.5 * dt * own,
+                };
+                worst = worst.max((Penalty.force(&closing, [dt; 2]) - solved.force).abs() / largest);
+                open += usize::from(solved.force == 0.0);
+                if let Tangential::Friction(law) = tangential {
+                    let stick = friction::FrictionInput::<3> {
+                        old: tangents.map(|t| rate(&answer, t, 0)),
+                        free: [0, 1].map(|a| rate(&answer, tangents[a], 1) - own * solved.friction[a]),
+                        compliance: [[own, 0.0], [0.0, own]],
+                        stiffness: Penalty.slip_stiffness(&spring.patch()),
+                        time_steps: [dt; 2],
+                    };
+                    let found = friction::cone::slide(&stick, spring.slip, law.limit(solved.force, spring.area, 0.0));
+                    worst = (0..2).map(|a| (found.friction[a] - solved.friction[a]).abs() / largest).fold(worst, f64::max);
+                    slides += usize::from(solved.slides && solved.force > 0.0);
+                }
+            }
+            let case =
+                format!("mass {heaviness}, {tangential:?}, {scale}: {worst:e}, {} sweeps, {open} open, {slides} slide", springs.sweeps_max);
+            assert!(springs.unsolved == 0 && worst < 1e-10 && largest > 0.0, "{case}");
+            println!("{case}");
+            assert!(springs.sweeps_max < 200, "{case}");
+        }
+    }
+}

@@ -3,16 +3,16 @@
 //!
 //! A batch reads the velocities of its nodes, finds the forces that its laws want there, and gives the nodes
 //! what these change. Most springs are closed all along the update, or open: their force is an expression in
-//! the gaps, F = −k (g⁻ + g_free) / (2 + k c). Others ask their law.
+//! the rate of the gap ([`super::block::Head`]). Others ask their law.
 
 use super::block::{Block, Part};
 use super::friction::{FrictionInput, FrictionResult, lanes};
 use super::islands::NONE;
 use super::link::Laws;
 use super::relax::TOLERANCE;
-use super::{Closing, Patch, TangentSpace, Tangential};
+use super::{Closing, Patch, Solved, TangentSpace, Tangential};
 use crate::tensor::Dim;
-use embate_lanes::{BATCH, Batch, Kernel, Lane, math};
+use embate_lanes::{BATCH, Batch, Kernel, Lane, math, prefetch};
 
 /// Sweeps after which an island is left to [`super::relax`].
 pub(super) const MOST: u32 = 80;
@@ -34,7 +34,7 @@ impl Part {
         let (change, least) = (self.change, TOLERANCE * self.largest);
         let rate = if self.sweeps > 1 { change / self.before } else { 0.0 };
         let still = if rate < 1.0 { change * f64::max(rate / (1.0 - rate), 1.0) } else { f64::INFINITY };
-        self.is_done = still <= least || change <= ROUND_OFF * least;
+        self.is_done = self.is_alone || still <= least || change <= ROUND_OFF * least;
         if !self.is_done && self.sweeps > WARM {
             let left = if rate < 1.0 { math::ln(least / still) / math::ln(rate) } else { f64::INFINITY };
             self.is_general = self.sweeps >= most || left > TOO_MANY * f64::from(most);
@@ -45,7 +45,7 @@ impl Part {
 }
 
 /// A sweep over a block. Largest changes and forces go to its parts.
-pub(super) struct Relax<'a, const SLIDES: bool, const D: usize>
+pub(super) struct Relax<'a, const SLIDES: bool, const PLAIN: bool, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -53,7 +53,7 @@ where
     pub(super) laws: Laws<'a, D>,
 }
 
-impl<const SLIDES: bool, const D: usize> Kernel for Relax<'_, SLIDES, D>
+impl<const SLIDES: bool, const PLAIN: bool, const D: usize> Kernel for Relax<'_, SLIDES, PLAIN, D>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -101,7 +101,7 @@ where
     }
 }
 
-impl<const SLIDES: bool, const D: usize> Relax<'_, SLIDES, D>
+impl<const SLIDES: bool, const PLAIN: bool, const D: usize> Relax<'_, SLIDES, PLAIN, D>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -120,14 +120,14 @@ where
     #[inline(always)]
     fn relax<L: Lane>(&mut self, batch: usize, at: usize, still: Option<&Batch>, seen: &mut [L; 2]) {
         // What most springs have in 2D and 3D, or between two facets, keeps its rooms.
-        match self.block.heads[batch].count {
+        match self.block.arms(batch).len() {
             3 => self.relax_arms::<L, 3>(batch, at, still, seen),
             4 => self.relax_arms::<L, 4>(batch, at, still, seen),
             5 => self.relax_arms::<L, 5>(batch, at, still, seen),
             8 => self.relax_arms::<L, 8>(batch, at, still, seen),
             _ => {
-                let rates = rates::<L, SLIDES, D>(self.block, batch, at);
-                let steps = self.find_forces(batch, at, rates, still, seen);
+                let rates = rates::<L, SLIDES, PLAIN, D>(self.block, batch, at);
+                let steps = self.find_forces((batch, at), (self.begun(batch, at), rates), still, seen);
                 self.move_nodes(batch, at, &steps);
             }
         }
@@ -136,35 +136,53 @@ where
     /// The same with so many arms.
     #[inline(always)]
     fn relax_arms<L: Lane, const A: usize>(&mut self, batch: usize, at: usize, still: Option<&Batch>, seen: &mut [L; 2]) {
-        let first = self.block.heads[batch].first as usize;
-        let (mut kept, mut rates) = ([[L::splat(0.0); 4]; A], [L::splat(0.0); D]);
+        let (first, normal) = (self.block.arms(batch).start, normal::<L, PLAIN, D>(self.block, batch, at));
+        let begun = self.begun(batch, at);
+        if at == 0
+            && let Some(next) = self.block.heads.get(batch + 1)
+        {
+            // Who waits for what is far does so while the one before is solved.
+            prefetch(next);
+        }
+        let (mut kept, mut rates) = ([[L::splat(0.0); 4]; A], [[L::splat(0.0); D]; D]);
         for k in 0..A {
             kept[k] = L::gather_rooms(&self.block.rooms, &self.block.places, first + k, at);
-            add_rates::<L, SLIDES, D>(self.block, first + k, at, &kept[k], &mut rates);
+            add_rates::<L, SLIDES, PLAIN, D>(self.block, first + k, at, (&kept[k], &normal), &mut rates);
         }
-        let steps = self.find_forces(batch, at, rates, still, seen);
+        let steps = self.find_forces((batch, at), (begun, rates.map(sum)), still, seen);
         for k in 0..A {
-            let room = self.moved(first + k, at, kept[k], &steps);
+            let room = self.moved(first + k, at, (kept[k], &normal), &steps);
             L::store_rooms(room, &mut self.block.rooms, &self.block.places, first + k, at);
         }
     }
 
-    /// Finds the forces of springs where all springs add `rates` to theirs: their steps.
+    /// Normal forces of springs, and what does not depend on others in those that they will have.
     #[inline(always)]
-    fn find_forces<L: Lane>(&mut self, batch: usize, at: usize, rates: [L; D], still: Option<&Batch>, seen: &mut [L; 2]) -> [L; D] {
-        let half = L::splat(0.5 * self.laws.time_steps[1]);
+    fn begun<L: Lane>(&self, batch: usize, at: usize) -> [L; 2] {
+        let (head, force) = (&self.block.heads[batch], L::load(&self.block.forces[batch][0], at));
+        [force, L::load(&head.terms[1], at) * force - L::load(&head.terms[0], at)]
+    }
+
+    /// Finds the forces of springs, of which this much is known ([`Self::begun`]), where all springs add
+    /// `rates` to theirs: their steps.
+    #[inline(always)]
+    fn find_forces<L: Lane>(
+        &mut self,
+        (batch, at): (usize, usize),
+        ([old_force, begun], mut rates): ([L; 2], [L; D]),
+        still: Option<&Batch>,
+        seen: &mut [L; 2],
+    ) -> [L; D] {
+        add_lent::<L, SLIDES, D>(self.block, batch, at, &mut rates);
         let head = &self.block.heads[batch];
-        let (compliance, old_force) = (L::load(&head.compliance, at), L::load(&self.block.forces[batch][0], at));
-        let free = L::load(&head.gap_free, at) + (half * rates[0] - compliance * old_force);
-        let closed = -(L::load(&head.stiffness, at) * (L::load(&head.gap_old, at) + free));
-        let new = free + compliance * closed;
+        let closed = begun - L::load(&head.terms[2], at) * rates[0];
         let unknown = L::splat(f64::NAN);
-        let mut force = L::select(new.less(L::load(&head.linear[0], at)), unknown, closed);
-        force = L::select(L::load(&head.linear[1], at).less(new), unknown, force);
-        force = L::select(free.less(L::load(&head.open, at)), force, L::splat(0.0));
+        let mut force = L::select(closed.less(L::load(&head.linear[0], at)), unknown, closed);
+        force = L::select(L::load(&head.linear[1], at).less(closed), unknown, force);
+        force = L::select(L::load(&head.open, at).less(closed), force, L::splat(0.0));
         let known = L::bits(force.less(L::splat(f64::INFINITY)));
         if known != (1 << L::WIDTH) - 1 {
-            force = self.ask(batch, at, known, free, force);
+            force = self.ask(batch, at, known, rates[0], force);
         }
         if let Some(still) = still {
             force = L::select(L::splat(0.5).less(L::load(still, at)), old_force, force);
@@ -194,21 +212,21 @@ where
     /// Gives the nodes what steps of the forces change.
     #[inline(always)]
     fn move_nodes<L: Lane>(&mut self, batch: usize, at: usize, steps: &[L; D]) {
-        let head = &self.block.heads[batch];
-        for arm in head.arms() {
+        let normal = normal::<L, PLAIN, D>(self.block, batch, at);
+        for arm in self.block.arms(batch) {
             let room = L::gather_rooms(&self.block.rooms, &self.block.places, arm, at);
-            let room = self.moved(arm, at, room, steps);
+            let room = self.moved(arm, at, (room, &normal), steps);
             L::store_rooms(room, &mut self.block.rooms, &self.block.places, arm, at);
         }
     }
 
     /// Rooms after steps of the forces of the springs that act there.
     #[inline(always)]
-    fn moved<L: Lane>(&self, arm: usize, at: usize, mut room: [L; 4], steps: &[L; D]) -> [L; 4] {
-        let Block { rows, slips, .. } = &*self.block;
-        let mobility = room[D];
+    fn moved<L: Lane>(&self, arm: usize, at: usize, (mut room, normal): ([L; 4], &[L; D]), steps: &[L; D]) -> [L; 4] {
+        let slips = &self.block.slips;
+        let (mobility, row) = (room[D], gap_row::<L, PLAIN, D>(self.block, arm, at, normal));
         for d in 0..D {
-            let mut pull = L::load(&rows[arm][d], at) * steps[0];
+            let mut pull = row[d] * steps[0];
             if SLIDES {
                 for axis in 1..D {
                     pull += L::load(&slips[(D - 1) * arm + axis - 1][d], at) * steps[axis];
@@ -270,25 +288,28 @@ where
         slides.store(&mut rub.slides, at);
     }
 
-    /// Asks the laws of the springs whose force is not known, where the gaps without it are `free`.
+    /// Asks the laws of the springs whose force is not known, where all springs add `rate` to that of the
+    /// gap.
     #[inline(never)]
-    fn ask<L: Lane>(&self, batch: usize, at: usize, known: u32, free: L, force: L) -> L {
+    fn ask<L: Lane>(&self, batch: usize, at: usize, known: u32, rate: L, force: L) -> L {
+        let (block, laws) = (&*self.block, &self.laws);
+        let gaps = &block.gaps[batch];
         let (mut frees, mut forces) = (Batch::default(), Batch::default());
+        let own = L::load(&gaps.compliance, at) * L::load(&block.forces[batch][0], at);
+        let free = L::load(&gaps.free, at) + (L::splat(0.5 * laws.time_steps[1]) * rate - own);
         free.store(&mut frees, at);
         force.store(&mut forces, at);
-        let (block, laws) = (&*self.block, &self.laws);
-        let head = &block.heads[batch];
         for lane in (at..at + L::WIDTH).filter(|lane| known >> (lane - at) & 1 == 0) {
             let spring = block.lanes[batch][lane];
             forces.0[lane] = 0.0;
             if spring == NONE {
                 continue;
             }
-            let (number, found) = (block.number(spring), &block.found[spring as usize]);
+            let number = block.number(spring);
             let terms = laws.terms(number);
-            let patch = &Patch { gap: found.gap, ..laws.list[number as usize].patch() };
-            let closing = Closing { spring: patch, old: head.gap_old.0[lane], free: frees.0[lane], compliance: head.compliance.0[lane] };
-            forces.0[lane] = terms.normal_force(&closing, found.rates[0], laws.time_steps);
+            let patch = &Patch { gap: gaps.now.0[lane], ..laws.list[number as usize].patch() };
+            let closing = Closing { spring: patch, old: gaps.old.0[lane], free: frees.0[lane], compliance: gaps.compliance.0[lane] };
+            forces.0[lane] = terms.normal_force(&closing, block.old[batch][0].0[lane], laws.time_steps);
         }
         L::load(&forces, at)
     }
@@ -319,8 +340,8 @@ where
             let mine = (1..D).fold(0.0, |sum, by| sum + own(a + 1, by) * forces[by].0[lane]);
             known[a + 1] - mine + own(a + 1, 0) * known[0]
         };
-        let found = &mut block.found[spring as usize];
-        let [slip_rate_old, slip_rate_free] = found.slip_rates;
+        let [slip_rate_old, slip_rate_free] =
+            [&block.old, &block.free].map(|rates| Dim::<D>::tangent_vector(|a| rates[batch][a + 1].0[lane]));
         let stick = || FrictionInput {
             old: slip_rate_old,
             free: Dim::<D>::tangent_vector(|a| slip_rate_free[a] + others(a)),
@@ -336,7 +357,7 @@ where
                 let is_open = (0..D).all(|axis| forces[axis].0[lane] == 0.0);
                 let limit = || friction.limit(force, data.area, Dim::<D>::size(&slip_rate_old));
                 let slid = if is_open { FrictionResult::default() } else { Dim::<D>::slide(&stick(), data.slip, limit()) };
-                (found.slip_new, found.slides) = (slid.slip, slid.slides);
+                block.slid[spring as usize] = (slid.slip, slid.slides);
                 slid.friction
             }
             Tangential::Tied => Dim::<D>::tie(&stick(), data.slip),
@@ -345,33 +366,85 @@ where
     }
 }
 
-/// What all springs add to the rates of those of a batch in lanes from `at` on.
+/// Normals of the springs of a batch in lanes from `at` on, where these are all that rows have beside shares.
 #[inline(always)]
-fn rates<L: Lane, const SLIDES: bool, const D: usize>(block: &Block<D>, batch: usize, at: usize) -> [L; D]
+pub(super) fn normal<L: Lane, const PLAIN: bool, const D: usize>(block: &Block<D>, batch: usize, at: usize) -> [L; D]
 where
     Dim<D>: TangentSpace<D>,
 {
-    let (head, mut rates) = (&block.heads[batch], [L::splat(0.0); D]);
-    for arm in head.arms() {
-        let room = L::gather_rooms(&block.rooms, &block.places, arm, at);
-        add_rates::<L, SLIDES, D>(block, arm, at, &room, &mut rates);
+    let mut normal = [L::splat(0.0); D];
+    if PLAIN {
+        (0..D).for_each(|d| normal[d] = L::load(&block.normals[batch][d], at));
     }
-    rates
+    normal
 }
 
-/// The same of an arm whose rooms are known.
+/// Row of the gap's rate of an arm in lanes from `at` on; `normal` is that of its springs.
 #[inline(always)]
-fn add_rates<L: Lane, const SLIDES: bool, const D: usize>(block: &Block<D>, arm: usize, at: usize, room: &[L; 4], rates: &mut [L; D])
+pub(super) fn gap_row<L: Lane, const PLAIN: bool, const D: usize>(block: &Block<D>, arm: usize, at: usize, normal: &[L; D]) -> [L; D]
 where
     Dim<D>: TangentSpace<D>,
 {
-    let Block { rows, slips, .. } = block;
+    if PLAIN {
+        let share = L::load(&block.shares[arm], at);
+        return normal.map(|n| share * n);
+    }
+    let mut row = [L::splat(0.0); D];
+    (0..D).for_each(|d| row[d] = L::load(&block.rows[arm][d], at));
+    row
+}
+
+/// What all springs add to the rates of those of a batch in lanes from `at` on.
+#[inline(always)]
+fn rates<L: Lane, const SLIDES: bool, const PLAIN: bool, const D: usize>(block: &Block<D>, batch: usize, at: usize) -> [L; D]
+where
+    Dim<D>: TangentSpace<D>,
+{
+    let (normal, mut rates) = (normal::<L, PLAIN, D>(block, batch, at), [[L::splat(0.0); D]; D]);
+    for arm in block.arms(batch) {
+        let room = L::gather_rooms(&block.rooms, &block.places, arm, at);
+        add_rates::<L, SLIDES, PLAIN, D>(block, arm, at, (&room, &normal), &mut rates);
+    }
+    rates.map(sum)
+}
+
+/// Sum over the axes.
+#[inline(always)]
+fn sum<L: Lane, const D: usize>(of: [L; D]) -> L {
+    (1..D).fold(of[0], |sum, d| sum + of[d])
+}
+
+/// The same of an arm whose rooms are known, axis by axis, so that no sum waits for another.
+#[inline(always)]
+fn add_rates<L: Lane, const SLIDES: bool, const PLAIN: bool, const D: usize>(
+    block: &Block<D>,
+    arm: usize,
+    at: usize,
+    (room, normal): (&[L; 4], &[L; D]),
+    rates: &mut [[L; D]; D],
+) where
+    Dim<D>: TangentSpace<D>,
+{
+    let row = gap_row::<L, PLAIN, D>(block, arm, at, normal);
     for d in 0..D {
-        rates[0] += L::load(&rows[arm][d], at) * room[d];
+        rates[0][d] += row[d] * room[d];
         if SLIDES {
             for axis in 1..D {
-                rates[axis] += L::load(&slips[(D - 1) * arm + axis - 1][d], at) * room[d];
+                rates[axis][d] += L::load(&block.slips[(D - 1) * arm + axis - 1][d], at) * room[d];
             }
+        }
+    }
+}
+
+/// Adds what rigid bodies have, which stay as they are in a sweep.
+#[inline(always)]
+fn add_lent<L: Lane, const SLIDES: bool, const D: usize>(block: &Block<D>, batch: usize, at: usize, rates: &mut [L; D])
+where
+    Dim<D>: TangentSpace<D>,
+{
+    if !block.lent.is_empty() {
+        for axis in 0..if SLIDES { D } else { 1 } {
+            rates[axis] += L::load(&block.lent[batch][axis], at);
         }
     }
 }
@@ -384,15 +457,17 @@ fn see<L: Lane>(seen: &mut [L; 2], step: L, force: L) {
 }
 
 /// Reports what was found, with the rates that the forces lead to.
-pub(super) struct Settle<'a, const SLIDES: bool, const D: usize>
+pub(super) struct Settle<'a, const SLIDES: bool, const PLAIN: bool, const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
-    pub(super) block: &'a mut Block<D>,
+    pub(super) block: &'a Block<D>,
     pub(super) laws: Laws<'a, D>,
+    /// Of each spring of the block.
+    pub(super) solved: &'a mut [Solved<D>],
 }
 
-impl<const SLIDES: bool, const D: usize> Kernel for Settle<'_, SLIDES, D>
+impl<const SLIDES: bool, const PLAIN: bool, const D: usize> Kernel for Settle<'_, SLIDES, PLAIN, D>
 where
     Dim<D>: TangentSpace<D>,
 {
@@ -400,32 +475,32 @@ where
 
     #[inline(always)]
     fn run<L: Lane>(self) {
-        for batch in 0..self.block.heads.len() {
-            let mut all = [Batch::default(); D];
+        let block = self.block;
+        for batch in 0..block.heads.len() {
+            let mut new = [Batch::default(); D];
             for at in (0..BATCH).step_by(L::WIDTH) {
-                let rates = rates::<L, SLIDES, D>(self.block, batch, at);
-                for (axis, rate) in rates.into_iter().enumerate() {
-                    (L::load(&self.block.free[batch][axis], at) + rate).store(&mut all[axis], at);
+                let mut rates = rates::<L, SLIDES, PLAIN, D>(block, batch, at);
+                add_lent::<L, SLIDES, D>(block, batch, at, &mut rates);
+                for (axis, rate) in rates.into_iter().enumerate().take(if SLIDES { D } else { 1 }) {
+                    (L::load(&block.free[batch][axis], at) + rate).store(&mut new[axis], at);
                 }
             }
-            let Block { lanes: springs, found, forces, rubs, .. } = &mut *self.block;
-            for (lane, &spring) in springs[batch].iter().enumerate().filter(|(_, spring)| **spring != NONE) {
-                let (found, of) = (&mut found[spring as usize], |list: &[Batch; D], axis: usize| list[axis].0[lane]);
-                found.force = of(&forces[batch], 0);
-                found.rates[1] = of(&all, 0);
-                found.friction = Dim::<D>::tangent_vector(|a| of(&forces[batch], a + 1));
-                found.slip_rates[1] = Dim::<D>::tangent_vector(|a| of(&all, a + 1));
-                if let Some(rub) = rubs.get(batch) {
-                    found.slip_new = Dim::<D>::tangent_vector(|a| of(&rub.slip_new, a + 1));
-                    found.slides = rub.slides.0[lane] != 0.0;
+            for (lane, &spring) in block.lanes[batch].iter().enumerate().filter(|(_, spring)| **spring != NONE) {
+                let along = |of: &[Batch]| Dim::<D>::tangent_vector(|a| of[a + 1].0[lane]);
+                let (forces, old, force) = (&block.forces[batch], &block.old[batch], block.forces[batch][0].0[lane]);
+                let mut solved =
+                    Solved { gap: block.gaps[batch].now.0[lane], force, rates: [old[0].0[lane], new[0].0[lane]], ..Solved::default() };
+                solved.slides = force != 0.0;
+                if SLIDES {
+                    (solved.friction, solved.slip_rates) = (along(forces), [along(old), along(&new)]);
+                    if !matches!(self.laws.terms(block.number(spring)).tangential, Tangential::Free) {
+                        (solved.slip_new, solved.slides) = block
+                            .rubs
+                            .get(batch)
+                            .map_or_else(|| block.slid[spring as usize], |rub| (along(&rub.slip_new), rub.slides.0[lane] != 0.0));
+                    }
                 }
-            }
-        }
-        for spring in 0..self.block.found.len() {
-            let number = self.block.number(spring as u32);
-            if matches!(self.laws.terms(number).tangential, Tangential::Free) {
-                let found = &mut self.block.found[spring];
-                found.slides = found.force != 0.0;
+                self.solved[spring as usize] = solved;
             }
         }
     }

@@ -4,6 +4,7 @@
 //! Springs and ends come from the contacts ([`super::Springs`]); islands and chunks of them go to
 //! [`super::solve`].
 
+use super::colours::{Colouring, Shared};
 use super::ends::Ends;
 use super::islands::{Islands, NONE};
 use super::link::Movable;
@@ -13,6 +14,9 @@ use std::ops::Range;
 
 /// Springs (at least) of the islands that one task solves.
 pub(super) const CHUNK: usize = 256;
+
+/// Fewer springs, ends or places are compared by one thread.
+const SHARED: usize = 16_384;
 
 /// A place that moves, until it has a slot.
 const MOVES: u32 = NONE - 1;
@@ -39,6 +43,9 @@ pub(super) struct Topology {
     pub(super) chunks: Vec<u32>,
     /// Where each spring is, island by island.
     pub(super) rank: Vec<u32>,
+    /// Clusters of the large islands, and what several of them move.
+    pub(super) colourings: Vec<Colouring>,
+    pub(super) shared: Shared,
 }
 
 impl Topology {
@@ -49,7 +56,7 @@ impl Topology {
 
     /// Takes the springs of a step; `false`: nothing changed. Islands of `large` springs or more are chunks
     /// of their own.
-    pub(super) fn update<M: NodeResponses<D>, const D: usize>(
+    pub(super) fn update<M: NodeResponses<D> + Sync, const D: usize>(
         &mut self,
         (list, terms_of): (&[Spring<D>], &[u32]),
         ends: &mut Ends<D>,
@@ -73,7 +80,7 @@ impl Topology {
         self.lead(ends, update);
         let Self { islands, places, slots, at, .. } = self;
         islands.find(list.len(), |spring| list[spring].ends(), places, at.len(), |place| slots[place as usize] != NONE);
-        self.number_slots(list, large);
+        self.number_slots(list, large, update.nodes.count());
         for &at in &self.at {
             self.place[at as usize] = NONE;
         }
@@ -81,7 +88,7 @@ impl Topology {
     }
 
     /// Whether springs and ends are those of the step before, and the same nodes and bodies move.
-    fn is_same<M: NodeResponses<D>, const D: usize>(
+    fn is_same<M: NodeResponses<D> + Sync, const D: usize>(
         &self,
         list: &[Spring<D>],
         terms_of: &[u32],
@@ -92,12 +99,19 @@ impl Topology {
         Dim<D>: TangentSpace<D>,
     {
         let nodes = update.nodes.count();
+        let are_all = |of: &(dyn Fn(Range<usize>) -> bool + Sync), count: usize| holds_for_all(of, 0..count);
         self.ends.len() == ends.len() as usize
             && self.counts.len() == list.len()
-            && self.counts.iter().zip(list).all(|(&count, spring)| count == spring.count)
             && self.terms == terms_of
-            && self.ends.iter().enumerate().all(|(k, &at)| at == ends.at(k))
-            && self.at.iter().zip(&self.slots).all(|(&at, &slot)| Movable::moves(at, nodes, update) == (slot != NONE))
+            && are_all(&|of| self.counts[of.clone()].iter().zip(&list[of]).all(|(&count, spring)| count == spring.count), list.len())
+            && are_all(&|of| ends.all_at(of.clone(), &self.ends[of]), self.ends.len())
+            && are_all(
+                &|of| {
+                    let mut places = self.at[of.clone()].iter().zip(&self.slots[of]);
+                    places.all(|(&at, &slot)| Movable::moves(at, nodes, update) == (slot != NONE))
+                },
+                self.at.len(),
+            )
     }
 
     /// The nodes and bodies at the springs.
@@ -148,17 +162,33 @@ impl Topology {
         }
     }
 
-    /// Slots of what moves, island by island in the order of the springs, and which islands make a chunk.
-    fn number_slots<const D: usize>(&mut self, list: &[Spring<D>], large: usize)
+    /// Clusters of the large islands, slots of what moves, island by island in the order of the springs, and
+    /// which islands make a chunk.
+    fn number_slots<const D: usize>(&mut self, list: &[Spring<D>], large: usize, nodes: usize)
     where
         Dim<D>: TangentSpace<D>,
     {
-        let Self { places, slots, islands, chunks, rank, .. } = self;
+        let Self { places, slots, islands, chunks, rank, colourings, shared, at, .. } = self;
+        shared.clear(at.len());
+        let mut number = 0;
         rank.clear();
         rank.resize(list.len(), 0);
         chunks.clear();
         let (mut links, mut begun) = (0, 0);
         for (island, &end) in islands.ends.iter().enumerate() {
+            let is_large = end as usize - links >= large;
+            if is_large {
+                if number == colourings.len() {
+                    colourings.push(Colouring::default());
+                }
+                let moved = |spring: u32| {
+                    let all = places[list[spring as usize].ends()].iter().copied();
+                    // Clusters do not wait for each other at rigid bodies; see `grips.rs`.
+                    all.filter(|&place| slots[place as usize] != NONE && (at[place as usize] as usize) < nodes)
+                };
+                colourings[number].arrange(&mut islands.order[links..end as usize], at, shared, moved);
+                number += 1;
+            }
             let mut count = 0;
             for link in links..end as usize {
                 let spring = islands.order[link] as usize;
@@ -170,7 +200,6 @@ impl Topology {
                     }
                 }
             }
-            let is_large = end as usize - links >= large;
             if is_large && links > begun {
                 chunks.push(island as u32);
             }
@@ -212,4 +241,14 @@ impl Topology {
     pub(super) fn springs_of(&self, chunk: usize) -> &[u32] {
         &self.islands.order[self.links(chunk..chunk + 1)]
     }
+}
+
+/// Whether something holds for all of a range, halves of it at the same time where threads share the work.
+fn holds_for_all(of: &(dyn Fn(Range<usize>) -> bool + Sync), range: Range<usize>) -> bool {
+    if range.len() <= SHARED || rayon::current_thread_index().is_none() {
+        return of(range);
+    }
+    let middle = range.start + range.len() / 2;
+    let (low, high) = rayon::join(|| holds_for_all(of, range.start..middle), || holds_for_all(of, middle..range.end));
+    low && high
 }

@@ -4,7 +4,7 @@
 //! Nodes and positions come from the formulation ([`super`], which has the equations); rows of rates go to
 //! its springs.
 
-use super::fan::{Fan, Flat, MIDDLE, PIECES, Sector};
+use super::fan::{Fans, MIDDLE, NEAR, PIECES, Sector, are_beside};
 use super::polygon::{Linear, Moments};
 use crate::contact::Sweep;
 use crate::contact::projection::node_facet::unit;
@@ -34,6 +34,11 @@ const SPANS: [f64; 2] = [0.6, 0.9];
 /// spans: facets that lie corner on corner overlap their neighbours by strips that come and go.
 const NARROW: [f64; 2] = [1e-4, 1e-2];
 
+/// Cosine of the angle between a facet and one across an edge beyond which its surface turns away there.
+const TURNS: f64 = 0.5;
+/// The same above which it continues there in part, and in full.
+const CONTINUES: [f64; 2] = [0.8, 0.95];
+
 /// Springs of a pair at most: of the mean gap, and at the corners of a facet.
 pub(super) const PARTS: usize = 5;
 
@@ -42,6 +47,7 @@ pub(super) const PARTS: usize = 5;
 pub(super) struct Frame {
     pub(super) nodes: [u32; 4],
     pub(super) corners: [Vector; 4],
+    pub(super) by_axis: [[f64; 4]; 3],
     count: usize,
     /// Mean of the corners, m.
     pub(super) middle: Vector,
@@ -50,7 +56,53 @@ pub(super) struct Frame {
     /// m².
     pub(super) area: f64,
     /// All corners are nearer to the middle than this, m.
-    radius: f64,
+    pub(super) radius: f64,
+    /// Covariance of its places as triangles about the middle, xx, yy, zz, xy, yz, zx, m².
+    covariance: [f64; 6],
+}
+
+/// What is beyond the edges of a facet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Borders {
+    /// What is nearer to an edge than this fraction of the lengths there is on it, and the same for edges
+    /// within.
+    pub(super) soft: [f64; 4],
+    pub(super) inner: f64,
+    /// Edges at which the surface ends or turns away, as bits.
+    pub(super) rims: u8,
+}
+
+impl Borders {
+    /// Nothing is known of the surface: all is as it is.
+    pub(super) const ALONE: Self = Self { soft: [0.0; 4], inner: 0.0, rims: 0xf };
+
+    /// With the cosines between a facet and those beyond its edges, −1 where there is none.
+    pub(super) fn new(cosines: [f64; 4]) -> Self {
+        let rims = (0..4).map(|k| u8::from(cosines[k] < TURNS) << k).sum();
+        Self { soft: cosines.map(|cosine| NEAR * between(CONTINUES, cosine)), inner: NEAR, rims }
+    }
+
+    /// The same where nothing that is near is on an edge.
+    pub(super) fn as_it_is(self) -> Self {
+        Self { rims: self.rims, ..Self::ALONE }
+    }
+}
+
+/// Two facets that may have something in common.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facets<'a> {
+    pub(super) frames: [&'a Frame; 2],
+    pub(super) borders: [Borders; 2],
+    /// Which of both has corners that count as on edges of the other one where they are near: the same for
+    /// all pairs of two surfaces or bodies.
+    pub(super) cut: usize,
+}
+
+impl<'a> Facets<'a> {
+    /// Those of which nothing else is known.
+    pub(super) fn alone(frames: [&'a Frame; 2]) -> Self {
+        Self { frames, borders: [Borders::ALONE; 2], cut: 0 }
+    }
 }
 
 impl Frame {
@@ -60,7 +112,18 @@ impl Frame {
         let twice = if count == 3 { cross(minus(b, a), minus(c, a)) } else { cross(minus(c, a), minus(d, b)) };
         let middle = [0, 1, 2].map(|k| corners[..count].iter().map(|x| x[k]).sum::<f64>() / count as f64);
         let radius = corners.into_iter().map(|x| length(minus(x, middle))).fold(0.0, f64::max);
-        Self { nodes, corners, count, middle, normal: unit(twice), area: 0.5 * length(twice), radius }
+        let by_axis = [0, 1, 2].map(|k| corners.map(|x| x[k]));
+        Self {
+            nodes,
+            corners,
+            by_axis,
+            count,
+            middle,
+            normal: unit(twice),
+            area: 0.5 * length(twice),
+            radius,
+            covariance: covariance(&corners[..count], middle),
+        }
     }
 
     /// Its nodes, each once.
@@ -102,6 +165,7 @@ struct Piece {
 }
 
 /// All pieces of a common part.
+#[derive(Default)]
 struct Pieces {
     list: [Piece; PIECES],
     count: usize,
@@ -109,36 +173,41 @@ struct Pieces {
     whole: Moments,
     /// Deepest gap, m.
     lowest: f64,
-    /// Edges of both facets at which they end, as bits.
+    /// Rims of both facets at which they end, as bits.
     edges: [u8; 2],
 }
 
+/// What is found on the way to a common part.
+#[derive(Default)]
+pub(super) struct Room {
+    fans: Fans,
+    pieces: Pieces,
+}
+
 impl Pieces {
-    /// Those of two facets, the smaller of which is of this size, m.
-    fn of(sides: &[Fan; 2], size: f64, level: Level) -> Self {
-        let mut all = Self { list: [Piece::default(); PIECES], count: 0, whole: Moments::default(), lowest: f64::INFINITY, edges: [0; 2] };
-        sides[0].meet(&sides[1], size, level, |[i, j], polygon| {
+    fn set(&mut self, fans: &Fans, rims: [u8; 2]) {
+        (self.count, self.whole, self.lowest, self.edges) = (0, Moments::default(), f64::INFINITY, [0; 2]);
+        fans.meet(|sectors, polygon| {
             let moments = polygon.moments();
             if !(moments.area() > 0.0) {
                 return;
             }
-            let of = [&sides[0].sectors()[i], &sides[1].sectors()[j]];
-            let gap = [0, 1, 2].map(|k| of[0].height[k] - of[1].height[k]);
+            let [a, b] = [0, 1].map(|k| fans.height(k, sectors[k]));
+            let gap = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
             for [x, y] in polygon.corners() {
                 let here = gap[0] + gap[1] * x + gap[2] * y;
-                all.lowest = if here < all.lowest { here } else { all.lowest };
+                self.lowest = if here < self.lowest { here } else { self.lowest };
             }
-            (0..2).for_each(|k| all.edges[k] |= sides[k].ends(polygon, of[k]));
-            all.whole.add(&moments);
-            all.list[all.count] = Piece { sectors: [i as u8, j as u8], moments };
-            all.count += 1;
+            (0..2).for_each(|k| self.edges[k] |= fans.ends(k, sectors[k], rims[k], polygon));
+            self.whole.add(&moments);
+            self.list[self.count] = Piece { sectors: sectors.map(|sector| sector as u8), moments };
+            self.count += 1;
         });
-        all
     }
 }
 
 /// The common part of two facets.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Common {
     pub(super) frames: [Frame; 2],
     /// Unit normal of the common plane, from the second facet to the first.
@@ -149,60 +218,71 @@ pub(super) struct Common {
     pub(super) lowest: f64,
     /// Of which facet the corners have springs.
     pub(super) owner: u8,
-    /// Edges of both facets at which it ends, as bits.
+    /// Edges of both facets at which it and its surface end, as bits.
     pub(super) edges: [u8; 2],
     parts: [Part; PARTS],
     count: usize,
 }
 
 impl Common {
-    /// `None` where facets don't face each other or have nothing in common; `is_mean`: the mean gap alone
-    /// gets a spring. `lead` is 0 where the normal halves the angle between both facets, 1 where it is that
-    /// of the second, −1 where that of the first.
-    pub(super) fn new(frames: [&Frame; 2], is_mean: bool, lead: f64, level: Level) -> Option<Self> {
+    /// As [`Self::find`] says.
+    pub(super) fn new(facets: &Facets<'_>, is_mean: bool, lead: f64, level: Level) -> Option<Self> {
+        let mut common = Self::default();
+        common.find(facets, is_mean, lead, &mut Room::default(), level).then_some(common)
+    }
+
+    /// False where facets don't face each other or have nothing in common; `is_mean`: the mean gap alone gets
+    /// a spring. `lead` is 0 where the normal halves the angle between both facets, 1 where it is that of the
+    /// second, −1 where that of the first.
+    pub(super) fn find(&mut self, facets: &Facets<'_>, is_mean: bool, lead: f64, room: &mut Room, level: Level) -> bool {
+        let frames = facets.frames;
         let [a, b] = frames;
         let facing = -dot(a.normal, b.normal);
         let apart = minus(a.middle, b.middle);
         let near = a.radius + b.radius;
         // No number fails the comparisons too.
         if !(facing > 0.0 && dot(apart, apart) <= near * near) {
-            return None;
+            return false;
         }
         let normal = unit([0, 1, 2].map(|d| (1.0 + lead) * b.normal[d] - (1.0 - lead) * a.normal[d]));
+        // A strip so narrow is a sliver of the smaller facet.
+        let width = SLIVER * a.area.min(b.area) / (2.0 * a.radius.min(b.radius));
+        if are_beside(facets, 1, normal, width) || are_beside(facets, 0, normal, width) {
+            return false;
+        }
         let origin = [0, 1, 2].map(|d| 0.5 * (a.middle[d] + b.middle[d]));
         let first = any_tangent(normal);
         let axes = [first, cross(normal, first), normal];
-        let flats = [Flat::new(a, origin, axes, true), Flat::new(b, origin, axes, false)];
-        // A strip so narrow is a sliver of the smaller facet.
-        let width = SLIVER * a.area.min(b.area) / (2.0 * a.radius.min(b.radius));
-        if flats[0].is_apart(&flats[1], width) || flats[1].is_apart(&flats[0], width) {
-            return None;
+        let Room { fans, pieces } = room;
+        if !fans.set(facets, origin, axes, width, level) {
+            return false;
         }
-        let sides = [Fan::new(&flats[0]), Fan::new(&flats[1])];
-        let Pieces { list: pieces, count, whole, lowest, edges } = Pieces::of(&sides, a.radius.min(b.radius), level);
+        pieces.set(fans, facets.borders.map(|borders| borders.rims));
+        let Pieces { list, count, whole, lowest, edges } = &*pieces;
+        let pieces = &list[..*count];
         if !(whole.area() > SLIVER * a.area.min(b.area)) {
-            return None;
+            return false;
         }
         let weight = smooth(facing / FACING) * 2.0 / (1.0 + facing);
         let owner = owner(frames);
-        let mut common = Self {
+        *self = Self {
             frames: [*a, *b],
             normal,
             area: weight * whole.area(),
-            lowest,
+            lowest: *lowest,
             owner: owner as u8,
-            edges,
-            parts: Default::default(),
+            edges: *edges,
+            parts: self.parts,
             count: 0,
         };
-        let corners = if is_mean { 0.0 } else { at_corners(&whole, &sides, frames[owner].area) };
+        let corners = if is_mean { 0.0 } else { at_corners(whole, frames, owner, axes) };
         if corners < 1.0 {
-            common.add_mean(&sides, &pieces[..count], weight * (1.0 - corners));
+            self.add_mean(fans, pieces, weight * (1.0 - corners));
         }
         if corners > 0.0 {
-            common.add_corners(&sides, &pieces[..count], weight * corners);
+            self.add_corners(fans, pieces, weight * corners);
         }
-        Some(common)
+        true
     }
 
     pub(super) fn parts(&self) -> &[Part] {
@@ -210,64 +290,73 @@ impl Common {
     }
 
     /// Adds what has integrals of the shares of corners and middles; `weight` of the area.
-    fn add(&mut self, slot: usize, sides: &[Fan; 2], [area, weight]: [f64; 2], sums: [[f64; 5]; 2]) {
+    fn add(&mut self, slot: usize, fans: &Fans, [area, weight]: [f64; 2], sums: &[[f64; 5]; 2]) {
         if !(weight * area > NOTHING * self.frames[0].area.min(self.frames[1].area)) {
             return;
         }
         let means = sums.map(|sums| sums.map(|sum| sum / area));
-        let height = |k: usize| (0..5).map(|i| means[k][i] * sides[k].heights[i]).sum::<f64>();
-        let shares = [0, 1].map(|k| sides[k].spread(&means[k]));
+        let height = |k: usize| {
+            let heights = fans.heights(k);
+            (0..5).map(|i| means[k][i] * heights[i]).sum::<f64>()
+        };
+        let shares = [0, 1].map(|k| fans.spread(k, &means[k]));
         self.parts[self.count] = Part { slot, area: weight * area, gap: height(0) - height(1), shares };
         self.count += 1;
     }
 
-    fn add_mean(&mut self, sides: &[Fan; 2], pieces: &[Piece], weight: f64) {
+    fn add_mean(&mut self, fans: &Fans, pieces: &[Piece], weight: f64) {
         // Integrals of 1, x and y over each triangle's share of it.
         let (mut area, mut of) = (0.0, [[[0.0; 3]; 4]; 2]);
         for Piece { sectors, moments } in pieces {
             area += moments.area();
             for k in 0..2 {
-                of[k][sectors[k] as usize].iter_mut().zip(moments.0).for_each(|(sum, more)| *sum += more);
+                let of = &mut of[k][usize::from(sectors[k]) % 4];
+                (0..3).for_each(|i| of[i] += moments.0[i]);
             }
         }
         let mut sums = [[0.0; 5]; 2];
         for k in 0..2 {
-            for (sector, of) in sides[k].sectors().iter().zip(of[k]) {
-                let [first, second] = [0, 1].map(|i| integral(sector.shares[i], of));
+            for sector in fans.sectors(k) {
+                let of = of[k][sector];
+                if of[0] == 0.0 {
+                    continue;
+                }
+                let Sector { labels, shares } = fans.sector(k, sector);
+                let [first, second] = shares.map(|share| integral(share, of));
                 // Of a needle too all three are the whole.
                 let all = [first, second, of[0] - first - second];
-                (0..3).for_each(|i| sums[k][sector.labels[i]] += all[i]);
+                (0..3).for_each(|i| sums[k][labels[i]] += all[i]);
             }
         }
-        self.add(0, sides, [area, weight], sums);
+        self.add(0, fans, [area, weight], &sums);
     }
 
     /// The same of the gap that is weighted by the shares of each corner of the owner.
-    fn add_corners(&mut self, sides: &[Fan; 2], pieces: &[Piece], weight: f64) {
+    fn add_corners(&mut self, fans: &Fans, pieces: &[Piece], weight: f64) {
         let owner = self.owner as usize;
         // By the owner's corners and middle: area, and the sums of both facets.
         let (mut areas, mut sums) = ([0.0; 5], [[[0.0; 5]; 2]; 5]);
         for Piece { sectors, moments } in pieces {
-            let of = [0, 1].map(|k| &sides[k].sectors()[sectors[k] as usize]);
-            let own = of[owner];
-            let [first, second] = [0, 1].map(|i| moments.weighted(own.shares[i]));
+            let of = [0, 1].map(|k| fans.sector(k, usize::from(sectors[k])));
+            let own = &of[owner];
+            let [first, second] = own.shares.map(|share| moments.weighted(share));
             let third = [0, 1, 2].map(|i| moments.0[i] - first[i] - second[i]);
             for (by, corner) in [first, second, third].into_iter().zip(own.labels) {
                 areas[corner] += by[0];
                 for k in 0..2 {
-                    let Sector { shares, labels, .. } = of[k];
-                    let [first, second] = [0, 1].map(|i| integral(shares[i], by));
+                    let Sector { shares, labels } = of[k];
+                    let [first, second] = shares.map(|share| integral(share, by));
                     let all = [first, second, by[0] - first - second];
                     (0..3).for_each(|i| sums[corner][k][labels[i]] += all[i]);
                 }
             }
         }
-        let corners = sides[owner].corners;
+        let corners = fans.corners[owner];
         let part = if corners == 3 { 0.0 } else { 0.25 };
         for corner in 0..corners {
             let area = areas[corner] + part * areas[MIDDLE];
             let all = [0, 1].map(|k| std::array::from_fn(|i| sums[corner][k][i] + part * sums[MIDDLE][k][i]));
-            self.add(1 + corner, sides, [area, weight], all);
+            self.add(1 + corner, fans, [area, weight], &all);
         }
     }
 
@@ -364,23 +453,50 @@ fn owner([a, b]: [&Frame; 2]) -> usize {
 /// How much of a common part has springs at corners: all of it where it covers the smaller facet (m²), or
 /// spans either facet in some direction, in which its mean gap would not see that facet's corners move
 /// against each other.
-fn at_corners(whole: &Moments, sides: &[Fan; 2], least: f64) -> f64 {
-    let covered = whole.area() / least;
+fn at_corners(whole: &Moments, frames: [&Frame; 2], owner: usize, [first, second, _]: [Vector; 3]) -> f64 {
+    let covered = whole.area() / frames[owner].area;
     let (covers, is_wide) = (between(COVERS, covered), between(NARROW, covered));
     if covers == 1.0 || is_wide == 0.0 {
         return covers;
     }
     let part = whole.covariance();
-    let span = |side: &Fan| {
-        let [xx, xy, yy] = side.moments().covariance();
+    let span = |frame: &Frame| {
+        let [xx, yy, zz, xy, yz, zx] = frame.covariance;
+        let along = |[x, y, z]: Vector| [xx * x + xy * y + zx * z, xy * x + yy * y + yz * z, zx * x + yz * y + zz * z];
+        let (of_first, of_second) = (along(first), along(second));
+        let [xx, xy, yy] = [dot(of_first, first), dot(of_first, second), dot(of_second, second)];
         // Largest eigenvalue of part/side.
         let (det, trace) = (xx * yy - xy * xy, yy * part[0] - 2.0 * xy * part[1] + xx * part[2]);
         let product = (part[0] * part[2] - part[1] * part[1]) * det;
         let root = (trace * trace - 4.0 * product).max(0.0).sqrt();
         if det > 0.0 { 0.5 * (trace + root) / det } else { 0.0 }
     };
-    covers.max(is_wide * between(SPANS, span(&sides[0]).max(span(&sides[1]))))
+    covers.max(is_wide * between(SPANS, span(frames[0]).max(span(frames[1]))))
+}
+
+/// Covariance of the places of a facet as triangles about its middle, of which three are one triangle: by
+/// each axis and by two, m².
+fn covariance(corners: &[Vector], middle: Vector) -> [f64; 6] {
+    let (mut whole, mut sum, mut squares) = (0.0, [0.0; 3], [0.0; 6]);
+    let mut u = minus(corners[corners.len() - 1], middle);
+    for &corner in corners {
+        let v = minus(corner, middle);
+        let (area, both) = (length(cross(u, v)), [u[0] + v[0], u[1] + v[1], u[2] + v[2]]);
+        whole += area;
+        (0..3).for_each(|d| sum[d] += area * both[d]);
+        for (square, (i, j)) in squares.iter_mut().zip([(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)]) {
+            *square += area * (u[i] * u[j] + v[i] * v[j] + both[i] * both[j]);
+        }
+        u = v;
+    }
+    let by = if whole > 0.0 { 1.0 / whole } else { 0.0 };
+    let [x, y, z] = sum.map(|c| c * by / 3.0);
+    let products = [x * x, y * y, z * z, x * y, y * z, z * x];
+    std::array::from_fn(|i| squares[i] * by / 12.0 - products[i])
 }
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod near_tests;

@@ -3,7 +3,7 @@
 //!
 //! Touches come from the tracker of nodes; pairs go to the formulation.
 
-use super::common::Frame;
+use super::common::{Borders, Facets, Frame};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::contact::Sweep;
 use crate::contact::continuity::SpringHistory;
@@ -14,9 +14,6 @@ use crate::tensor::dot;
 
 type Vector = [f64; 3];
 
-/// Cosine of the angle between a facet and one across an edge beyond which its surface turns away there.
-const TURNS: f64 = 0.5;
-
 /// Pairs of facets of two surfaces, or of one that meets itself.
 pub(super) struct Pairs {
     pub(super) tracker: Tracker,
@@ -24,8 +21,8 @@ pub(super) struct Pairs {
     layers: Vec<Layer>,
     /// Pairs of this step, ascending.
     pub(super) list: Vec<[u32; 2]>,
-    /// What leads to them: the first facet above the second one, as often as a node touches.
-    found: Vec<u64>,
+    /// What leads to them.
+    found: Found,
     /// Number of this step.
     step: u32,
     /// Energy at the rims of both bodies of a pair of bodies in the last step, J: (bodies ascending, [at the
@@ -33,10 +30,60 @@ pub(super) struct Pairs {
     rims: Vec<([u32; 2], [f64; 2])>,
 }
 
+/// Partners of a facet that have room beside it.
+const BESIDE: usize = 16;
+
+/// Pairs, each once, as they are found: as often as nodes touch.
+#[derive(Default)]
+struct Found {
+    /// Second facets of each first one, else [`NONE`], and how many these are.
+    beside: Vec<([u32; BESIDE], usize)>,
+    /// First facets that have pairs.
+    firsts: Vec<u32>,
+    /// Pairs that had no room, as often as they are found.
+    others: Vec<[u32; 2]>,
+}
+
+impl Found {
+    fn add(&mut self, first: u32, second: u32) {
+        let (beside, count) = &mut self.beside[first as usize];
+        // All at once instead of one after the other until it is found.
+        if beside.iter().fold(false, |is_there, &other| is_there | (other == second)) {
+            return;
+        }
+        if *count == 0 {
+            self.firsts.push(first);
+        }
+        match beside.get_mut(*count) {
+            Some(room) => (*room, *count) = (second, *count + 1),
+            None => self.others.push([first, second]),
+        }
+    }
+
+    /// Writes all pairs, ascending.
+    fn drain_into(&mut self, list: &mut Vec<[u32; 2]>) {
+        list.clear();
+        self.firsts.sort_unstable();
+        for first in self.firsts.drain(..) {
+            let (beside, count) = &mut self.beside[first as usize];
+            beside[..*count].sort_unstable();
+            list.extend(beside[..*count].iter().map(|&second| [first, second]));
+            (*beside, *count) = ([NONE; BESIDE], 0);
+        }
+        if !self.others.is_empty() {
+            list.append(&mut self.others);
+            list.sort_unstable();
+            list.dedup();
+        }
+    }
+}
+
 /// What is known of a surface in a step.
 struct Layer {
     /// Each facet as it is, and the step of that.
     frames: Vec<(u32, Frame)>,
+    /// What is beyond its edges, and the step of that.
+    borders: Vec<(u32, Borders)>,
     /// Depth of each node, m; negative where it is outside.
     depth: Vec<f64>,
     /// Nodes whose depth is set.
@@ -51,12 +98,13 @@ impl Pairs {
             let local = |facet: &[u32; 4]| facet.map(|node| surface.nodes.partition_point(|&other| other < node) as u32);
             Layer {
                 frames: vec![(0, Frame::default()); surface.facets.len()],
+                borders: vec![(0, Borders::ALONE); surface.facets.len()],
                 depth: vec![f64::NEG_INFINITY; surface.nodes.len()],
                 deep: Vec::new(),
                 local: surface.facets.iter().map(local).collect(),
             }
         });
-        Self { layers: layers.collect(), tracker, list: Vec::new(), found: Vec::new(), step: 0, rims: Vec::new() }
+        Self { layers: layers.collect(), tracker, list: Vec::new(), found: Found::default(), step: 0, rims: Vec::new() }
     }
 
     /// Surfaces of the facets of a pair.
@@ -68,7 +116,7 @@ impl Pairs {
     /// not touch.
     pub(super) fn find(&mut self, sweep: Sweep<'_, 3>, extra: f64) {
         self.step = self.step.wrapping_add(1).max(1);
-        self.found.clear();
+        self.found.beside.resize(self.layers[0].frames.len(), ([NONE; BESIDE], 0));
         for layer in &mut self.layers {
             for node in layer.deep.drain(..) {
                 layer.depth[node as usize] = f64::NEG_INFINITY;
@@ -91,15 +139,12 @@ impl Pairs {
                     if meets {
                         let forward = if is_one { a < b } else { slave == 0 };
                         let [first, second] = if forward { [a, b] } else { [b, a] };
-                        self.found.push(u64::from(first) << 32 | u64::from(second));
+                        self.found.add(first, second);
                     }
                 }
             }
         }
-        self.found.sort_unstable();
-        self.found.dedup();
-        self.list.clear();
-        self.list.extend(self.found.iter().map(|&pair| [(pair >> 32) as u32, pair as u32]));
+        self.found.drain_into(&mut self.list);
     }
 
     /// Depth of the deepest node of a pair, m.
@@ -120,26 +165,18 @@ impl Pairs {
         })
     }
 
-    /// Whether a surface ends at one of these edges of a facet (as bits), or turns away there.
-    fn is_at_rim(&self, surface: usize, facet: u32, edges: u8, positions: &[Vector]) -> bool {
-        let placed = Placed { surface: &self.tracker.surfaces()[surface], positions };
-        let own = placed.facet_normal(facet);
-        let turns = |other: u32| other == NONE || dot(own, placed.facet_normal(other)) < TURNS;
-        (0..4).any(|k| edges & 1 << k != 0 && turns(placed.surface.across(facet, k)))
-    }
-
     /// Begins to note energy at rims.
     pub(super) fn begin_rims(&mut self) {
         self.rims.clear();
     }
 
-    /// Notes the energy (J) of a pair whose common part ends at these edges of both facets.
-    pub(super) fn note_rims(&mut self, pair: [u32; 2], edges: [u8; 2], energy: f64, positions: &[Vector]) {
-        let (bodies, surfaces) = (self.bodies(pair), self.surfaces());
+    /// Notes the energy (J) of a pair whose common part ends at these rims of both facets.
+    pub(super) fn note_rims(&mut self, pair: [u32; 2], edges: [u8; 2], energy: f64) {
+        let bodies = self.bodies(pair);
         if !(energy > 0.0) || bodies[0] == bodies[1] {
             return;
         }
-        let at_rim = [0, 1].map(|k| if self.is_at_rim(surfaces[k], pair[k], edges[k], positions) { energy } else { 0.0 });
+        let at_rim = edges.map(|edges| if edges == 0 { 0.0 } else { energy });
         let (key, is_turned) = ascending(bodies);
         let at = self.rims.binary_search_by_key(&key, |rim| rim.0).unwrap_or_else(|at| {
             self.rims.insert(at, (key, [0.0; 2]));
@@ -160,16 +197,45 @@ impl Pairs {
     }
 
     /// The facets of a pair in this step.
-    pub(super) fn frames(&mut self, pair: [u32; 2], positions: &[Vector]) -> [&Frame; 2] {
-        let (surfaces, step) = (self.surfaces(), self.step);
-        for k in 0..2 {
-            let (of, frame) = &mut self.layers[surfaces[k]].frames[pair[k] as usize];
-            if *of != step {
-                *of = step;
-                *frame = Frame::new(self.tracker.surfaces()[surfaces[k]].facets[pair[k] as usize], positions);
+    pub(super) fn facets(&mut self, pair: [u32; 2], positions: &[Vector]) -> Facets<'_> {
+        let surfaces = self.surfaces();
+        let of = [0, 1].map(|k| {
+            let at = pair[k] as usize;
+            if self.layers[surfaces[k]].borders[at].0 != self.step {
+                self.set_borders(surfaces[k], pair[k], positions);
+            }
+            self.layers[surfaces[k]].borders[at].1
+        });
+        let (mut borders, mut cut) = (of, 0);
+        if surfaces[0] == surfaces[1] {
+            let bodies = self.bodies(pair);
+            cut = usize::from(bodies[1] < bodies[0]);
+            // Two facets of one body may come in any order, depending on the pair.
+            if bodies[0] == bodies[1] {
+                borders = of.map(Borders::as_it_is);
             }
         }
-        [0, 1].map(|k| &self.layers[surfaces[k]].frames[pair[k] as usize].1)
+        Facets { frames: [0, 1].map(|k| &self.layers[surfaces[k]].frames[pair[k] as usize].1), borders, cut }
+    }
+
+    /// Sets what a facet is in this step, and what is beyond its edges.
+    fn set_borders(&mut self, surface: usize, facet: u32, positions: &[Vector]) {
+        let normal = self.frame(surface, facet, positions).normal;
+        let cosines = [0, 1, 2, 3].map(|k| {
+            let beyond = self.tracker.surfaces()[surface].across(facet, k);
+            if beyond == NONE { -1.0 } else { dot(normal, self.frame(surface, beyond, positions).normal) }
+        });
+        self.layers[surface].borders[facet as usize] = (self.step, Borders::new(cosines));
+    }
+
+    /// A facet of a surface in this step.
+    fn frame(&mut self, surface: usize, facet: u32, positions: &[Vector]) -> &Frame {
+        let (of, frame) = &mut self.layers[surface].frames[facet as usize];
+        if *of != self.step {
+            *of = self.step;
+            *frame = Frame::new(self.tracker.surfaces()[surface].facets[facet as usize], positions);
+        }
+        frame
     }
 
     /// The same at any positions, m.
@@ -203,4 +269,24 @@ fn ascending([first, second]: [u32; 2]) -> ([u32; 2], bool) {
 
 fn shares_a_node(one: [u32; 4], other: [u32; 4]) -> bool {
     one.corners().iter().any(|node| other.corners().contains(node))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::Random;
+
+    #[test]
+    fn pairs_that_are_found_in_any_order_and_often_are_listed_ascending_and_once() {
+        let (mut random, mut found, mut list) = (Random::new(2), Found::default(), Vec::new());
+        found.beside.resize(20, ([NONE; BESIDE], 0));
+        for _ in 0..50 {
+            let mut expected: Vec<[u32; 2]> = (0..500).map(|_| [20.0, 30.0].map(|count| (count * random.unit()) as u32)).collect();
+            expected.iter().for_each(|&[first, second]| found.add(first, second));
+            found.drain_into(&mut list);
+            expected.sort_unstable();
+            expected.dedup();
+            assert_eq!(list, expected);
+        }
+    }
 }

@@ -16,7 +16,7 @@ pub(super) type Linear = [f64; 3];
 const CORNERS: usize = 9;
 
 /// A triangle whose area is less than this fraction of the square of its longest edge has none.
-const FLAT: f64 = 1e-10;
+pub(super) const FLAT: f64 = 1e-10;
 
 /// Integrals of 1, x, y, x², xy and y².
 #[derive(Clone, Copy, Debug, Default)]
@@ -75,29 +75,9 @@ impl Moments {
 }
 
 /// Twice the area of a triangle, positive where it runs counter-clockwise, m².
+#[cfg(test)]
 pub(super) fn doubled([a, b, c]: [Point; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-/// Linear functions that are one at a corner of a triangle and zero at the others, and sum up to one; `None`
-/// where it has no area, or runs clockwise.
-#[inline]
-pub(super) fn shares(corners: [Point; 3]) -> Option<[Linear; 3]> {
-    let [a, b, c] = corners;
-    let whole = doubled(corners);
-    let square = |p: Point, q: Point| (q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]);
-    let squares = [square(a, b), square(b, c), square(c, a)];
-    // No number fails the comparison too.
-    if !squares.into_iter().all(|square| whole > FLAT * square) {
-        return None;
-    }
-    let share = |p: Point, q: Point| {
-        // Zero on the edge from p to q.
-        let [gx, gy] = [(p[1] - q[1]) / whole, (q[0] - p[0]) / whole];
-        [-(gx * p[0] + gy * p[1]), gx, gy]
-    };
-    let (first, second) = (share(b, c), share(c, a));
-    Some([first, second, [1.0 - first[0] - second[0], -first[1] - second[1], -first[2] - second[2]]])
 }
 
 /// From a corner along an edge.
@@ -108,6 +88,7 @@ pub(super) struct Edge {
 }
 
 impl Edge {
+    #[cfg(test)]
     pub(super) fn new(from: Point, to: Point) -> Self {
         Self { from, along: [to[0] - from[0], to[1] - from[1]] }
     }
@@ -117,59 +98,73 @@ impl Edge {
         self.along[0] * (p[1] - self.from[1]) - self.along[1] * (p[0] - self.from[0])
     }
 
-    /// Square of its length, m².
-    pub(super) fn square(&self) -> f64 {
-        self.along[0] * self.along[0] + self.along[1] * self.along[1]
-    }
-
     /// The same in the other direction.
     pub(super) fn reversed(&self) -> Self {
         Self { along: self.along.map(|c| -c), ..*self }
     }
 }
 
-/// A convex part of the plane, counter-clockwise.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Polygon {
-    corners: [Point; CORNERS],
+/// A convex part of the plane, counter-clockwise; of a triangle, by weights of its corners, where `N` is 3.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polygon<const N: usize = 2> {
+    corners: [[f64; N]; CORNERS],
     count: usize,
 }
 
-impl Polygon {
-    pub(super) fn corners(&self) -> &[Point] {
+impl<const N: usize> Default for Polygon<N> {
+    fn default() -> Self {
+        Self { corners: [[0.0; N]; CORNERS], count: 0 }
+    }
+}
+
+impl<const N: usize> Polygon<N> {
+    pub(super) fn corners(&self) -> &[[f64; N]] {
         &self.corners[..self.count]
     }
 
-    pub(super) fn set(&mut self, corners: &[Point; 3]) {
+    pub(super) fn set(&mut self, corners: &[[f64; N]; 3]) {
         self.corners[..3].copy_from_slice(corners);
         self.count = 3;
     }
 
-    /// Keeps what of it is on the left of an edge; `room` has what it was.
-    pub(super) fn cut(&mut self, edge: Edge, room: &mut Self) {
-        (room.corners, room.count) = (self.corners, self.count);
+    pub(super) fn set_each(&mut self, corners: impl Iterator<Item = [f64; N]>) {
         self.count = 0;
-        let Some(&last) = room.corners().last() else { return };
-        let (mut from, mut before) = (last, edge.side(last));
-        for &to in room.corners() {
-            let after = edge.side(to);
+        corners.for_each(|corner| self.push(corner));
+    }
+
+    /// Writes what of it is on the positive side of a line.
+    #[inline(always)]
+    pub(super) fn cut(&self, side: impl Fn(&[f64; N]) -> f64, left: &mut Self) {
+        left.count = 0;
+        let Some(last) = self.corners().last() else { return };
+        let (mut from, mut before) = (last, side(last));
+        for to in self.corners() {
+            let after = side(to);
             if (before < 0.0) != (after < 0.0) {
                 // Both have different signs: the sum of their sizes is not zero.
                 let way = before / (before - after);
-                self.push([from[0] + way * (to[0] - from[0]), from[1] + way * (to[1] - from[1])]);
+                left.push(std::array::from_fn(|d| from[d] + way * (to[d] - from[d])));
             }
             if !(after < 0.0) {
-                self.push(to);
+                left.push(*to);
             }
             (from, before) = (to, after);
         }
     }
 
-    fn push(&mut self, corner: Point) {
+    #[inline(always)]
+    fn push(&mut self, corner: [f64; N]) {
         if self.count < CORNERS {
             self.corners[self.count] = corner;
             self.count += 1;
         }
+    }
+}
+
+impl Polygon {
+    /// The same with what is on the left of an edge.
+    pub(super) fn cut_along(&self, edge: Edge, left: &mut Self) {
+        self.cut(|&p| edge.side(p), left);
     }
 
     /// Integrals over it.
@@ -183,29 +178,35 @@ mod tests {
     use super::*;
 
     #[test]
-    fn integrals_of_shares_and_their_products_are_the_closed_forms() {
+    fn moments_of_a_triangle_are_the_closed_forms() {
         let corners = [[0.2, 0.1], [1.4, 0.3], [0.5, 1.1]];
-        let (shares, moments) = (shares(corners).unwrap(), Moments::around(&corners));
-        let integral = |share: Linear| (0..3).map(|k| share[k] * moments.0[k]).sum::<f64>();
-        for i in 0..3 {
-            assert!((integral(shares[i]) - moments.area() / 3.0).abs() < 1e-15);
-            let by = moments.weighted(shares[i]);
-            for j in 0..3 {
-                let found: f64 = (0..3).map(|k| by[k] * shares[j][k]).sum();
-                let expected = moments.area() / if i == j { 6.0 } else { 12.0 };
-                assert!((found - expected).abs() < 1e-15, "{i} {j}: {found} {expected}");
-            }
-        }
+        let moments = Moments::around(&corners);
+        let [x, y] = [0, 1].map(|d| corners.iter().map(|p| p[d]).sum::<f64>() / 3.0);
+        assert!((moments.area() - 0.5 * doubled(corners)).abs() < 1e-15);
+        assert!((moments.0[1] - x * moments.area()).abs() < 1e-15 && (moments.0[2] - y * moments.area()).abs() < 1e-15);
         let [xx, xy, yy] = Moments::around(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]).covariance();
         assert!((xx - 1.0 / 18.0).abs() < 1e-15 && (xy + 1.0 / 36.0).abs() < 1e-15 && (yy - 1.0 / 18.0).abs() < 1e-15);
     }
 
     #[test]
-    fn what_has_no_area_or_is_no_number_is_no_triangle() {
-        let none = [[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]], [[0.0; 2]; 3], [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]];
-        assert!(none.into_iter().all(|corners| shares(corners).is_none()));
-        for bad in [f64::NAN, f64::INFINITY] {
-            assert!(shares([[0.0, 0.0], [1.0, 0.0], [0.3, bad]]).is_none());
+    fn what_is_cut_by_weights_is_what_is_cut_by_places() {
+        let corners = [[0.2, 0.1], [1.4, 0.3], [0.5, 1.1]];
+        let (mut part, mut weights) = (Polygon::default(), Polygon::<3>::default());
+        part.set(&corners);
+        weights.set(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        for (from, to) in [([0.0, 0.5], [1.0, 0.4]), ([0.7, 0.0], [0.5, 1.0])] {
+            let edge = Edge::new(from, to);
+            let mut left = Polygon::default();
+            part.cut_along(edge, &mut left);
+            part = left;
+            let sides = corners.map(|p| edge.side(p));
+            let mut left = Polygon::default();
+            weights.cut(|at| (0..3).map(|k| sides[k] * at[k]).sum(), &mut left);
+            weights = left;
+        }
+        assert!(part.corners().len() > 2 && part.corners().len() == weights.corners().len());
+        for (p, at) in part.corners().iter().zip(weights.corners()) {
+            assert!((0..2).all(|d| (p[d] - (0..3).map(|k| at[k] * corners[k][d]).sum::<f64>()).abs() < 1e-15));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What ties of surfaces bind in 3D: two facets, at the mean points of the parts of what they have in common.
 
-use super::common::{Common, Frame};
+use super::common::{Common, Facets, Frame};
 use super::{Facing, PARTS, Segment};
 use crate::contact::Scene;
 use crate::contact::checked::Look;
@@ -112,7 +112,7 @@ impl Segment {
     /// Adds the ties of a pair, if its common part is near.
     fn bind_pair(&self, pair: [u32; 2], thickness: f64, positions: &[Vector], ties: &mut Vec<Tie<Hold>>) {
         let frames = self.pairs.frames_at(pair, positions);
-        let Some(common) = Common::new([&frames[0], &frames[1]], false, 0.0, self.level) else { return };
+        let Some(common) = Common::new(&Facets::alone([&frames[0], &frames[1]]), false, 0.0, self.level) else { return };
         let areas = frames.map(|frame| frame.area);
         let mean = common.parts().iter().map(|part| part.area * part.gap).sum::<f64>() / common.area;
         if !(mean.abs() <= thickness + NEAR * areas[0].max(areas[1]).sqrt()) {

@@ -20,7 +20,7 @@ fn some(random: &mut Random) -> (Vec<Vector>, [[u32; 4]; 2]) {
 
 fn common(positions: &[Vector], facets: [[u32; 4]; 2], is_mean: bool) -> Option<Common> {
     let frames = facets.map(|facet| Frame::new(facet, positions));
-    Common::new([&frames[0], &frames[1]], is_mean, 0.0, Level::best())
+    Common::new(&Facets::alone([&frames[0], &frames[1]]), is_mean, 0.0, Level::best())
 }
 
 /// Rows of the gap and both slips of a spring by node.
@@ -38,7 +38,9 @@ fn forces_of_any_pair_have_neither_resultant_nor_couple() {
     for _ in 0..500 {
         let (positions, facets) = some(&mut random);
         let frames = facets.map(|facet| Frame::new(facet, &positions));
-        let Some(common) = Common::new([&frames[0], &frames[1]], false, 2.0 * random.unit() - 1.0, Level::best()) else { continue };
+        let Some(common) = Common::new(&Facets::alone([&frames[0], &frames[1]]), false, 2.0 * random.unit() - 1.0, Level::best()) else {
+            continue;
+        };
         for part in common.parts() {
             let rows = rows(&common, part);
             for k in 0..3 {
@@ -245,7 +247,7 @@ fn the_quick_way_to_what_facets_have_in_common_finds_what_the_slow_one_does() {
         let frames = facets.map(|facet| Frame::new(facet, &positions));
         let least = frames[0].area.min(frames[1].area);
         let lead = if round % 2 == 0 { 0.0 } else { 2.0 * random.unit() - 1.0 };
-        let found = Common::new([&frames[0], &frames[1]], false, lead, Level::best());
+        let found = Common::new(&Facets::alone([&frames[0], &frames[1]]), false, lead, Level::best());
         let Some(found) = found else {
             // Nothing that the slow way finds either, in the same plane.
             let [a, b] = frames;
@@ -257,7 +259,8 @@ fn the_quick_way_to_what_facets_have_in_common_finds_what_the_slow_one_does() {
             continue;
         };
         for level in Level::available() {
-            let same = Common::new([&frames[0], &frames[1]], false, lead, level).map(|common| (common.lowest, common.parts, common.edges));
+            let same = Common::new(&Facets::alone([&frames[0], &frames[1]]), false, lead, level)
+                .map(|common| (common.lowest, common.parts, common.edges));
             assert_eq!(same, Some((found.lowest, found.parts, found.edges)), "{round} {level:?}");
         }
         let (area, weights, sums) = slowly(&found);
@@ -279,4 +282,18 @@ fn the_quick_way_to_what_facets_have_in_common_finds_what_the_slow_one_does() {
         met += 1;
     }
     assert!(met > 10_000 && apart > 5_000, "{met} {apart}");
+}
+
+#[test]
+fn the_covariance_of_a_facet_is_that_of_its_places() {
+    let mut random = Random::new(12);
+    for _ in 0..100 {
+        let (mut positions, facets) = some(&mut random);
+        positions.iter_mut().for_each(|x| x[2] = 0.5 * x[0] - 0.2 * x[1]);
+        let frame = Frame::new(facets[1], &positions);
+        let corners: Vec<[f64; 2]> = frame.corners[..frame.count].iter().map(|x| [x[0], x[1]]).collect();
+        let [xx, xy, yy] = Moments::around(&corners).covariance();
+        let expected = [xx, yy, 0.25 * xx - 0.2 * xy + 0.04 * yy, xy, 0.5 * xy - 0.2 * yy, 0.5 * xx - 0.2 * xy];
+        assert!(frame.covariance.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-14), "{:?} {expected:?}", frame.covariance);
+    }
 }

@@ -1,23 +1,28 @@
-use super::super::polygon::doubled;
+use super::super::polygon::{Moments, doubled};
 use super::*;
 use crate::bench::Random;
 
-/// A triangle of the plane; `None` where it has no area.
-fn fan(corners: [Point; 3]) -> Option<Fan> {
+fn has_area(corners: [Point; 3]) -> bool {
     let [a, b, c] = corners;
-    let middle = [0, 1].map(|d| (a[d] + b[d] + c[d]) / 3.0);
-    let fan = Fan::new(&Flat { places: [a, b, c, c, middle], heights: [0.0; 5], corners: 3, is_turned: false });
-    (fan.count > 0).then_some(fan)
+    let square = |p: Point, q: Point| (q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2);
+    [square(a, b), square(b, c), square(c, a)].into_iter().all(|square| doubled(corners) > FLAT * square)
+}
+
+/// Two triangles laid into the plane that they are in; `None` where they are apart.
+fn laid([a, b, c]: [Point; 3], [d, e, f]: [Point; 3]) -> Option<Fans> {
+    let positions = [c, b, a, d, e, f].map(|[x, y]| [x, y, 0.0]);
+    let frames = [[0, 1, 2, 2], [3, 4, 5, 5]].map(|nodes| Frame::new(nodes, &positions));
+    let (mut fans, axes) = (Fans::default(), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    fans.set(&Facets::alone([&frames[0], &frames[1]]), [0.0; 3], axes, 0.0, Level::best()).then_some(fans)
 }
 
 /// Moments of what two have in common.
-fn common(one: &Fan, other: &Fan) -> Moments {
-    let size = |fan: &Fan| {
-        let off = fan.places.map(|p| [p[0] - fan.places[MIDDLE][0], p[1] - fan.places[MIDDLE][1]]);
-        off.into_iter().map(|[x, y]| f64::hypot(x, y)).fold(0.0, f64::max)
-    };
+fn common(one: [Point; 3], other: [Point; 3]) -> Moments {
     let mut sum = Moments::default();
-    one.meet(other, size(one).min(size(other)), Level::best(), |_, polygon| sum.add(&polygon.moments()));
+    if let Some(fans) = laid(one, other) {
+        assert_eq!(fans.sectors, 0x11);
+        fans.meet(|_, polygon| sum.add(&polygon.moments()));
+    }
     sum
 }
 
@@ -80,10 +85,12 @@ fn common_areas_are_those_of_strips_for_needles_slivers_and_edges_that_coincide(
     let mut met = 0;
     for round in 0..40_000 {
         let (a, b) = (some(&mut random, round % 4), some(&mut random, round / 4 % 4));
-        let (Some(one), Some(other)) = (fan(a), fan(b)) else { continue };
-        let (found, expected) = (common(&one, &other).area(), by_strips(a, b));
+        if !(has_area(a) && has_area(b)) {
+            continue;
+        }
+        let (found, expected) = (common(a, b).area(), by_strips(a, b));
         assert!((found - expected).abs() < 1e-13, "{a:?} {b:?}: {found} {expected}");
-        assert!((found - common(&other, &one).area()).abs() < 1e-13);
+        assert!((found - common(b, a).area()).abs() < 1e-13);
         met += usize::from(expected > 0.0);
     }
     assert!(met > 10_000, "{met}");
@@ -95,7 +102,10 @@ fn what_covers_a_triangle_has_all_of_its_moments_at_any_scale() {
     for round in 0..2_000 {
         let scale = [1.0, 1e-12, 1e12][round % 3];
         let scaled = |t: [Point; 3]| t.map(|p| p.map(|c| scale * c));
-        let Some(one) = fan(scaled(some(&mut random, round / 3 % 4))) else { continue };
+        let one = scaled(some(&mut random, round / 3 % 4));
+        if !has_area(one) {
+            continue;
+        }
         // The unit square in a fan about any of its points, some of which are on its rim or a corner.
         let mut unit = || random.unit();
         let middle = match round % 5 {
@@ -106,15 +116,46 @@ fn what_covers_a_triangle_has_all_of_its_moments_at_any_scale() {
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let mut sum = Moments::default();
         for k in 0..4 {
-            if let Some(other) = fan(scaled([corners[k], corners[(k + 1) % 4], middle])) {
-                sum.add(&common(&one, &other));
+            let other = scaled([corners[k], corners[(k + 1) % 4], middle]);
+            if has_area(other) {
+                sum.add(&common(one, other));
             }
         }
-        let whole = one.moments();
+        let whole = Moments::around(&one);
         for (k, (found, expected)) in sum.0.iter().zip(whole.0).enumerate() {
             let size = scale.powi([2, 3, 3, 4, 4, 4][k]);
             assert!((found - expected).abs() < 1e-14 * size, "{k}: {found} {expected}");
         }
         assert!((sum.area() - whole.area()).abs() < 1e-12 * whole.area().max(1e-2 * scale * scale));
     }
+}
+
+#[test]
+fn shares_are_one_at_their_own_corner_and_none_at_others_and_flat_triangles_have_none() {
+    let (one, other) = ([[0.2, 0.1], [1.4, 0.3], [0.5, 1.1]], [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
+    let fans = laid(one, other).unwrap();
+    for k in 0..2 {
+        let Sector { labels, shares } = fans.sector(k, 0);
+        for (i, share) in shares.into_iter().enumerate() {
+            for corner in labels {
+                let [x, y] = fans.place(k, corner);
+                let found = share[0] + share[1] * x + share[2] * y;
+                assert!((found - f64::from(corner == labels[i])).abs() < 1e-15, "{k} {i}: {found}");
+            }
+        }
+    }
+    for flat in [[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]], [[0.5, 0.5]; 3], [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]] {
+        assert!(laid(one, flat).is_none_or(|fans| fans.sectors >> 4 == 0), "{flat:?}");
+    }
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert!(laid(one, [[0.0, 0.0], [1.0, 0.0], [0.3, bad]]).is_none_or(|fans| fans.sectors >> 4 == 0));
+    }
+}
+
+#[test]
+fn distances_near_an_edge_count_as_none_and_beyond_that_grow_to_what_they_are_without_a_jump() {
+    assert!([0.0, 1.0, -1.0, 0.3].into_iter().all(|near| soft(near, 1.0) == 0.0));
+    assert!([2.0, -2.5, 1e6].into_iter().all(|far| soft(far, 1.0) == far) && soft(-1.5, 1.0) == -1.0);
+    let steps = (0..=4000).map(|k| soft(1e-3 * f64::from(k) - 2.0, 1.0)).collect::<Vec<_>>();
+    assert!(steps.windows(2).all(|two| (0.0..2.1e-3).contains(&(two[1] - two[0]))));
 }

@@ -5,8 +5,8 @@
 //! from the ends of springs, [`super::sweep`] relaxes it. A spring knows the others by the velocities of its
 //! nodes alone, which begin at zero without springs: what a force changes is then exact to its own last
 //! digits, however fast the bodies move. Here are springs of elastic laws on nodes that yield alike in all
-//! directions that are free; islands with others (rigid bodies, constraints, oblique dashpots) go to
-//! [`super::relax`].
+//! directions that are free, in clusters on rigid bodies too ([`super::grips`]); islands with others
+//! (constraints, oblique dashpots, small ones with rigid bodies) go to [`super::relax`].
 
 use super::batches::Batches;
 use super::grips::{Grip, Pushes, Velocities};
@@ -105,7 +105,7 @@ where
     pub(super) pushes: Pushes,
     /// Place and part of each mover.
     movers: Vec<(u32, u32)>,
-    /// Row of each end; [`NONE`]: it does not move.
+    /// Row of each end; [`NONE`]: its spring does not move it in a sweep.
     pub(super) arms: Vec<u32>,
     /// The rooms of a spring while it is placed.
     slots: Vec<u32>,
@@ -266,7 +266,6 @@ where
         // Filled where they are needed.
         self.rows.clear();
         self.slips.clear();
-        self.slips.resize(if slides { (D - 1) * arms as usize } else { 0 }, [Batch::default(); D]);
     }
 
     /// The row of each end instead of its room: one for those that move as one.
@@ -354,6 +353,14 @@ where
             rooms_free[room].0[..D].copy_from_slice(&velocity);
         }
         are_free
+    }
+
+    /// Elastic slip at n + ½ of the spring in a lane, m, and whether friction is at its limit.
+    #[inline]
+    pub(super) fn slid_at(&self, batch: usize, lane: usize) -> (Along<D>, bool) {
+        let one_by_one = || self.slid[self.lanes[batch][lane] as usize];
+        let in_lanes = |rub: &Rub<D>| (Dim::<D>::tangent_vector(|a| rub.slip_new[a + 1].0[lane]), rub.slides.0[lane] != 0.0);
+        self.rubs.get(batch).map_or_else(one_by_one, in_lanes)
     }
 
     /// Goes through the springs that are in lanes: number of each in the list, of its first end in `arms`,

@@ -8,6 +8,7 @@
 use super::block::{Block, Kind, Part};
 use super::colours::Colouring;
 use super::grips::{self, Velocities};
+use super::islands::NONE;
 use super::link::{Joints, Laws};
 use super::relax::Effort;
 use super::sweep::{MOST, MOST_IN_SPACE, Relax, Settle};
@@ -69,7 +70,7 @@ where
         blocks.resize_with(count, Block::default);
         scratch.resize_with(scratch.len().max(problem.tasks), Vec::new);
         let arrange = |blocks: &mut [Block<D>], first: usize, scratch: &mut Vec<u32>| {
-            scratch.resize(problem.joints.at.len(), u32::MAX);
+            scratch.resize(problem.joints.at.len(), NONE);
             for (cluster, block) in (first..).zip(blocks) {
                 let springs = &problem.springs[problem.colouring.cluster(cluster)];
                 block.arrange(problem.joints, springs, std::iter::once(springs.len() as u32), (scratch, true));

@@ -83,14 +83,24 @@ where
     /// Change of the slip rate per friction that sticks, beside `compliance`, m/s per N/m.
     #[must_use]
     pub fn softness(&self) -> f64 {
-        8.0 / (self.stiffness * (self.time_steps[0] + self.time_steps[1]))
+        softness(self.stiffness, self.time_steps)
     }
 
     /// The same of a tie.
     #[must_use]
     pub fn tie_softness(&self) -> f64 {
-        4.0 / (self.stiffness * self.time_steps[1])
+        tie_softness(self.stiffness, self.time_steps)
     }
+}
+
+/// As [`FrictionInput::softness`], of a stiffness (N/m) and two steps (s).
+pub(super) fn softness(stiffness: f64, [before, after]: [f64; 2]) -> f64 {
+    8.0 / (stiffness * (before + after))
+}
+
+/// As [`FrictionInput::tie_softness`].
+pub(super) fn tie_softness(stiffness: f64, [_, after]: [f64; 2]) -> f64 {
+    4.0 / (stiffness * after)
 }
 
 /// Friction that was found.

@@ -13,7 +13,7 @@
 use super::block::Block;
 use super::islands::NONE;
 use super::link::{Joints, Laws, Movable, Row};
-use super::{NodeResponses, TangentSpace, Tangential};
+use super::{NodeResponses, TangentSpace, Tangential, friction};
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 
@@ -254,18 +254,16 @@ where
 
     /// Whether friction of a spring is at its limit.
     fn slides_at(&self, laws: &Laws<'_, D>, number: u32, batch: usize, lane: usize) -> bool {
-        let spring = self.lanes[batch][lane] as usize;
-        let slides = || self.rubs.get(batch).map_or_else(|| self.slid[spring].1, |rub| rub.slides.0[lane] != 0.0);
-        matches!(laws.terms(number).tangential, Tangential::Friction(_)) && slides()
+        matches!(laws.terms(number).tangential, Tangential::Friction(_)) && self.slid_at(batch, lane).1
     }
 
     /// By how much what sticks, or is tied, falls with its rate along a tangent.
     fn answer_along(&self, laws: &Laws<'_, D>, number: u32, axis: usize, batch: usize, lane: usize) -> f64 {
-        let (terms, [before, after]) = (laws.terms(number), laws.time_steps);
+        let terms = laws.terms(number);
         let stiffness = terms.law.slip_stiffness(&laws.list[number as usize].patch());
         let softness = match terms.tangential {
-            Tangential::Friction(_) => 8.0 / (stiffness * (before + after)),
-            _ => 4.0 / (stiffness * after),
+            Tangential::Friction(_) => friction::softness(stiffness, laws.time_steps),
+            _ => friction::tie_softness(stiffness, laws.time_steps),
         };
         let all = softness + self.own[batch][axis][axis].0[lane];
         if all > 0.0 { 1.0 / all } else { 0.0 }

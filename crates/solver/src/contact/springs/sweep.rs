@@ -494,10 +494,7 @@ where
                 if SLIDES {
                     (solved.friction, solved.slip_rates) = (along(forces), [along(old), along(&new)]);
                     if !matches!(self.laws.terms(block.number(spring)).tangential, Tangential::Free) {
-                        (solved.slip_new, solved.slides) = block
-                            .rubs
-                            .get(batch)
-                            .map_or_else(|| block.slid[spring as usize], |rub| (along(&rub.slip_new), rub.slides.0[lane] != 0.0));
+                        (solved.slip_new, solved.slides) = block.slid_at(batch, lane);
                     }
                 }
                 self.solved[spring as usize] = solved;

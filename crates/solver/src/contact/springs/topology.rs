@@ -9,6 +9,7 @@ use super::ends::Ends;
 use super::islands::{Islands, NONE};
 use super::link::Movable;
 use super::{NodeResponses, Spring, TangentSpace, Update};
+use crate::contact::both;
 use crate::tensor::Dim;
 use std::ops::Range;
 
@@ -245,10 +246,10 @@ impl Topology {
 
 /// Whether something holds for all of a range, halves of it at the same time where threads share the work.
 fn holds_for_all(of: &(dyn Fn(Range<usize>) -> bool + Sync), range: Range<usize>) -> bool {
-    if range.len() <= SHARED || rayon::current_thread_index().is_none() {
+    if range.len() <= SHARED {
         return of(range);
     }
     let middle = range.start + range.len() / 2;
-    let (low, high) = rayon::join(|| holds_for_all(of, range.start..middle), || holds_for_all(of, middle..range.end));
+    let (low, high) = both(|| holds_for_all(of, range.start..middle), || holds_for_all(of, middle..range.end));
     low && high
 }

@@ -57,8 +57,9 @@ pub(super) struct Frame {
     pub(super) area: f64,
     /// All corners are nearer to the middle than this, m.
     pub(super) radius: f64,
-    /// Covariance of its places as triangles about the middle, xx, yy, zz, xy, yz, zx, m².
-    covariance: [f64; 6],
+    /// Across each edge in its own plane, as long as that, to the inner side, m, and how far along that the
+    /// edge is, m².
+    pub(super) inwards: [(Vector, f64); 4],
 }
 
 /// What is beyond the edges of a facet.
@@ -113,17 +114,13 @@ impl Frame {
         let middle = [0, 1, 2].map(|k| corners[..count].iter().map(|x| x[k]).sum::<f64>() / count as f64);
         let radius = corners.into_iter().map(|x| length(minus(x, middle))).fold(0.0, f64::max);
         let by_axis = [0, 1, 2].map(|k| corners.map(|x| x[k]));
-        Self {
-            nodes,
-            corners,
-            by_axis,
-            count,
-            middle,
-            normal: unit(twice),
-            area: 0.5 * length(twice),
-            radius,
-            covariance: covariance(&corners[..count], middle),
+        let normal = unit(twice);
+        let mut inwards = [([0.0; 3], 0.0); 4];
+        for k in 0..count {
+            let across = cross(normal, minus(corners[if k + 1 == count { 0 } else { k + 1 }], corners[k]));
+            inwards[k] = (across, dot(across, corners[k]));
         }
+        Self { nodes, corners, by_axis, count, middle, normal, area: 0.5 * length(twice), radius, inwards }
     }
 
     /// Its nodes, each once.
@@ -198,7 +195,9 @@ impl Pieces {
                 let here = gap[0] + gap[1] * x + gap[2] * y;
                 self.lowest = if here < self.lowest { here } else { self.lowest };
             }
-            (0..2).for_each(|k| self.edges[k] |= fans.ends(k, sectors[k], rims[k], polygon));
+            if rims != [0; 2] {
+                (0..2).for_each(|k| self.edges[k] |= fans.ends(k, sectors[k], rims[k], polygon));
+            }
             self.whole.add(&moments);
             self.list[self.count] = Piece { sectors: sectors.map(|sector| sector as u8), moments };
             self.count += 1;
@@ -265,16 +264,9 @@ impl Common {
         }
         let weight = smooth(facing / FACING) * 2.0 / (1.0 + facing);
         let owner = owner(frames);
-        *self = Self {
-            frames: [*a, *b],
-            normal,
-            area: weight * whole.area(),
-            lowest: *lowest,
-            owner: owner as u8,
-            edges: *edges,
-            parts: self.parts,
-            count: 0,
-        };
+        self.frames.iter_mut().zip(frames).for_each(|(own, frame)| *own = *frame);
+        (self.normal, self.area, self.lowest) = (normal, weight * whole.area(), *lowest);
+        (self.owner, self.edges, self.count) = (owner as u8, *edges, 0);
         let corners = if is_mean { 0.0 } else { at_corners(whole, frames, owner, axes) };
         if corners < 1.0 {
             self.add_mean(fans, pieces, weight * (1.0 - corners));
@@ -461,10 +453,18 @@ fn at_corners(whole: &Moments, frames: [&Frame; 2], owner: usize, [first, second
     }
     let part = whole.covariance();
     let span = |frame: &Frame| {
-        let [xx, yy, zz, xy, yz, zx] = frame.covariance;
-        let along = |[x, y, z]: Vector| [xx * x + xy * y + zx * z, xy * x + yy * y + yz * z, zx * x + yz * y + zz * z];
-        let (of_first, of_second) = (along(first), along(second));
-        let [xx, xy, yy] = [dot(of_first, first), dot(of_first, second), dot(of_second, second)];
+        let [a, b, c, d] = frame.corners;
+        // Of four nodes the parallelogram with these diagonals.
+        let (ways, by) = if frame.count == 3 {
+            ([minus(b, a), minus(c, b), minus(a, c)], 1.0 / 36.0)
+        } else {
+            ([minus(c, a), minus(d, b), [0.0; 3]], 1.0 / 24.0)
+        };
+        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+        for way in ways {
+            let (x, y) = (dot(first, way), dot(second, way));
+            (xx, xy, yy) = (xx + by * x * x, xy + by * x * y, yy + by * y * y);
+        }
         // Largest eigenvalue of part/side.
         let (det, trace) = (xx * yy - xy * xy, yy * part[0] - 2.0 * xy * part[1] + xx * part[2]);
         let product = (part[0] * part[2] - part[1] * part[1]) * det;
@@ -472,27 +472,6 @@ fn at_corners(whole: &Moments, frames: [&Frame; 2], owner: usize, [first, second
         if det > 0.0 { 0.5 * (trace + root) / det } else { 0.0 }
     };
     covers.max(is_wide * between(SPANS, span(frames[0]).max(span(frames[1]))))
-}
-
-/// Covariance of the places of a facet as triangles about its middle, of which three are one triangle: by
-/// each axis and by two, m².
-fn covariance(corners: &[Vector], middle: Vector) -> [f64; 6] {
-    let (mut whole, mut sum, mut squares) = (0.0, [0.0; 3], [0.0; 6]);
-    let mut u = minus(corners[corners.len() - 1], middle);
-    for &corner in corners {
-        let v = minus(corner, middle);
-        let (area, both) = (length(cross(u, v)), [u[0] + v[0], u[1] + v[1], u[2] + v[2]]);
-        whole += area;
-        (0..3).for_each(|d| sum[d] += area * both[d]);
-        for (square, (i, j)) in squares.iter_mut().zip([(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)]) {
-            *square += area * (u[i] * u[j] + v[i] * v[j] + both[i] * both[j]);
-        }
-        u = v;
-    }
-    let by = if whole > 0.0 { 1.0 / whole } else { 0.0 };
-    let [x, y, z] = sum.map(|c| c * by / 3.0);
-    let products = [x * x, y * y, z * z, x * y, y * z, z * x];
-    std::array::from_fn(|i| squares[i] * by / 12.0 - products[i])
 }
 
 #[cfg(test)]

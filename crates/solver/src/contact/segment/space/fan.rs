@@ -16,7 +16,7 @@
 
 use super::common::{Borders, Facets, Frame};
 use super::polygon::{Edge, FLAT, Linear, Point, Polygon};
-use crate::tensor::dot;
+use crate::tensor::{cross, dot};
 use crate::vector::minus;
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 
@@ -42,38 +42,34 @@ pub(super) struct Sector {
     pub(super) shares: [Linear; 2],
 }
 
-/// Edges of a facet's fan that bound one of its triangles, as bits: those that have it on their left and on
-/// their right.
-#[derive(Clone, Copy)]
-struct Bounds {
-    left: u8,
-    right: u8,
-}
+/// Edges of a facet's fan that bound one of its triangles, as bits: those that have it on their left in the
+/// lower byte and those that have it on their right in the higher one.
+type Bounds = u16;
 
-/// Edges of another fan, as bits, that have a place on their left and on their right by more than counts, and
-/// that are so near that it counts as nearer; or any corner of a triangle.
+/// Edges of another fan that have a place on their left and on their right by more than counts, and that are
+/// so near that it counts as nearer, as bits, a byte each from the lowest on; or any corner of a triangle.
+type Places = u32;
+
+/// How a triangle lies with respect to the edges of another fan, as bits.
 #[derive(Clone, Copy, Default)]
 struct Lies {
-    left: u8,
-    right: u8,
+    /// Edges with triangles on their left, and on their right, which have this one on their other side.
+    beyond: Bounds,
+    /// Edges that divide it, or on which all of it is.
+    divide: u8,
     near: u8,
 }
 
 impl Lies {
-    fn or(self, other: Self) -> Self {
-        Self { left: self.left | other.left, right: self.right | other.right, near: self.near | other.near }
+    fn new(places: Places) -> Self {
+        let [left, right, near, _] = places.to_le_bytes();
+        let beyond = u16::from_le_bytes([right & !left, left & !right]);
+        Self { beyond, divide: left & right | !(left | right), near }
     }
 
-    /// Whether an edge of a triangle has this one on its outer side.
-    fn is_outside(self, of: Bounds) -> bool {
-        of.left & !self.left & self.right | of.right & !self.right & self.left != 0
-    }
-
-    /// Edges of a triangle that divide this one, or on which all of it is: those with the triangle on their
-    /// left, and on their right.
+    /// Edges of a triangle that divide this one.
     fn cut_by(self, of: Bounds) -> [u8; 2] {
-        let divide = self.left & self.right | !(self.left | self.right);
-        [of.left & divide, of.right & divide]
+        of.to_le_bytes().map(|edges| edges & self.divide)
     }
 }
 
@@ -146,11 +142,11 @@ impl Fans {
 
     fn bounds(&self, k: usize, sector: usize) -> Bounds {
         if self.corners[k] == 3 {
-            return Bounds { left: 0b111, right: 0 };
+            return 0b111;
         }
         let (own, next) = (0x10 << sector, 0x10 << ((sector + 1) % 4));
         let (left, right) = if k == 0 { (next, own) } else { (own, next) };
-        Bounds { left: 1 << sector | left, right }
+        u16::from_le_bytes([1 << sector | left, right])
     }
 
     fn place(&self, k: usize, corner: usize) -> Point {
@@ -178,14 +174,14 @@ impl Fans {
             let (own, bounds, corners) = (self.lies[cut][i], self.bounds(cut, i), self.triangle(cut, i));
             for j in self.sectors(by) {
                 let (others, edges) = (self.lies[by][j], all_edges[j]);
-                if own.is_outside(edges) || others.is_outside(bounds) {
+                if own.beyond & edges | others.beyond & bounds != 0 {
                     continue;
                 }
                 let cuts = own.cut_by(edges);
                 let all = cuts[0] | cuts[1];
                 if own.near & all != 0 {
                     self.cut_softly(i, cuts, part);
-                } else if all == edges.left | edges.right && others.cut_by(bounds) == [0; 2] {
+                } else if edges.to_le_bytes() == cuts && others.cut_by(bounds) == [0; 2] {
                     part.set(&self.triangle(by, j));
                 } else {
                     part.set(&corners);
@@ -274,26 +270,34 @@ fn soft(distance: f64, near: f64) -> f64 {
 /// All as seen along the normal of the common plane, on which no axes are needed.
 pub(super) fn are_beside(facets: &Facets<'_>, own: usize, normal: Vector, width: f64) -> bool {
     let (frame, other) = (facets.frames[own], facets.frames[1 - own]);
-    let count = frame.nodes().len();
-    let (mut lowest, mut across, mut edge) = (0.0, [0.0; 3], 0);
-    for k in 0..count.min(4) {
-        let next = if k + 1 == count { 0 } else { k + 1 };
-        let [x, y, z] = minus(frame.corners[next], frame.corners[k]);
-        let inwards = [normal[1] * z - normal[2] * y, normal[2] * x - normal[0] * z, normal[0] * y - normal[1] * x];
-        let inwards = if own == 0 { inwards.map(|c| -c) } else { inwards };
-        let side = dot(inwards, minus(other.middle, frame.corners[k]));
-        if side < lowest {
-            (lowest, across, edge) = (side, inwards, k);
-        }
+    let (mut lowest, mut edge) = (0.0, 4);
+    for (k, ([x, y, z], from)) in frame.inwards.into_iter().enumerate() {
+        let side = x * other.middle[0] + y * other.middle[1] + z * other.middle[2] - from;
+        (lowest, edge) = if side < lowest { (side, k) } else { (lowest, edge) };
     }
+    if edge == 4 {
+        return false;
+    }
+    let (from, to) = (frame.corners[edge], frame.corners[if edge + 1 == frame.nodes().len() { 0 } else { (edge + 1) % 4 }]);
+    let along = if own == 0 { minus(from, to) } else { minus(to, from) };
+    let across = cross(normal, along);
     let square = dot(across, across);
     let near = if own == facets.cut { 0.0 } else { near(facets.borders[own].soft[edge], square, other) };
-    let side = |corner: Vector| dot(across, minus(corner, frame.corners[edge]));
+    let side = |corner: Vector| dot(across, minus(corner, from));
+    let middle = side(other.middle);
+    if !(middle < -near) {
+        return false;
+    }
     let (mut least, mut most) = (0.0, f64::NEG_INFINITY);
-    frame.nodes().iter().zip(frame.corners).for_each(|(_, corner)| least = lower(least, side(corner)));
-    other.nodes().iter().zip(other.corners).for_each(|(_, corner)| most = higher(most, side(corner)));
+    // A triangle has its last corner twice.
+    other.corners.into_iter().for_each(|corner| most = higher(most, side(corner)));
+    // Its own corners are on the edge, or beyond.
+    if most > near && most * most > width * width * square {
+        return false;
+    }
+    frame.corners.into_iter().for_each(|corner| least = lower(least, side(corner)));
     let (over, strip) = (most - least, width * width * square);
-    lowest < -near && (over <= 0.0 || over * over <= strip || most <= near && least * least <= strip)
+    over <= 0.0 || over * over <= strip || most <= near && least * least <= strip
 }
 
 /// What is nearer to an edge is on it (twice the area of the triangle with it, m²), with the square of its
@@ -400,7 +404,7 @@ impl Fans {
     #[inline(always)]
     fn look<L: Lane>(&mut self, k: usize, strip: f64) -> bool {
         let (other, edges) = (1 - k, &self.edges[k]);
-        let mut places = [Lies::default(); 5];
+        let mut places = [0; 5];
         let mut apart = 0;
         for at in (0..BATCH).step_by(L::WIDTH) {
             let from = [L::load(&edges.from[0], at), L::load(&edges.from[1], at)];
@@ -411,16 +415,15 @@ impl Fans {
                 let [x, y] =
                     if i == MIDDLE { [self.middles[other][0], self.middles[other][1]] } else { corner(&self.places, 4 * other + i) };
                 let side = side_of(from, along, x, y);
-                let lies = &mut places[i];
-                lies.left |= (L::bits(near.less(side)) << at) as u8;
-                lies.right |= (L::bits(side.less(-near)) << at) as u8;
+                let lies: &mut Places = &mut places[i];
+                *lies |= L::bits(near.less(side)) << at | L::bits(side.less(-near)) << (8 + at);
                 if i == MIDDLE {
                     middle = side;
                 } else {
                     most = side.max(most);
                 }
                 if other == self.cut {
-                    lies.near |= (L::bits(side.abs().less(near + near)) << at) as u8;
+                    *lies |= L::bits(side.abs().less(near + near)) << (16 + at);
                     side.store(&mut self.sides[i], at);
                 }
             }
@@ -438,7 +441,7 @@ impl Fans {
         }
         for sector in 0..4 {
             let [a, b, c] = self.labels(other, sector);
-            self.lies[other][sector] = places[a].or(places[b]).or(places[c]);
+            self.lies[other][sector] = Lies::new(places[a] | places[b] | places[c]);
         }
         apart & ((1 << self.corners[k]) - 1) != 0
     }

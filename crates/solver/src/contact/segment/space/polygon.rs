@@ -138,17 +138,19 @@ impl<const N: usize> Polygon<N> {
         left.count = 0;
         let Some(last) = self.corners().last() else { return };
         let (mut from, mut before) = (last, side(last));
+        let mut was_beyond = before < 0.0;
         for to in self.corners() {
             let after = side(to);
-            if (before < 0.0) != (after < 0.0) {
+            let is_beyond = after < 0.0;
+            if was_beyond != is_beyond {
                 // Both have different signs: the sum of their sizes is not zero.
                 let way = before / (before - after);
                 left.push(std::array::from_fn(|d| from[d] + way * (to[d] - from[d])));
             }
-            if !(after < 0.0) {
+            if !is_beyond {
                 left.push(*to);
             }
-            (from, before) = (to, after);
+            (from, before, was_beyond) = (to, after, is_beyond);
         }
     }
 

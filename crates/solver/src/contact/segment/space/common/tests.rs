@@ -283,17 +283,3 @@ fn the_quick_way_to_what_facets_have_in_common_finds_what_the_slow_one_does() {
     }
     assert!(met > 10_000 && apart > 5_000, "{met} {apart}");
 }
-
-#[test]
-fn the_covariance_of_a_facet_is_that_of_its_places() {
-    let mut random = Random::new(12);
-    for _ in 0..100 {
-        let (mut positions, facets) = some(&mut random);
-        positions.iter_mut().for_each(|x| x[2] = 0.5 * x[0] - 0.2 * x[1]);
-        let frame = Frame::new(facets[1], &positions);
-        let corners: Vec<[f64; 2]> = frame.corners[..frame.count].iter().map(|x| [x[0], x[1]]).collect();
-        let [xx, xy, yy] = Moments::around(&corners).covariance();
-        let expected = [xx, yy, 0.25 * xx - 0.2 * xy + 0.04 * yy, xy, 0.5 * xy - 0.2 * yy, 0.5 * xx - 0.2 * xy];
-        assert!(frame.covariance.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-14), "{:?} {expected:?}", frame.covariance);
-    }
-}

@@ -7,6 +7,7 @@
 pub(crate) mod erosion;
 pub(crate) mod free;
 mod persist;
+mod limits;
 mod nodes;
 pub(crate) mod relaxation;
 pub(crate) mod rotations;
@@ -14,11 +15,10 @@ pub(crate) mod rotations;
 use crate::assembly::Assembly;
 use crate::block::spring::together;
 use crate::block::{Block, Motion, NodalForces, Report};
-use crate::contact::law::penalty::LIMIT;
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Springs, Update};
 use crate::contact::traces::Traces;
-use crate::contact::{Contact, Scene, Sweep};
+use crate::contact::{Contact, Scene, Sweep, both};
 use crate::contact_forces::ContactForces;
 use crate::dimension::Dimension;
 use crate::energy::{Entry, Ledger, Lost, Stores, Sums, Works};
@@ -39,77 +39,20 @@ use crate::vector::{dot, minus, plus, times};
 use embate_lanes::{Chunks, Level, Team};
 use erosion::Erosion;
 use free::Groups;
+pub use limits::{Governor, Limits, RUNAWAY};
 use nodes::Nodes;
 use relaxation::Relaxation;
 use rotations::NodalRotations;
 
 /// Nodes that one task updates.
 pub(crate) const CHUNK: usize = 1024;
-/// How many times as long as the step the stable one must be before the step grows at all.
-const HOLD: f64 = 1.25;
-/// A step that grows does so by at most this factor from one to the next.
-///
-/// Central differences with the step dt keep a vibration of the circular frequency ω at A² ω² (1 − ω²
-/// dt²/4) = v², of its amplitude A and its largest velocity v. The step is cut when the elements that decide
-/// it are pressed most, which leaves A as it is, and grows at all times, which takes as much from A as from
-/// v. So each cut that is made up for by growth adds up to ω² dt²/8 of twice its relative size to the
-/// vibrations that it follows, and the energy grows by up to exp(½ n (g − 1)) in n steps with the factor g:
-/// by e in 2,000 of them with 1.001, in 20,000 with 1.0001 (two soft blocks in a box: 5 % of drift in 32,000
-/// steps, and 0.8 % in 49,000). A constant step keeps the energy.
-const GROWTH: f64 = 1.0001;
-
-/// How far something may go into another body within a step, in depths at which the springs of contact
-/// stiffen: an eighth of the local thickness. Springs are made before they close, but they yield while
-/// they take up the momentum, so a body that comes at some tenths of the wave speed of one that is an element
-/// thick would be deep in it before they hold.
-const APPROACH: f64 = 2.5;
-/// The step is not cut below this fraction of the stable one for that.
-const LEAST_APPROACH: f64 = 0.125;
-/// Springs are made for what may come in with some times the last motion, and at the start there was none:
-/// where bodies are fast, the first step is short, and the next ones, so many, grow by two.
-const FIRST: u64 = 4;
-
-/// How many times as fast as the fastest wave and the fastest node at the start together a node may become.
-/// Gas into empty space reaches 2/(γ − 1) times its speed of sound.
-pub const RUNAWAY: f64 = 20.0;
-
-/// Steps before the end that are made equal.
-const LANDING: f64 = 128.0;
-
-/// Limits and fractions of a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// End time, s.
-    pub end: f64,
-    /// Fraction of the stable step.
-    pub safety: f64,
-    /// Largest energy drift, fraction.
-    pub energy: f64,
-    /// Smallest time step, s.
-    pub step: f64,
-    /// Largest time step, s; infinite: none is given.
-    pub largest: f64,
-    /// Largest speed of a node, m/s; before the start, where none is given: that of the fastest wave,
-    /// negative.
-    pub velocity: f64,
-    /// Largest depth of a contact, m.
-    pub penetration: f64,
-    /// Whether the model sets none: then no contact may be deeper than a body there is thick either.
-    pub is_local: bool,
-}
-
-/// Who sets the time step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Governor {
-    /// An element of the block whose smallest squared step this is.
-    Element(f64),
-    /// The model, by the largest step that it allows.
-    Given,
-    /// Bodies that come at each other so fast that a longer step would let them overlap before a contact sees
-    /// it.
-    Contact,
-    /// The end of the run, or growth from a smaller step.
-    Schedule,
+/// Finds the springs of contacts and obstacles.
+fn detect<const D: usize>(contacts: &mut [Contact<D>], springs: &mut Springs<D>, scene: &Scene<'_, D>)
+where
+    Dim<D>: Dimension<D>,
+{
+    springs.clear();
+    contacts.iter_mut().for_each(|contact| contact.detect(scene, springs));
 }
 
 /// Bodies, what acts on them, and their state.
@@ -197,6 +140,17 @@ where
     pub(crate) mass_added: [f64; 2],
 }
 
+/// What contacts see of the system, field by field.
+macro_rules! scene {
+    ($system:ident) => {
+        Scene {
+            sweep: Sweep { old: &$system.positions_old, new: &$system.positions, travel: $system.travel },
+            bodies: &$system.bodies,
+            time: $system.time,
+        }
+    };
+}
+
 /// What the velocity update of the system's nodes reads: its fields one by one, so that the new velocities
 /// can be written meanwhile.
 macro_rules! nodes {
@@ -240,13 +194,14 @@ where
 
     /// Everything that follows from the positions x^n.
     fn evaluate_forces(&mut self) -> Result<(), Error> {
-        let mut elements = self.internal_forces();
-        if self.erosion.is_some() {
-            elements = self.erode(elements);
+        let elements = self.strain_and_detect();
+        let time_step = self.stable_step(&elements);
+        if time_step.is_err() {
+            // The last output shows contacts where the bodies are.
+            self.solve_springs(self.time_step_old);
         }
-        let time_step = self.stable_step(&elements)?;
+        let time_step = time_step?;
         self.relax();
-        self.detect_contacts();
         let time_step = self.limit_approach(time_step);
         self.load(time_step);
         self.solve_contact_forces(time_step);
@@ -309,22 +264,32 @@ where
         self.step += 1;
     }
 
-    /// Internal forces, energies and steps of the elements at x^n.
-    fn internal_forces(&mut self) -> Report {
+    /// Internal forces, energies and steps of the elements at x^n, and springs of contacts and obstacles
+    /// there: at the same time, unless elements may fail, which changes surfaces.
+    fn strain_and_detect(&mut self) -> Report {
         let NodalRotations { now: rotations, slots: moments, .. } = &mut self.rotations;
         let motion = Motion { rotations, ..Motion::new(&self.positions, &self.velocities, self.time_step_old) };
-        let (mut rest, mut rest_of_moments) = (&mut self.slots[..], &mut moments[..]);
-        for (index, ((block, report), rigid)) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid).enumerate() {
-            let (slots, others) = rest.split_at_mut(block.slots().len());
-            // With all elements gone there is nothing to strain.
-            let is_gone = self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index));
-            let (moments, other_moments) = rest_of_moments.split_at_mut(block.moment_slots().len());
-            if !rigid && !is_gone {
-                *report = block.advance(&motion, self.level, NodalForces { forces: slots, moments }, &mut self.team);
+        let mut strain = || {
+            let (mut rest, mut rest_of_moments) = (&mut self.slots[..], &mut moments[..]);
+            for (index, ((block, report), rigid)) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid).enumerate() {
+                let (slots, others) = rest.split_at_mut(block.slots().len());
+                // With all elements gone there is nothing to strain.
+                let is_gone = self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index));
+                let (moments, other_moments) = rest_of_moments.split_at_mut(block.moment_slots().len());
+                if !rigid && !is_gone {
+                    *report = block.advance(&motion, self.level, NodalForces { forces: slots, moments }, &mut self.team);
+                }
+                (rest, rest_of_moments) = (others, other_moments);
             }
-            (rest, rest_of_moments) = (others, other_moments);
+        };
+        if self.erosion.is_none() {
+            both(strain, || detect(&mut self.contacts, &mut self.springs, &scene!(self)));
+            return self.joined_reports();
         }
-        self.joined_reports()
+        strain();
+        let elements = self.erode(self.joined_reports());
+        detect(&mut self.contacts, &mut self.springs, &scene!(self));
+        elements
     }
 
     /// What all blocks reported, with the step that is stable for elements and springs together.
@@ -337,38 +302,6 @@ where
             }
             _ => all,
         }
-    }
-
-    /// The next step: the elements' bound (which is that of the nodes in contact too, see
-    /// [`crate::contact::springs`]), the largest one of the model, growth, and the end.
-    fn stable_step(&mut self, elements: &Report) -> Result<f64, Error> {
-        if elements.determinant <= 0.0 {
-            return Err(self.inverted());
-        }
-        let mut time_step = self.limits.safety * elements.time_step_squared.sqrt();
-        let mut governor = Governor::Element(elements.time_step_squared);
-        if self.limits.largest < time_step {
-            (time_step, governor) = (self.limits.largest, Governor::Given);
-        }
-        if time_step < self.limits.step || time_step.is_nan() {
-            return Err(self.collapsed(time_step, governor));
-        }
-        let old = self.time_step_old;
-        if self.step > 0 && time_step > old {
-            (time_step, governor) = if self.governor == Governor::Contact && self.step <= FIRST {
-                (time_step.min(2.0 * old), Governor::Contact)
-            } else {
-                (if time_step > HOLD * old { GROWTH * old } else { old }, Governor::Schedule)
-            };
-        }
-        // The end is met exactly, by so many equal steps that none jumps.
-        let left = self.limits.end - self.time;
-        let steps = (left / time_step * (1.0 - 1e-9)).ceil();
-        if left > 0.0 && steps <= LANDING {
-            (time_step, governor) = (left / steps.max(1.0), Governor::Schedule);
-        }
-        self.governor = governor;
-        Ok(time_step)
     }
 
     /// What acts from outside in the coming update, and the motion of the rigid bodies that follows from it.
@@ -394,36 +327,12 @@ where
         self.curves.pass(from, to);
     }
 
-    /// Springs of contacts and obstacles at x^n.
-    fn detect_contacts(&mut self) {
-        self.springs.clear();
-        let sweep = Sweep { old: &self.positions_old, new: &self.positions, travel: self.travel };
-        let scene = Scene { sweep, bodies: &self.bodies, time: self.time };
-        for contact in &mut self.contacts {
-            contact.detect(&scene, &mut self.springs);
-        }
-    }
-
-    /// The step in which nothing goes farther into another body than [`APPROACH`] allows; a fraction of
-    /// `time_step` at least. In 2D who goes through a body in a step is known to have, and comes back:
-    /// there the step is as it is.
-    fn limit_approach(&mut self, time_step: f64) -> f64 {
-        if D == 2 {
-            return time_step;
-        }
-        let way = self.speed * time_step;
-        let allowed = if self.step == 0 {
-            let thinnest = reductions::min(self.contacts.iter().map(Contact::thinnest));
-            let ways = APPROACH * LIMIT * thinnest / (2.0 * way);
-            if ways < 1.0 { ways * time_step } else { time_step }
-        } else {
-            self.springs.step_of_approach(APPROACH, way, &self.velocities, &self.bodies)
-        };
-        if allowed >= time_step {
-            return time_step;
-        }
-        self.governor = Governor::Contact;
-        f64::max(allowed, LEAST_APPROACH * time_step).max(self.limits.step.min(time_step))
+    /// What the springs of contacts and obstacles push with in the coming update.
+    fn solve_springs(&mut self, time_step: f64) {
+        let nodes = nodes!(self, velocities, time_step);
+        let (time_steps, positions, bodies, level) = ([self.time_step_old, time_step], &self.positions, &self.bodies, self.level);
+        let update = Update { time_steps, positions, nodes: &nodes, bodies, level };
+        self.springs.solve(&update);
     }
 
     /// Contact and obstacle forces at x^n for the coming update.
@@ -431,10 +340,7 @@ where
         if self.contacts.is_empty() {
             return;
         }
-        let nodes = nodes!(self, velocities, time_step);
-        let (time_steps, positions, bodies, level) = ([self.time_step_old, time_step], &self.positions, &self.bodies, self.level);
-        let update = Update { time_steps, positions, nodes: &nodes, bodies, level };
-        self.springs.solve(&update);
+        self.solve_springs(time_step);
         self.contact_forces.clear();
         for contact in &mut self.contacts {
             contact.collect(&self.springs, &mut self.contact_forces, &mut self.bodies, &mut self.traces, time_step);
@@ -513,22 +419,6 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// Whether nodes are as fast, and contacts as deep, as is sound.
-    fn check_limits(&self) -> Result<(), Error> {
-        if self.speed > self.limits.velocity {
-            return Err(self.runaway());
-        }
-        let deep = self.contacts.iter().find(|contact| self.is_too_deep(contact));
-        deep.map_or(Ok(()), |contact| Err(self.too_deep(contact)))
-    }
-
-    /// Whether a contact is deeper than the limit, or, where the model sets none, than a body there is thick.
-    pub(crate) fn is_too_deep(&self, contact: &Contact<D>) -> bool {
-        // What comes in within a step is no deeper than both sides go in it.
-        let limit = self.limits.penetration + 2.0 * self.time_step_old * self.speed;
-        contact.depth() > limit || (self.limits.is_local && contact.gone_through().is_some())
-    }
-
     /// Largest |v^{n+1/2}|, m/s.
     fn largest_speed(&self) -> f64 {
         let free = self.sums.iter().map(|sums| sums.speed_squared);

@@ -6,7 +6,7 @@
 //! two passes of the pair, node against image and image against node, half belongs to the model: with the
 //! stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
 
-use super::springs::{Answers, End, Spring, Springs};
+use super::springs::{Answers, End, Slip, Spring, Springs};
 use super::{Formulation, Scene};
 use crate::archive::{Archive, ArchiveResult};
 use crate::contact::springs::TangentSpace;
@@ -77,7 +77,7 @@ where
                 let way = f64::sqrt(D as f64) * length(minus(to, from));
                 // Well before it touches: a spring that closes unseen would give back what it never took.
                 if gap <= reach + 4.0 * way {
-                    springs.push(Spring { normal, gap, stiffness, area, ..Spring::default() }, &[End::node(node, 1.0)]);
+                    springs.push(Spring { normal, gap, stiffness, area, ..Spring::default() }, Slip::default(), &[End::node(node, 1.0)]);
                 }
             }
         }

@@ -386,7 +386,7 @@ where
                 Some(&x) => (bodies.of_node(end.at) == Some(body), x),
                 None => (end.at as usize - positions.len() == body, end.point()),
             };
-            let force = if on_body { [0.0; D] } else { end.force(answer.spring, answer.solved) };
+            let force = if on_body { [0.0; D] } else { answer.force_on(&end) };
             Dim::<D>::moment(std::array::from_fn(|d| point[d] - centre[d]), force)
         };
         ends.map(moment).fold(Dim::<D>::NO_SPIN, Dim::<D>::plus)
@@ -396,8 +396,7 @@ where
     #[must_use]
     pub fn force_on(&self, nodes: &[u32], springs: &Springs<D>) -> f64 {
         let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
-        let forces =
-            ends.filter(|(_, end)| nodes.binary_search(&end.at).is_ok()).map(|(answer, end)| end.force(answer.spring, answer.solved));
+        let forces = ends.filter(|(_, end)| nodes.binary_search(&end.at).is_ok()).map(|(answer, end)| answer.force_on(&end));
         forces.map(|force| (1..D).fold(force[0] * force[0], |sum, d| sum + force[d] * force[d]).sqrt()).sum()
     }
 
@@ -424,7 +423,7 @@ where
 }
 
 /// Does both, at the same time within a pool of threads.
-fn both<A: Send, B: Send>(one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B + Send) -> (A, B) {
+pub(crate) fn both<A: Send, B: Send>(one: impl FnOnce() -> A + Send, other: impl FnOnce() -> B + Send) -> (A, B) {
     if rayon::current_thread_index().is_some() { rayon::join(one, other) } else { (one(), other()) }
 }
 

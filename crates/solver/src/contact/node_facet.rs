@@ -29,7 +29,7 @@ use super::search::Search;
 use super::slaves::{Face, PassInput};
 use super::spin;
 use super::springs::friction::cone;
-use super::springs::{Answer, Answers, End, Spring, Springs, Stiffening};
+use super::springs::{Answer, Answers, End, Slip, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Sweep, both};
 use crate::archive::{Archive, ArchiveResult, Persist};
@@ -62,6 +62,8 @@ pub struct NodeFacet {
     /// surface, node, and facet.
     closed_nodes: Vec<(usize, u32, u32)>,
     superseded: Vec<(usize, u32, u32)>,
+    /// Whether `closed_nodes` are to be found again from what is kept of them.
+    is_stale: bool,
     /// Ends of a spring beyond those of its own facet, while it is made.
     more: Vec<End<3>>,
 }
@@ -80,6 +82,7 @@ impl NodeFacet {
             slips: interface.friction.is_some(),
             used: Vec::new(),
             closed_nodes: Vec::new(),
+            is_stale: false,
             superseded: Vec::new(),
             more: Vec::new(),
         }
@@ -258,14 +261,14 @@ impl NodeFacet {
         let placed = Placed { surface: self.tracker.target(touch.pass), positions: scene.sweep.new };
         if !self.slips {
             let (ends, known) = pushed(&placed, touch.node, &touch.projection);
-            springs.push(spring, &ends[..known]);
+            springs.push(spring, Slip::default(), &ends[..known]);
             return;
         }
         let facets = placed.surface.sharing(facet, rest);
         let tangent = tangent(normal, first_edge(&placed, facet));
         let (ends, known) = ends_with(&placed, (touch.node, &touch.projection), &tangent, facets.clone(), more);
         let slip = cone::carried(slip(&placed, self.tracker.kept(touch).slip, facets, scene.sweep), Dim::<3>::tangents(normal, &tangent));
-        springs.push_with(Spring { slip, tangent, ..spring }, ends[..known].iter().chain(&*more));
+        springs.push_with(spring, Slip { slip, tangent }, ends[..known].iter().chain(&*more));
     }
 
     /// The spring of edges that touch; the energy that it had, J.
@@ -283,7 +286,7 @@ impl NodeFacet {
         let slip = if pair.memory.slip == [0.0; 3] { [0.0; 3] } else { spin::turned(pair.memory.slip, turn()) };
         let slip = cone::carried(slip, Dim::<3>::tangents(normal, &tangent));
         let (stiffness, area, stiffening) = (pair.stiffness, pair.area, pair.stiffening);
-        springs.push(Spring { normal, gap, stiffness, area, stiffening, side, slip, tangent, ..Spring::default() }, &ends);
+        springs.push(Spring { normal, gap, stiffness, area, stiffening, side, ..Spring::default() }, Slip { slip, tangent }, &ends);
         self.continuity.resume(&pair.memory.spring, springs);
         if let Some(edges) = &mut self.edges {
             let spring = SpringHistory { offset, normal, stored: 0.0, ..pair.memory.spring };
@@ -298,7 +301,7 @@ impl NodeFacet {
     /// index; empty: all).
     fn detect_free(&mut self, bound: &[bool], scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         let Continuity { thickness, reach, .. } = self.continuity;
-        if self.edges.is_some() {
+        if self.edges.is_some() && std::mem::take(&mut self.is_stale) {
             self.tracker.note_closed(reach, &mut self.closed_nodes);
         }
         let searches = self.tracker.search_report().searches;
@@ -338,19 +341,31 @@ impl Formulation<3> for NodeFacet {
             overlap_check.weigh(&solved);
         }
         let (nodes, edges) = (solved.part(0, nodes), solved.part(nodes, nodes + count));
-        let (slips, continuity) = (self.slips, &mut self.continuity);
+        let (slips, reach, continuity) = (self.slips, self.continuity.reach, &mut self.continuity);
         let mut note = |memory: &mut ContactHistory, answer: &Answer<'_, 3>| {
             if slips {
-                let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
+                let ([first, second], [a, b]) = (answer.tangents(), answer.slid().slip_new);
                 memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
             }
             memory.carried = answer.solved.gap - answer.spring.gap;
             continuity.note(&mut memory.spring, answer);
         };
-        for (&index, answer) in self.used.iter().zip(nodes) {
+        // Nothing is solved while the contact does not act.
+        let mut nodes = nodes;
+        self.closed_nodes.clear();
+        for &index in &self.used {
             let touch = self.tracker.touches()[index as usize];
-            note(self.tracker.kept_mut(&touch), &answer);
+            let memory = self.tracker.kept_mut(&touch);
+            if let Some(answer) = nodes.next() {
+                note(memory, &answer);
+            }
+            if self.edges.is_some() && memory.spring.half() < reach {
+                let (facet, rest, slave) = (memory.facet, memory.rest, self.tracker.slave(touch.pass));
+                let facets = self.tracker.target(touch.pass).sharing(facet, rest);
+                self.closed_nodes.extend(facets.map(|facet| (slave, touch.node, facet)));
+            }
         }
+        self.closed_nodes.sort_unstable();
         if let Some(pairs) = &mut self.edges {
             for (at, answer) in edges.enumerate() {
                 let touch = pairs.touches()[at];
@@ -363,8 +378,9 @@ impl Formulation<3> for NodeFacet {
         #[rustfmt::skip]
         let Self {
             passes: _, slips: _, used: _, closed_nodes: _, superseded: _, more: _,
-            tracker, edges, proof, overlap_check, continuity,
+            tracker, edges, proof, overlap_check, continuity, is_stale,
         } = self;
+        *is_stale |= archive.reads();
         tracker.persist(archive)?;
         if let Some(proof) = proof {
             proof.persist(archive, tracker.surfaces())?;
@@ -392,6 +408,7 @@ impl Formulation<3> for NodeFacet {
                 overlap_check.inherit(before);
             }
             self.continuity.has_begun = old.continuity.has_begun;
+            self.is_stale = true;
         }
     }
 

@@ -16,7 +16,7 @@ use super::law::penalty::{at_obstacles, penalty_of, stiffening};
 use super::node_facet::NodeFacet;
 use super::projection::node_segment::{Projection, Target};
 use super::slaves::{PassInput, Slave};
-use super::springs::{Answers, End, Spring, Springs, tangent};
+use super::springs::{Answers, End, Slip, Spring, Springs, tangent};
 use super::tracker::{Certificate, ContactHistory, ContactPoint, SearchReport, Tracker, is_facing};
 use super::{Formulation, Scene, Vector};
 use crate::archive::{Archive, ArchiveResult, Persist};
@@ -163,11 +163,11 @@ impl NodeSegment {
             if touch.slope != 0.0 {
                 lean(&mut ends, &touch, scene.sweep.new);
             }
-            let (side, slip) = (self.tracker.side(touch.pass), memory.slip);
-            let spring = Spring { normal, gap, stiffness, area, stiffening, side, slip: [slip], ..Spring::default() };
+            let (side, slip) = (self.tracker.side(touch.pass), Slip::of([memory.slip]));
+            let spring = Spring { normal, gap, stiffness, area, stiffening, side, ..Spring::default() };
             match other.filter(|_| self.slips).map(|other| turn_with_both(&mut ends, &touch.projection, other, target, scene.sweep.new)) {
-                None => springs.push(spring, &ends),
-                Some(more) => springs.push_with(spring, ends.iter().chain([&more])),
+                None => springs.push(spring, slip, &ends),
+                Some(more) => springs.push_with(spring, slip, ends.iter().chain([&more])),
             }
             self.continuity.resume(&memory.spring, springs);
             let spring = SpringHistory { offset, normal, stored: 0.0, ..memory.spring };
@@ -189,7 +189,7 @@ impl Formulation<2> for NodeSegment {
         for (&index, answer) in self.used.iter().zip(solved) {
             let touch = self.tracker.touches()[index as usize];
             let memory = self.tracker.kept_mut(&touch);
-            memory.slip = answer.solved.slip_new[0];
+            memory.slip = answer.slid().slip_new[0];
             self.continuity.note(&mut memory.spring, &answer);
         }
     }

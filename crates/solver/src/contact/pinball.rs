@@ -22,7 +22,7 @@ pub mod space;
 
 use super::checked::Checked;
 use super::formulation::{FormulationKind, Setup, Side, both_passes};
-use super::springs::{Answers, End, Spring, Springs};
+use super::springs::{Answers, End, Slip, Springs};
 use super::{Formulation, Scene, Vector, length};
 use crate::archive::{Archive, ArchiveResult};
 use follower::{Ball, Follower};
@@ -155,8 +155,8 @@ impl Formulation<2> for Pinball {
             let (mine, theirs) = (one.ends(positions, 1.0, part * one.radius), other.ends(positions, -1.0, part * other.radius));
             ends[..one.count].copy_from_slice(&mine[..one.count]);
             ends[one.count..one.count + other.count].copy_from_slice(&theirs[..other.count]);
-            let spring = Spring { slip: [near.slip], ..follower.spring(near.pair, &lying) };
-            springs.push(spring, &ends[..one.count + other.count]);
+            let spring = follower.spring(near.pair, &lying);
+            springs.push(spring, Slip::of([near.slip]), &ends[..one.count + other.count]);
         }
         follower.has_begun = true;
     }
@@ -173,7 +173,7 @@ impl Formulation<2> for Pinball {
 
     fn remember(&mut self, solved: Answers<'_, 2>) {
         for (near, answer) in self.follower.near.iter_mut().zip(solved) {
-            near.slip = answer.solved.slip_new[0];
+            near.slip = answer.slid().slip_new[0];
         }
     }
 }

@@ -27,7 +27,7 @@ use super::depths::Depths;
 use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, Side, both_passes};
 use super::law::{Law, penalty};
-use super::springs::{Answers, Patch, Spring, Springs};
+use super::springs::{Answers, Patch, Slip, Spring, Springs};
 use super::tied::surfaces::Bound;
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
@@ -334,7 +334,7 @@ impl Segment {
             let (normal, area) = (common.normal, weight * common.area * around);
             let side = if self.chains.len() == 1 { 0.0 } else { 1.0 };
             let (stiffness, slip) = (pressure * area, facing.slips[k]);
-            springs.push(Spring { normal, gap, stiffness, area, side, slip: [slip], ..Spring::default() }, &ends);
+            springs.push(Spring { normal, gap, stiffness, area, side, ..Spring::default() }, Slip::of([slip]), &ends);
         }
         self.facing.push(facing);
     }
@@ -497,7 +497,7 @@ impl Formulation<2> for Segment {
         for (index, facing) in self.facing.iter_mut().enumerate() {
             facing.stored = 0.0;
             for (slip, answer) in facing.slips.iter_mut().zip(solved.part(index * count, (index + 1) * count)) {
-                *slip = answer.solved.slip_new[0];
+                *slip = answer.slid().slip_new[0];
                 facing.stored += answer.stored_new();
             }
         }

@@ -239,7 +239,7 @@ where
             let (from, to) = (at, at + units(&self.ties[at..]).next().map_or(1, <[_]>::len));
             at = to;
             let holds = |(tie, answer): (&Tie<L::Hold>, Answer<'_, D>)| {
-                let (pull, shear) = ((-answer.solved.force).max(0.0), answer.solved.friction);
+                let (pull, shear) = ((-answer.solved.force).max(0.0), answer.slid().friction);
                 let square = (0..D - 1).fold(pull * pull, |sum, d| sum + shear[d] * shear[d]);
                 square.sqrt() <= self.strength * tie.area
             };

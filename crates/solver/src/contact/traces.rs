@@ -188,8 +188,9 @@ where
     pub fn states<'a>(springs: &Springs<D>, nodes: usize, inside: impl Iterator<Item = &'a (u32, f64)>) -> Vec<State> {
         let ends = || springs.list.iter().flat_map(|spring| springs.ends(spring)).map(|end| end.at as usize);
         let mut sums = vec![(0.0, 0.0, 0.0f64); ends().filter(|&at| at < nodes).max().map_or(0, |last| last + 1)];
-        for Answer { spring, solved, .. } in springs.answers(0..springs.list.len()) {
-            let status = if solved.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(solved.slides)) };
+        for answer in springs.answers(0..springs.list.len()) {
+            let Answer { spring, solved, .. } = answer;
+            let status = if solved.force == 0.0 { 0.0 } else { 1.0 + f64::from(u8::from(answer.slid().slides)) };
             for end in springs.ends(spring) {
                 if let Some((gap, share, most)) = sums.get_mut(end.at as usize) {
                     *gap += end.share.abs() * solved.gap;

@@ -277,8 +277,8 @@ where
     }
 
     fn moves(&self, leader: usize) -> bool {
-        let is_held = self.constraints.of(leader).is_some() || self.boundary.of(leader).is_some();
-        !is_held || self.mobility(&self.pull_on(leader)) != [[0.0; D]; D]
+        let is_held = || self.constraints.of(leader).is_some() || self.boundary.of(leader).is_some();
+        self.free.get(leader / BATCH) == Some(&true) || !is_held() || self.mobility(&self.pull_on(leader)) != [[0.0; D]; D]
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::super::projection::node_facet::{Feature, Placed, Projection, Vector};
 use super::super::search::{Pair, Query, Search};
-use super::super::springs::{Spring, Springs, TangentSpace};
+use super::super::springs::{Slip, Spring, Springs, TangentSpace};
 use super::super::tied::nodes::{self, Bond, NodeHold};
 use super::super::tied::{Bindable, NEAR, PendingTies, Tie};
 use super::groups::{bend, halves};
@@ -58,7 +58,7 @@ impl Bindable<3> for NodeFacet {
         let weights = placed.spread(facet, triangle, weights);
         let projection = Projection { facet, feature: Feature::Face, triangle, weights, foot, gap, normal };
         let (ends, known) = ends(&placed, hold.node, &projection);
-        springs.push(Spring { normal, gap: gap - begin, slip, tangent: along, ..spring }, &ends[..known]);
+        springs.push(Spring { normal, gap: gap - begin, ..spring }, Slip { slip, tangent: along }, &ends[..known]);
     }
 
     fn detect_free(&mut self, bound: &Vec<bool>, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {

@@ -2,7 +2,7 @@
 
 use super::super::projection::node_segment::Projection;
 use super::super::search::{Pair, Query, Search};
-use super::super::springs::{Spring, Springs};
+use super::super::springs::{Slip, Spring, Springs};
 use super::super::tied::nodes::{self, Bond, NodeHold};
 use super::super::tied::{Bindable, NEAR, PendingTies, Tie};
 use super::super::{Scene, Vector, length};
@@ -44,7 +44,7 @@ impl Bindable<2> for NodeSegment {
         // Forces act at the present foot of the node, so that both are collinear.
         let projection = Projection { segment: hold.facet, weights: [1.0 - along / whole, along / whole], gap, normal };
         let slip = [along - hold.place * whole];
-        springs.push(Spring { normal, gap: gap - begin, slip, ..spring }, &ends(hold.node, &projection, target, positions));
+        springs.push(Spring { normal, gap: gap - begin, ..spring }, Slip::of(slip), &ends(hold.node, &projection, target, positions));
     }
 
     fn detect_free(&mut self, bound: &Vec<bool>, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {

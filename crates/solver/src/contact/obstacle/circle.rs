@@ -18,7 +18,7 @@ use crate::contact::initial::kept;
 use crate::contact::law::penalty::stiffening;
 use crate::contact::node_segment::segment_ends;
 use crate::contact::slaves::Slave;
-use crate::contact::springs::{Answers, End, Spring, Springs};
+use crate::contact::springs::{Answers, End, Slip, Spring, Springs};
 use crate::contact::tracker::{Certificate, ContactPoint, SearchReport, Tracker};
 use crate::contact::{Formulation, Scene};
 use crate::vector::{dot, minus};
@@ -158,8 +158,8 @@ impl RoundSegments {
         Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false, depths, factor }
     }
 
-    /// The spring at a body that is near, and its ends.
-    fn spring(&self, touch: &ContactPoint, positions: &[Vector]) -> (Spring<2>, [End<2>; 3]) {
+    /// The spring at a body that is near, its slip, and its ends.
+    fn spring(&self, touch: &ContactPoint, positions: &[Vector]) -> (Spring<2>, Slip<2>, [End<2>; 3]) {
         let projection = touch.projection;
         let (normal, centre) = (projection.normal, positions[touch.node as usize]);
         // Where the circle touches.
@@ -172,7 +172,7 @@ impl RoundSegments {
         let (Slave { stiffness, area, .. }, memory) = (self.slave, self.tracker.kept(touch));
         let (slip, gap) = (memory.slip, gap - memory.spring.offset);
         let stiffening = stiffening(self.depths.thickness(self.tracker.around(touch)), self.factor);
-        (Spring { normal, gap, stiffness, area, stiffening, side: -1.0, slip: [slip], ..Spring::default() }, ends)
+        (Spring { normal, gap, stiffness, area, stiffening, side: -1.0, ..Spring::default() }, Slip::of([slip]), ends)
     }
 }
 
@@ -186,8 +186,8 @@ impl Formulation<2> for RoundSegments {
                 let memory = self.tracker.kept_mut(&touch);
                 memory.spring.offset = kept(self.has_begun, memory.spring.offset, gap);
             }
-            let (spring, ends) = self.spring(&touch, scene.sweep.new);
-            springs.push(spring, &ends);
+            let (spring, slip, ends) = self.spring(&touch, scene.sweep.new);
+            springs.push(spring, slip, &ends);
         }
         self.has_begun = true;
     }
@@ -195,7 +195,7 @@ impl Formulation<2> for RoundSegments {
     fn remember(&mut self, solved: Answers<'_, 2>) {
         for (index, answer) in solved.enumerate() {
             let touch = self.tracker.touches()[index];
-            self.tracker.kept_mut(&touch).slip = answer.solved.slip_new[0];
+            self.tracker.kept_mut(&touch).slip = answer.slid().slip_new[0];
         }
     }
 

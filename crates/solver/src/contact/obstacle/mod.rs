@@ -15,7 +15,7 @@ use super::findings::Findings;
 use super::initial::kept;
 use super::law::penalty::stiffening;
 use super::slaves::Slave;
-use super::springs::{Answers, End, Spring, Springs, Stiffening};
+use super::springs::{Answers, End, Slip, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
 use super::{Formulation, Scene, Vector};
 use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, persist_all, persist_each};
@@ -248,16 +248,8 @@ impl Formulation<2> for NodeObstacle {
                 let Slave { stiffness, area, .. } = slave;
                 let ends = [End::node(node, 1.0), End { at, share: -1.0, point: x, ..End::default() }];
                 springs.push(
-                    Spring {
-                        normal: body.to_global(normal),
-                        gap,
-                        stiffness,
-                        area,
-                        stiffening,
-                        side: 1.0,
-                        slip: [self.slips[index]],
-                        ..Spring::default()
-                    },
+                    Spring { normal: body.to_global(normal), gap, stiffness, area, stiffening, side: 1.0, ..Spring::default() },
+                    Slip::of([self.slips[index]]),
                     &ends,
                 );
                 self.found.push(index as u32);
@@ -297,7 +289,7 @@ impl Formulation<2> for NodeObstacle {
 
     fn remember(&mut self, solved: Answers<'_, 2>) {
         for (&index, answer) in self.found.iter().zip(solved) {
-            self.slips[index as usize] = answer.solved.slip_new[0];
+            self.slips[index as usize] = answer.slid().slip_new[0];
             self.memories[index as usize].presses = answer.solved.force != 0.0;
         }
     }

@@ -13,7 +13,7 @@ use super::super::law::penalty::stiffening;
 use super::super::projection::node_facet::place_on_triangle;
 use super::super::slaves::Slave;
 use super::super::springs::friction::cone;
-use super::super::springs::{Answers, End, Spring, Springs, Stiffening};
+use super::super::springs::{Answers, End, Slip, Spring, Springs, Stiffening};
 use super::super::{Formulation, Scene};
 use super::Manner;
 use super::behind::{Behind, Thick, divisions, may_be_between};
@@ -270,8 +270,8 @@ impl NodeSolid {
         let slip = cone::carried(body.to_global(memory.slip), Dim::<3>::tangents(normal, &tangent));
         let mut ends = [End { at, share: -1.0, point: x, ..End::default() }; 5];
         point.ends().zip(&mut ends).for_each(|((node, share), end)| *end = End::node(node, share));
-        let spring = Spring { normal, gap, stiffness, area, stiffening, side: 1.0, slip, tangent, ..Spring::default() };
-        springs.push(spring, &ends[..=point.count]);
+        let spring = Spring { normal, gap, stiffness, area, stiffening, side: 1.0, ..Spring::default() };
+        springs.push(spring, Slip { slip, tangent }, &ends[..=point.count]);
         self.found.push(index as u32);
     }
 
@@ -322,7 +322,7 @@ impl Formulation<3> for NodeSolid {
     fn remember(&mut self, solved: Answers<'_, 3>) {
         for (&index, answer) in self.found.iter().zip(solved) {
             let memory = &mut self.memories[index as usize];
-            let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
+            let ([first, second], [a, b]) = (answer.tangents(), answer.slid().slip_new);
             memory.presses = answer.solved.force != 0.0;
             memory.slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
         }

@@ -348,7 +348,7 @@ impl OverlapCheck {
             for end in answer.ends() {
                 let begin = rows.partition_point(|row| row.0 < end.at);
                 for &(_, number, row) in rows[begin..].iter().take_while(|row| row.0 == end.at) {
-                    sums[number as usize] -= dot(end.force(answer.spring, answer.solved), row);
+                    sums[number as usize] -= dot(answer.force_on(&end), row);
                 }
             }
         }

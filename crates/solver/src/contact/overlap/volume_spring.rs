@@ -14,7 +14,7 @@
 
 use super::super::law::penalty::{factor, stiffening};
 use super::super::projection::node_facet::unit;
-use super::super::springs::{Answers, End, Spring, Springs};
+use super::super::springs::{Answers, End, Slip, Spring, Springs};
 use super::super::{Sweep, spin};
 use super::{CAST, DIRECTED, Known, OverlapCheck, Region, Vector};
 use crate::archive::persist_all;
@@ -167,7 +167,7 @@ impl OverlapCheck {
             let known = &self.known[volume_spring.region as usize];
             ends.clear();
             ends.extend(volume_spring.rows.iter().map(|&(node, row)| End { lean: row.map(|c| -c / known.area), ..End::node(node, 0.0) }));
-            springs.push(volume_spring.spring(known), &ends);
+            springs.push(volume_spring.spring(known), Slip::default(), &ends);
             springs.continues(known.half, known.stored);
             found(known.stored);
         }

@@ -17,7 +17,7 @@ use super::super::formulation::{Setup, Side};
 use super::super::projection::node_facet::Placed;
 use super::super::spin;
 use super::super::springs::friction::cone;
-use super::super::springs::{Answers, End, Spring, Springs};
+use super::super::springs::{Answers, End, Slip, Springs};
 use super::super::tracker::SearchReport;
 use super::super::{Formulation, Scene, Sweep};
 use super::follower::{self, Follower};
@@ -70,7 +70,7 @@ impl Formulation<3> for Pinball {
             }
             let spring = follower.spring(near.pair, &lying);
             let [one, other] = near.pair.map(|ball| &follower.balls[ball as usize]);
-            let tangents = Dim::<3>::tangents(spring.normal, &spring.tangent);
+            let tangents = Dim::<3>::tangents(spring.normal, &[0.0; 3]);
             let slip = cone::carried(turned_with([one, other], near.slip, scene.sweep), tangents);
             // Friction acts at both centres; each element takes the part of the couple that its radius has in
             // the distance.
@@ -80,7 +80,7 @@ impl Formulation<3> for Pinball {
             let (positions, of) = (scene.sweep.new, |ball: &Ball| arms.map(|arm| arm.map(|c| part * ball.radius * c)));
             let count = one.add_ends(positions, 1.0, of(one), &mut ends);
             let count = count + other.add_ends(positions, -1.0, of(other), &mut ends[count..]);
-            springs.push(Spring { slip, ..spring }, &ends[..count]);
+            springs.push(spring, Slip::of(slip), &ends[..count]);
             self.used.push(index as u32);
         }
         follower.has_begun = true;
@@ -88,7 +88,7 @@ impl Formulation<3> for Pinball {
 
     fn remember(&mut self, solved: Answers<'_, 3>) {
         for (&index, answer) in self.used.iter().zip(solved) {
-            let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
+            let ([first, second], [a, b]) = (answer.tangents(), answer.slid().slip_new);
             self.follower.near[index as usize].slip = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
         }
     }

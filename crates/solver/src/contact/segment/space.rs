@@ -53,7 +53,7 @@ use super::super::overlap::OverlapCheck;
 use super::super::search::registry;
 use super::super::spin;
 use super::super::springs::friction::cone;
-use super::super::springs::{Answers, End, Spring, Springs};
+use super::super::springs::{Answers, End, Slip, Spring, Springs};
 use super::super::tied::surfaces::Bound;
 use super::super::tracker::{Certificate, SearchReport};
 use super::super::{Formulation, Scene, Sweep};
@@ -292,7 +292,7 @@ fn push_with_slip(common: &Common, part: &Part, spring: Spring<3>, slip: Vector,
     let tangents = common.tangents();
     let mut ends = [End::default(); 8];
     let count = common.ends(part, tangents, &mut ends);
-    springs.push(Spring { slip: cone::carried(slip, tangents), ..spring }, &ends[..count]);
+    springs.push(spring, Slip::of(cone::carried(slip, tangents)), &ends[..count]);
 }
 
 impl Segment {
@@ -340,7 +340,7 @@ impl Segment {
             let facing = &mut self.facing[of_pair[0].0 as usize];
             let mut areas = [0.0; PARTS];
             for (&(_, slot), answer) in of_pair.iter().zip(&mut answers) {
-                let ([first, second], [a, b]) = (answer.spring.tangents(), answer.solved.slip_new);
+                let ([first, second], [a, b]) = (answer.tangents(), answer.slid().slip_new);
                 facing.slips[slot as usize] = [0, 1, 2].map(|d| a * first[d] + b * second[d]);
                 facing.stored += answer.stored_new();
                 areas[slot as usize] = answer.spring.area;

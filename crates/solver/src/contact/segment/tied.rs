@@ -3,7 +3,7 @@
 use super::common::{Common, half_angle, normal};
 use super::{Facing, Segment, space};
 use crate::contact::formulation::{FormulationKind, both_passes};
-use crate::contact::springs::{End, Spring, Springs, tangent};
+use crate::contact::springs::{End, Slip, Spring, Springs, tangent};
 use crate::contact::tied::surfaces::{self, Bound, PairHold};
 use crate::contact::tied::{Bindable, NEAR, PendingTies, Tie, Tied};
 use crate::contact::{Scene, Vector, length};
@@ -68,8 +68,8 @@ impl Bindable<2> for Segment {
                 let half = if known.is_some() { half_angle(places[k], i) } else { [0.0; 2] };
                 End { lean: half.map(|half| -slip * half), turn: [half.map(|half| gap * half)], ..End::node(nodes[k][i], share) }
             };
-            let spring = Spring { normal, gap: gap - tie.gap, slip: [slip], ..tie.spring(side) };
-            springs.push(spring, &[end(0, 0), end(0, 1), end(1, 0), end(1, 1)]);
+            let spring = Spring { normal, gap: gap - tie.gap, ..tie.spring(side) };
+            springs.push(spring, Slip::of([slip]), &[end(0, 0), end(0, 1), end(1, 0), end(1, 1)]);
         }
     }
 

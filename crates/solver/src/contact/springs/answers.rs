@@ -4,7 +4,7 @@
 //! asked for (`book.rs`), so that nothing is stored that is only summed up.
 
 use super::book::Books;
-use super::{KeptEnd, Solved, Spring, Springs, Terms, Totals};
+use super::{KeptEnd, Slid, Slip, Solved, Spring, Springs, Terms, Totals};
 use crate::contact::springs::TangentSpace;
 use crate::contact::traces::Traces;
 use crate::contact_forces::ContactForces;
@@ -32,8 +32,8 @@ where
     /// The spring.
     pub spring: &'a Spring<D>,
     /// What was found of it.
-    pub solved: &'a Solved<D>,
-    terms: u32,
+    pub solved: &'a Solved,
+    number: u32,
 }
 
 impl<const D: usize> Answers<'_, D>
@@ -58,7 +58,7 @@ where
     fn next(&mut self) -> Option<Answer<'a, D>> {
         let (springs, number) = (self.springs, self.range.next()?);
         let solved = &springs.work.solved[springs.work.rank(number)];
-        Some(Answer { springs, spring: &springs.list[number], solved, terms: springs.terms_of[number] })
+        Some(Answer { springs, spring: &springs.list[number], solved, number: number as u32 })
     }
 }
 
@@ -68,7 +68,42 @@ where
 {
     /// What acts in it.
     pub(super) fn terms(&self) -> &'a Terms {
-        &self.springs.terms[self.terms as usize]
+        &self.springs.terms[self.springs.terms_of[self.number as usize] as usize]
+    }
+
+    /// Where it was along the surface.
+    #[must_use]
+    #[inline]
+    pub fn slip(&self) -> Slip<D> {
+        self.springs.slip(self.number as usize)
+    }
+
+    /// The directions along the surface.
+    #[must_use]
+    #[inline]
+    pub fn tangents(&self) -> <Dim<D> as TangentSpace<D>>::Tangents {
+        Dim::<D>::tangents(self.spring.normal, &self.slip().tangent)
+    }
+
+    /// What was found of it along the surface.
+    #[must_use]
+    #[inline]
+    pub fn slid(&self) -> Slid<D> {
+        let work = &self.springs.work;
+        let nothing = || Slid { slides: self.solved.force != 0.0, ..Slid::default() };
+        if work.slid.is_empty() { nothing() } else { work.slid[work.rank(self.number as usize)] }
+    }
+
+    /// Its force on one of its ends, N/m.
+    #[must_use]
+    #[inline]
+    pub fn force_on(&self, end: &KeptEnd<'_, D>) -> [f64; D] {
+        let slid = self.slid();
+        if slid.friction == Default::default() {
+            end.push(self.spring, self.solved)
+        } else {
+            end.drag(self.spring, &self.tangents(), (self.solved, &slid))
+        }
     }
 
     /// dt^{n−1}, dt^n, s.
@@ -101,14 +136,14 @@ where
 
     /// Adds its force to what is at the ends, and to the resultant.
     fn push(&self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, totals: &mut Totals<D>) {
-        let (spring, solved) = (self.spring, self.solved);
-        if solved.force == 0.0 && solved.friction == Default::default() {
+        let (spring, solved, slid) = (self.spring, self.solved, self.slid());
+        if solved.force == 0.0 && slid.friction == Default::default() {
             return;
         }
         totals.pressing += solved.force.abs();
-        let tangents = (solved.friction != Default::default()).then(|| spring.tangents());
+        let tangents = (slid.friction != Default::default()).then(|| self.tangents());
         for end in self.ends() {
-            let force = tangents.as_ref().map_or_else(|| end.push(spring, solved), |tangents| end.drag(spring, tangents, solved));
+            let force = tangents.as_ref().map_or_else(|| end.push(spring, solved), |tangents| end.drag(spring, tangents, (solved, &slid)));
             if end.share > 0.0 {
                 totals.resultant.iter_mut().zip(force).for_each(|(sum, force)| *sum += f64::from(spring.side) * force);
             }
@@ -121,7 +156,7 @@ where
     /// How far it slides in the coming update, m.
     #[must_use]
     pub fn slides_by(&self) -> f64 {
-        Dim::<D>::size(&self.solved.slip_rates[1]) * self.time_steps()[1]
+        Dim::<D>::size(&self.slid().rates[1]) * self.time_steps()[1]
     }
 }
 

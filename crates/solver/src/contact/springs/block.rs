@@ -89,7 +89,8 @@ where
     pub(super) slips: Vec<[Batch; D]>,
     /// What springs added to the velocity of each mover, then its mobility; the first is nobody's.
     pub(super) rooms: Vec<Room>,
-    /// Velocities before the update, after it without springs, and ones for the axes along which they move.
+    /// Velocities before the update, after it without springs, and ones for the axes along which they move,
+    /// as far as any does not along all.
     rooms_old: Vec<Room>,
     rooms_free: Vec<Room>,
     axes: Vec<Room>,
@@ -324,14 +325,15 @@ where
     /// Velocities and mobilities of the movers; parts with one that does not yield alike along all axes that
     /// are free are for others. Whether all axes of all movers are free.
     fn load_movers<M: NodeResponses<D> + Sync>(&mut self, joints: &Joints<'_, M, D>) -> bool {
-        let mut are_free = true;
         let Self { movers, parts, rooms, rooms_old, rooms_free, axes, .. } = self;
-        for list in [&mut *rooms, rooms_old, rooms_free, axes] {
-            list.clear();
+        axes.clear();
+        for list in [&mut *rooms, rooms_old, rooms_free] {
             list.resize(movers.len(), Room::default());
+            list[0] = Room::default();
         }
         for (room, &(place, part)) in movers.iter().enumerate().skip(1) {
             let part = &mut parts[part as usize];
+            [rooms[room], rooms_old[room], rooms_free[room]] = Default::default();
             if part.is_barred {
                 continue;
             }
@@ -340,8 +342,10 @@ where
             let mobility = (0..D).fold(0.0, |most, d| f64::max(most, entries[Dim::<D>::AT[d][d]]));
             for i in 0..D {
                 let moves = entries[Dim::<D>::AT[i][i]] != 0.0;
-                axes[room].0[i] = if moves { 1.0 } else { 0.0 };
-                are_free &= moves;
+                if !moves {
+                    axes.resize(movers.len(), Room([1.0; _]));
+                    axes[room].0[i] = 0.0;
+                }
                 for j in i..D {
                     let expected = if i == j && moves { mobility } else { 0.0 };
                     part.is_general |= entries[Dim::<D>::AT[i][j]] != expected;
@@ -352,7 +356,7 @@ where
             rooms_old[room].0[..D].copy_from_slice(&velocity_old);
             rooms_free[room].0[..D].copy_from_slice(&velocity);
         }
-        are_free
+        axes.is_empty()
     }
 
     /// Elastic slip at n + ½ of the spring in a lane, m, and whether friction is at its limit.
@@ -403,7 +407,7 @@ where
         for (number, first, [_, lane]) in Self::in_lanes((springs, at), joints) {
             let spring = &joints.laws.list[number as usize];
             let has_slip = slides && !matches!(joints.laws.terms(number).tangential, Tangential::Free);
-            let tangents = if has_slip { spring.tangents() } else { Default::default() };
+            let tangents = joints.laws.tangents(number);
             for (&arm, k) in arms[first..].iter().zip(spring.ends()).filter(|(arm, _)| **arm != NONE) {
                 let (arm, end) = (arm as usize, joints.ends.get(k));
                 let turned = |row: [f64; D]| end.image().map_or(row, |turn| Dim::<D>::pull_back(turn, row));
@@ -434,7 +438,7 @@ where
                 };
                 add(0, end.gap_row(spring.normal));
                 if has_slip {
-                    let slips = end.slip_rows(&spring.tangents());
+                    let slips = end.slip_rows(&joints.laws.tangents(number));
                     (1..D).for_each(|axis| add(axis, slips[axis - 1]));
                 }
             }
@@ -451,7 +455,7 @@ where
         let (gap, gap_old) = begins(joints, number, old[0].0[lane], before);
         if let Some(rub) = self.rubs.get_mut(batch) {
             let slip_rate = Dim::<D>::tangent_vector(|a| old[a + 1].0[lane]);
-            rub.set(lane, (data, terms), Dim::<D>::size(&slip_rate));
+            rub.set(lane, (data, terms), Dim::<D>::size(&slip_rate), joints.laws.slip(number).slip);
         }
         let gaps = &mut self.gaps[batch];
         let (compliance, gap_free) = (gaps.compliance.0[lane], gap + 0.5 * after * free[0].0[lane]);
@@ -560,7 +564,7 @@ where
                 free[axis] += kept[axis][d] * after[d];
             }
         }
-        if !PLAIN {
+        if !PLAIN && !free_axes.is_empty() {
             let moves = L::gather_rooms(free_axes, places, arm, at);
             for axis in 0..axes {
                 let row = if axis == 0 { &mut rows[arm] } else { &mut slips[(D - 1) * arm + axis - 1] };

@@ -2,7 +2,7 @@
 //!
 //! Springs and what was found of them come from [`super::answers`], which sums up what is entered here.
 
-use super::{Answer, TangentSpace, Tangential, sum_along};
+use super::{Answer, Slid, TangentSpace, Tangential, sum_along};
 use crate::energy::Lost;
 use crate::tensor::Dim;
 
@@ -33,9 +33,9 @@ where
     #[must_use]
     pub fn books(&self) -> Books {
         let ([before, after], terms, spring, solved) = (self.time_steps(), self.terms(), self.spring, self.solved);
-        let (patch, [slip, friction, slip_new]) = (spring.patch(), [spring.slip, solved.friction, solved.slip_new]);
+        let (patch, slid) = (spring.patch(), self.slid());
+        let (slip, Slid { friction, slip_new, rates: [slip_rate_old, slip_rate], .. }) = (self.slip().slip, slid);
         let [rate_old, rate] = solved.rates;
-        let [slip_rate_old, slip_rate] = solved.slip_rates;
         let mean_step = 0.5 * (before + after);
         let (gap_old, gap_new) = (self.gap_old(), self.gap_new());
         let (stored_old, stored_new) = (terms.law.stored(&patch, gap_old), terms.law.stored(&patch, gap_new));

@@ -11,8 +11,9 @@ use super::grips::{self, Velocities};
 use super::islands::NONE;
 use super::link::{Joints, Laws};
 use super::relax::Effort;
+use super::solve::Results;
 use super::sweep::{MOST, MOST_IN_SPACE, Relax, Settle};
-use super::{NodeResponses, Solved, TangentSpace};
+use super::{NodeResponses, TangentSpace};
 use crate::tensor::Dim;
 use embate_lanes::{Level, Room};
 use rayon::prelude::*;
@@ -87,7 +88,7 @@ where
     }
 
     /// Finds the forces; `None`: the island is one for [`super::relax`].
-    pub(super) fn solve<M: NodeResponses<D> + Sync>(&mut self, problem: &Problem<'_, M, D>, solved: &mut [Solved<D>]) -> Option<Effort> {
+    pub(super) fn solve<M: NodeResponses<D> + Sync>(&mut self, problem: &Problem<'_, M, D>, results: Results<'_, D>) -> Option<Effort> {
         if self.bodies.places.len() > grips::MOST {
             return None;
         }
@@ -110,7 +111,7 @@ where
             return None;
         }
         self.bodies.follow(false);
-        report(problem, 0, &mut self.blocks, solved, (&self.rooms, &self.bodies.added));
+        report(problem, 0, &mut self.blocks, results, (&self.rooms, &self.bodies.added));
         Some(Effort { sweeps: all.sweeps as usize, unsolved: false })
     }
 
@@ -158,7 +159,7 @@ fn report<M: NodeResponses<D> + Sync, const D: usize>(
     problem: &Problem<'_, M, D>,
     first: usize,
     blocks: &mut [Block<D>],
-    solved: &mut [Solved<D>],
+    results: Results<'_, D>,
     known: (&[Room], &[f64]),
 ) where
     Dim<D>: TangentSpace<D>,
@@ -168,13 +169,13 @@ fn report<M: NodeResponses<D> + Sync, const D: usize>(
         let middle = blocks.len() / 2;
         let begin = colouring.cluster(first).start;
         let (low, high) = blocks.split_at_mut(middle);
-        let (own, others) = solved.split_at_mut(colouring.cluster(first + middle).start - begin);
+        let [own, others] = results.split_at(colouring.cluster(first + middle).start - begin);
         rayon::join(|| report(problem, first, low, own, known), || report(problem, first + middle, high, others, known));
         return;
     }
-    let mut rest = solved;
+    let mut rest = results;
     for (cluster, block) in (first..).zip(blocks) {
-        let (own, others) = rest.split_at_mut(colouring.cluster(cluster).len());
+        let [own, others] = rest.split_at(colouring.cluster(cluster).len());
         block.take_over(known.0);
         block.lend(known.1);
         settle(block, own, joints.laws, joints.update.level);
@@ -208,14 +209,14 @@ where
     }
 }
 
-/// Reports the springs of a block: what is `solved` of each, in their order.
-pub(super) fn settle<const D: usize>(block: &Block<D>, solved: &mut [Solved<D>], laws: Laws<'_, D>, level: Level)
+/// Reports the springs of a block: the results of each, in their order.
+pub(super) fn settle<const D: usize>(block: &Block<D>, results: Results<'_, D>, laws: Laws<'_, D>, level: Level)
 where
     Dim<D>: TangentSpace<D>,
 {
     match block.kind() {
-        Kind::Plain => level.run(Settle::<false, true, D> { block, solved, laws }),
-        Kind::Normal => level.run(Settle::<false, false, D> { block, solved, laws }),
-        Kind::Sliding => level.run(Settle::<true, false, D> { block, solved, laws }),
+        Kind::Plain => level.run(Settle::<false, true, D> { block, results, laws }),
+        Kind::Normal => level.run(Settle::<false, false, D> { block, results, laws }),
+        Kind::Sliding => level.run(Settle::<true, false, D> { block, results, laws }),
     }
 }

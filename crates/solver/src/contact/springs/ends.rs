@@ -1,22 +1,29 @@
 //! Ends of springs as they are kept: all have a share, and what not all have lies apart: turns (only with
 //! friction), and what few have. Springs are more than caches hold, so their size is their cost.
 
-use super::{End, Solved, Spring};
+use super::{End, Slid, Solved, Spring};
 use crate::contact::springs::TangentSpace;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
-use std::ops::Range;
 
 /// No more.
 const NONE: u32 = u32::MAX;
 
-/// The ends of all springs, one after the other.
+/// The ends of all springs, one after the other. Those of a step replace those of the step before, so that it
+/// is known whether they are the same.
 #[derive(Default)]
 pub(super) struct Ends<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
+    /// Beyond the first `count` those of the step before.
     list: Vec<PackedEnd>,
+    count: usize,
+    /// Where the ends of each spring end, beyond the first `springs` those of the step before.
+    closed: Vec<u32>,
+    springs: usize,
+    /// Whether any spring has other nodes or bodies at its ends than in the step before.
+    differ: bool,
     /// As far as any end has one.
     turns: Vec<<Dim<D> as TangentSpace<D>>::Tangents>,
     more: Vec<More<D>>,
@@ -69,14 +76,56 @@ impl<const D: usize> Ends<D>
 where
     Dim<D>: TangentSpace<D>,
 {
+    /// Begins a step.
     pub(super) fn clear(&mut self) {
-        self.list.clear();
+        self.list.truncate(self.count);
+        self.closed.truncate(self.springs);
+        (self.count, self.springs, self.differ) = (0, 0, false);
         self.turns.clear();
         self.more.clear();
     }
 
-    pub(super) fn len(&self) -> u32 {
-        self.list.len() as u32
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether springs have the same nodes and bodies at their ends as in the step before.
+    pub(super) fn are_as_before(&self) -> bool {
+        !self.differ && self.list.len() == self.count && self.closed.len() == self.springs
+    }
+
+    /// Ends a spring: number of its first end, and how many it has.
+    #[inline]
+    pub(super) fn close(&mut self) -> [u32; 2] {
+        let first = if self.springs == 0 { 0 } else { self.closed[self.springs - 1] };
+        let end = self.count as u32;
+        match self.closed.get_mut(self.springs) {
+            Some(before) => {
+                self.differ |= *before != end;
+                *before = end;
+            }
+            None => {
+                self.differ = true;
+                self.closed.push(end);
+            }
+        }
+        self.springs += 1;
+        [first, end - first]
+    }
+
+    #[inline]
+    fn add(&mut self, end: PackedEnd) {
+        match self.list.get_mut(self.count) {
+            Some(before) => {
+                self.differ |= before.at != end.at;
+                *before = end;
+            }
+            None => {
+                self.differ = true;
+                self.list.push(end);
+            }
+        }
+        self.count += 1;
     }
 
     #[inline]
@@ -87,15 +136,17 @@ where
         if number != NONE {
             self.more.push(more);
         }
-        self.turns.resize(self.list.len(), Default::default());
-        self.turns.push(turn);
-        self.list.push(PackedEnd { at, more: number, share });
+        if turn != Default::default() {
+            self.turns.resize(self.count, Default::default());
+            self.turns.push(turn);
+        }
+        self.add(PackedEnd { at, more: number, share });
     }
 
     /// Nodes with shares in the gap, and nothing else.
     #[inline]
     pub(super) fn extend(&mut self, shares: impl Iterator<Item = (u32, f64)>) {
-        self.list.extend(shares.map(|(at, share)| PackedEnd { at, more: NONE, share }));
+        shares.for_each(|(at, share)| self.add(PackedEnd { at, more: NONE, share }));
     }
 
     #[inline]
@@ -115,11 +166,6 @@ where
     #[inline]
     pub(super) fn at(&self, k: usize) -> u32 {
         self.list[k].at
-    }
-
-    /// Whether some ends are at these nodes or rigid bodies.
-    pub(super) fn all_at(&self, ends: Range<usize>, at: &[u32]) -> bool {
-        self.list[ends].iter().zip(at).all(|(end, &at)| end.at == at)
     }
 
     /// Lets the end act at a place, m.
@@ -172,27 +218,25 @@ where
         self.more?.image.as_ref()
     }
 
-    /// Force of a solved spring on this end, N/m.
-    #[must_use]
+    /// Force of a solved spring on this end where there is no friction, N/m.
     #[inline]
-    pub fn force(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
-        if solved.friction == Default::default() { self.push(spring, solved) } else { self.drag(spring, &spring.tangents(), solved) }
-    }
-
-    /// The same where there is no friction.
-    #[inline]
-    pub(super) fn push(&self, spring: &Spring<D>, solved: &Solved<D>) -> [f64; D] {
+    pub(super) fn push(&self, spring: &Spring<D>, solved: &Solved) -> [f64; D] {
         self.gap_row(spring.normal).map(|row| row * solved.force)
     }
 
     /// The same with friction along the spring's `tangents`.
     #[inline]
-    pub(super) fn drag(&self, spring: &Spring<D>, tangents: &<Dim<D> as TangentSpace<D>>::Tangents, solved: &Solved<D>) -> [f64; D] {
+    pub(super) fn drag(
+        &self,
+        spring: &Spring<D>,
+        tangents: &<Dim<D> as TangentSpace<D>>::Tangents,
+        (solved, slid): (&Solved, &Slid<D>),
+    ) -> [f64; D] {
         let (gap_row, slip_rows) = (self.gap_row(spring.normal), self.slip_rows(tangents));
         std::array::from_fn(|d| {
             let mut sum = gap_row[d] * solved.force;
             for a in 0..D - 1 {
-                sum += slip_rows[a][d] * solved.friction[a];
+                sum += slip_rows[a][d] * slid.friction[a];
             }
             sum
         })

@@ -174,7 +174,7 @@ where
         for (number, first, [batch, lane]) in Self::in_lanes((springs, at), joints) {
             let (spring, begin) = (&joints.laws.list[number as usize], grips.len());
             let has_slip = !matches!(joints.laws.terms(number).tangential, Tangential::Free);
-            let tangents = if has_slip { spring.tangents() } else { Default::default() };
+            let tangents = joints.laws.tangents(number);
             for (_, k) in arms[first..].iter().zip(spring.ends()).filter(|(arm, _)| **arm == NONE) {
                 let Some(body) = bodies.body(joints.places[k]) else { continue };
                 let (end, movable) = (joints.ends.get(k), &bodies.movables[body]);

@@ -2,7 +2,7 @@
 //!
 //! Springs and their laws come from [`super::block`], forces are found in [`super::sweep`].
 
-use super::{Spring, TangentSpace, Tangential, Terms};
+use super::{Along, Spring, TangentSpace, Tangential, Terms};
 use crate::tensor::Dim;
 use embate_lanes::Batch;
 use std::ops::{Index, IndexMut};
@@ -136,14 +136,14 @@ impl<const D: usize> Rub<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Puts a spring that slid at a rate (m/s) into a lane.
-    pub(super) fn set(&mut self, lane: usize, (spring, terms): (&Spring<D>, &Terms), slip_rate: f64) {
+    /// Puts a spring that slid at a rate (m/s) into a lane, with its slip, m.
+    pub(super) fn set(&mut self, lane: usize, (spring, terms): (&Spring<D>, &Terms), slip_rate: f64, slip: Along<D>) {
         let Tangential::Friction(friction) = terms.tangential else { return };
         self.stiffness.0[lane] = terms.law.slip_stiffness(&spring.patch());
         for (kept, value) in self.limit.iter_mut().zip(friction.limits(spring.area, slip_rate)) {
             kept.0[lane] = value;
         }
-        (1..D).for_each(|axis| self.slip[axis].0[lane] = spring.slip[axis - 1]);
+        (1..D).for_each(|axis| self.slip[axis].0[lane] = slip[axis - 1]);
     }
 }
 

@@ -8,7 +8,7 @@
 use super::couple::{Couplings, Forces};
 use super::ends::Ends;
 use super::islands::NONE;
-use super::{Along, KeptEnd, NodeResponse, NodeResponses, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
+use super::{Along, KeptEnd, NodeResponse, NodeResponses, Slip, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
 use crate::contact::law::Law;
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
@@ -185,6 +185,7 @@ where
     Dim<D>: TangentSpace<D>,
 {
     pub(super) list: &'a [Spring<D>],
+    pub(super) slips: &'a [Slip<D>],
     pub(super) terms: &'a [Terms],
     pub(super) terms_of: &'a [u32],
     pub(super) time_steps: [f64; 2],
@@ -198,6 +199,21 @@ where
     #[inline]
     pub(super) fn terms(&self, number: u32) -> &Terms {
         &self.terms[self.terms_of[number as usize] as usize]
+    }
+
+    /// Where a spring is along the surface.
+    #[inline]
+    pub(super) fn slip(&self, number: u32) -> Slip<D> {
+        self.slips.get(number as usize).copied().unwrap_or_default()
+    }
+
+    /// The directions along the surface of a spring; none where nothing acts along it.
+    #[inline]
+    pub(super) fn tangents(&self, number: u32) -> <Dim<D> as TangentSpace<D>>::Tangents {
+        match self.terms(number).tangential {
+            Tangential::Free => Default::default(),
+            _ => Dim::<D>::tangents(self.list[number as usize].normal, &self.slip(number).tangent),
+        }
     }
 }
 
@@ -335,7 +351,7 @@ where
         let (spring, terms) = (&self.laws.list[number as usize], self.laws.terms(number));
         let [before, after] = self.laws.time_steps;
         let has_slip = !matches!(terms.tangential, Tangential::Free);
-        let tangents = if has_slip { spring.tangents() } else { Default::default() };
+        let tangents = self.laws.tangents(number);
         let mut next = 0;
         for k in spring.ends() {
             let (end, slot) = (self.ends.get(k), self.slots[self.places[k] as usize]);

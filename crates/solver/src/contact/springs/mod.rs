@@ -79,7 +79,7 @@ const BOTH: f64 = 2.2;
 pub type Along<const D: usize> = <Dim<D> as TangentSpace<D>>::TangentVector<f64>;
 
 /// A spring between two surfaces: it pushes along `normal` on the ends with positive shares and against it on
-/// the others. In 2D a cache line: there is one for every node that touches.
+/// the others. At most a cache line: there is one for every node that touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring<const D: usize>
 where
@@ -98,10 +98,6 @@ where
     /// 1 where the ends with positive shares belong to the first surface, −1 where to the second, 0 in a
     /// contact of bodies with themselves.
     pub side: f32,
-    /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
-    pub slip: Along<D>,
-    /// In 3D the first of the tangents along which the slip is; zero: any.
-    pub tangent: <Dim<D> as TangentSpace<D>>::FirstTangent,
     pub(super) first: u32,
     pub(super) count: u32,
 }
@@ -111,9 +107,41 @@ where
     Dim<D>: TangentSpace<D>,
 {
     fn default() -> Self {
-        let (slip, tangent) = Default::default();
         let stiffening = Stiffening::default();
-        Self { normal: [0.0; D], gap: 0.0, stiffness: 0.0, area: 0.0, stiffening, side: 0.0, slip, tangent, first: 0, count: 0 }
+        Self { normal: [0.0; D], gap: 0.0, stiffness: 0.0, area: 0.0, stiffening, side: 0.0, first: 0, count: 0 }
+    }
+}
+
+/// Where a spring is along the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slip<const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// Friction: elastic slip at n − ½ (memory of the contact), m. Tie: slip at n, m.
+    pub slip: Along<D>,
+    /// In 3D the first of the tangents along which the slip is; zero: any.
+    pub tangent: <Dim<D> as TangentSpace<D>>::FirstTangent,
+}
+
+impl<const D: usize> Default for Slip<D>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    fn default() -> Self {
+        let (slip, tangent) = Default::default();
+        Self { slip, tangent }
+    }
+}
+
+impl<const D: usize> Slip<D>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// Along any tangents.
+    #[must_use]
+    pub fn of(slip: Along<D>) -> Self {
+        Self { slip, ..Self::default() }
     }
 }
 
@@ -190,13 +218,6 @@ where
         Patch { gap: self.gap, stiffness: self.stiffness, area: self.area, limit: self.stiffening.depth(), more: self.stiffening.factor() }
     }
 
-    /// The directions along the surface.
-    #[must_use]
-    #[inline]
-    pub fn tangents(&self) -> <Dim<D> as TangentSpace<D>>::Tangents {
-        Dim::<D>::tangents(self.normal, &self.tangent)
-    }
-
     /// Where its ends are among all.
     #[inline]
     fn ends(&self) -> Range<usize> {
@@ -204,26 +225,31 @@ where
     }
 }
 
-/// What the solution found of a spring: what the ledger and the contacts need of it.
+/// What the solution found of a spring across the surface: what the ledger and the contacts need of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Solved<const D: usize>
-where
-    Dim<D>: TangentSpace<D>,
-{
+pub struct Solved {
     /// g^n, m.
     pub gap: f64,
     /// F, N/m.
     pub force: f64,
+    /// Rates of the gap in v^{n−½} and v^{n+½}, m/s.
+    pub rates: [f64; 2],
+}
+
+/// The same along the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slid<const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
     /// T, N/m: friction along each tangent.
     pub friction: Along<D>,
     /// Elastic slip at n + ½, m.
     pub slip_new: Along<D>,
     /// Whether friction is at its limit, or there is none.
     pub slides: bool,
-    /// Rates of the gap in v^{n−½} and v^{n+½}, m/s.
-    pub rates: [f64; 2],
-    /// The same of the slip along the tangent, m/s.
-    pub slip_rates: [Along<D>; 2],
+    /// Rates of the slip in v^{n−½} and v^{n+½}, m/s.
+    pub rates: [Along<D>; 2],
 }
 
 /// What a spring does to one node or rigid body: rows of the rates of gap and slip.
@@ -318,6 +344,8 @@ where
 {
     /// In the order in which contacts and obstacles found them.
     pub list: Vec<Spring<D>>,
+    /// Where each is along the surface, as far as any is known to be anywhere.
+    slips: Vec<Slip<D>>,
     ends: Ends<D>,
     /// Gap (m) and energy (J/m) of each spring at the end of the step before, as far as any continues; no
     /// number: it does not.
@@ -326,6 +354,8 @@ where
     pub terms: Vec<Terms>,
     /// Terms of each spring.
     terms_of: Vec<u32>,
+    /// Whether anything acts along the surface in any.
+    has_tangential: bool,
     /// dt^{n−1}, dt^n of the last solution, s.
     time_steps: [f64; 2],
     work: solve::Workspace<D>,
@@ -434,31 +464,40 @@ where
     /// Forgets the springs of the last step.
     pub fn clear(&mut self) {
         self.list.clear();
+        self.slips.clear();
         self.ends.clear();
         self.ended.clear();
         self.terms_of.clear();
+        self.has_tangential = false;
     }
 
     /// Adds a spring with its ends.
-    pub fn push(&mut self, spring: Spring<D>, ends: &[End<D>]) {
-        let first = self.ends.len();
-        ends.iter().for_each(|end| self.ends.push(end));
-        self.list.push(Spring { first, count: ends.len() as u32, ..spring });
+    pub fn push(&mut self, spring: Spring<D>, slip: Slip<D>, ends: &[End<D>]) {
+        self.push_with(spring, slip, ends.iter());
     }
 
     /// The same with the ends one by one.
-    pub fn push_with<'a>(&mut self, spring: Spring<D>, ends: impl Iterator<Item = &'a End<D>>) {
-        let first = self.ends.len();
+    pub fn push_with<'a>(&mut self, spring: Spring<D>, slip: Slip<D>, ends: impl Iterator<Item = &'a End<D>>) {
         ends.for_each(|end| self.ends.push(end));
-        self.list.push(Spring { first, count: self.ends.len() - first, ..spring });
+        if slip != Slip::default() {
+            self.slips.resize(self.list.len(), Slip::default());
+            self.slips.push(slip);
+        }
+        self.close(spring);
     }
 
     /// Adds a spring between nodes that have shares in its gap, and whose slip counts for nothing.
     #[inline]
     pub fn push_plain(&mut self, spring: Spring<D>, shares: impl Iterator<Item = (u32, f64)>) {
-        let first = self.ends.len();
         self.ends.extend(shares);
-        self.list.push(Spring { first, count: self.ends.len() - first, ..spring });
+        self.close(spring);
+    }
+
+    /// Adds the spring whose ends were pushed last.
+    #[inline]
+    fn close(&mut self, spring: Spring<D>) {
+        let [first, count] = self.ends.close();
+        self.list.push(Spring { first, count, ..spring });
     }
 
     /// Lets the spring that was pushed last begin where it ended in the step before, at the gap `half` (m)
@@ -471,7 +510,15 @@ where
 
     /// Ends the springs of a contact: what was pushed since the last group follows the terms number `terms`.
     pub fn close_group(&mut self, terms: usize) {
+        let is_free = self.terms[terms].tangential == Tangential::Free;
+        self.has_tangential |= self.terms_of.len() < self.list.len() && !is_free;
         self.terms_of.resize(self.list.len(), terms as u32);
+    }
+
+    /// Where a spring is along the surface.
+    #[inline]
+    fn slip(&self, number: usize) -> Slip<D> {
+        self.slips.get(number).copied().unwrap_or_default()
     }
 
     /// The ends of a spring.

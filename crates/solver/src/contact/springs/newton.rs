@@ -226,7 +226,7 @@ where
         state: &mut State<D>,
     ) {
         let link = &island.links[i];
-        let slip = island.laws.list[link.spring as usize].slip;
+        let slip = island.laws.slip(link.spring).slip;
         let Some((direction, softness)) = Dim::<D>::lateral_compliance(stick, slip, friction) else { return };
         let (half, own) = (0.5 * island.laws.time_steps[1], link.own_along(&direction));
         if own > 0.0 {

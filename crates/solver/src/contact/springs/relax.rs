@@ -10,11 +10,11 @@ use super::couple::{Couplings, Forces, Rates};
 use super::friction::{FrictionInput, FrictionResult};
 use super::link::{Arm, Laws, Link, Row, Slips, Slot};
 use super::newton::Newton;
-use super::{Along, Closing, Patch, Solved, TangentSpace, Tangential, Terms};
+use super::solve::Results;
+use super::{Along, Closing, Patch, Slid, Solved, TangentSpace, Tangential, Terms};
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 use embate_lanes::math;
-use rayon::prelude::*;
 
 /// An island is solved when a sweep changes no force by more than this fraction of the island's largest.
 pub(super) const TOLERANCE: f64 = 1e-12;
@@ -365,13 +365,13 @@ where
     /// Friction by its law where the others add `rates` to its own.
     #[inline]
     pub(super) fn slide_from(&self, i: usize, rates: Rates<D>) -> FrictionResult<D> {
-        Dim::<D>::slide(&self.stick_from(i, rates), self.laws.list[self.links[i].spring as usize].slip, self.limit(i, self.forces[i][0]))
+        Dim::<D>::slide(&self.stick_from(i, rates), self.laws.slip(self.links[i].spring).slip, self.limit(i, self.forces[i][0]))
     }
 
     /// The same of a tie.
     #[inline]
     pub(super) fn tie_from(&self, i: usize, rates: Rates<D>) -> Along<D> {
-        Dim::<D>::tie(&self.stick_from(i, rates), self.laws.list[self.links[i].spring as usize].slip)
+        Dim::<D>::tie(&self.stick_from(i, rates), self.laws.slip(self.links[i].spring).slip)
     }
 
     /// Adds to the forces of a spring.
@@ -382,16 +382,20 @@ where
 
     /// Reports what was found, with the rates that the forces lead to; parts of `length` springs each at the
     /// same time.
-    pub(super) fn settle(&self, solved: &mut [Solved<D>], length: usize) {
-        if solved.len() <= length {
-            return self.settle_part(0, solved);
-        }
-        solved.par_chunks_mut(length).enumerate().for_each(|(part, solved)| self.settle_part(part * length, solved));
+    pub(super) fn settle(&self, results: Results<'_, D>, length: usize) {
+        self.settle_part(0, results, length);
     }
 
     /// The same of the springs from number `first` on.
-    fn settle_part(&self, first: usize, solved: &mut [Solved<D>]) {
-        for (i, solved) in (first..).zip(solved) {
+    fn settle_part(&self, first: usize, mut results: Results<'_, D>, length: usize) {
+        if results.len() > length {
+            let middle = results.len().div_ceil(length) / 2 * length;
+            let [low, high] = results.split_at(middle);
+            rayon::join(|| self.settle_part(first, low, length), || self.settle_part(first + middle, high, length));
+            return;
+        }
+        for number in 0..results.len() {
+            let i = first + number;
             let link = &self.links[i];
             let is_free = matches!(self.terms_of(i).tangential, Tangential::Free);
             let (others, forces) = (self.rates(i), self.forces[i]);
@@ -401,7 +405,8 @@ where
             let (force, friction) = (forces[0], Dim::<D>::tangent_vector(|a| forces[a + 1]));
             let slides = if is_free { force != 0.0 } else { link.slides };
             let Link { gap, slip_new, rate_old, slip_rate_old, .. } = *link;
-            *solved = Solved { gap, force, friction, slip_new, slides, rates: [rate_old, rate], slip_rates: [slip_rate_old, slip_rate] };
+            let slid = Slid { friction, slip_new, slides, rates: [slip_rate_old, slip_rate] };
+            results.set(number, Solved { gap, force, rates: [rate_old, rate] }, || slid);
         }
     }
 }

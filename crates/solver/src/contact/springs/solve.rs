@@ -15,9 +15,10 @@ use super::newton::Newton;
 use super::relax::{Effort, Island};
 use super::sweep::MOST;
 use super::topology::{CHUNK, Topology};
-use super::{NodeResponses, Solved, Springs, Update};
+use super::{NodeResponses, Slid, Solved, Springs, Update};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
+use std::ops::Range;
 
 /// Fewer springs are solved by one thread.
 const SERIAL: usize = 4 * CHUNK;
@@ -31,8 +32,10 @@ where
     Dim<D>: TangentSpace<D>,
 {
     pub(super) topology: Topology,
-    /// What was found, island by island.
-    pub(super) solved: Vec<Solved<D>>,
+    /// What was found across the surface, island by island.
+    pub(super) solved: Vec<Solved>,
+    /// And along it, unless nothing acts there.
+    pub(super) slid: Vec<Slid<D>>,
     /// Of each chunk.
     tasks: Vec<Task<D>>,
     /// Of each large island.
@@ -64,6 +67,46 @@ where
     live: Vec<u32>,
 }
 
+/// What is found of some springs, island by island.
+pub(super) struct Results<'a, const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    solved: &'a mut [Solved],
+    /// None where nothing acts along the surface.
+    slid: &'a mut [Slid<D>],
+}
+
+impl<const D: usize> Results<'_, D>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    pub(super) fn len(&self) -> usize {
+        self.solved.len()
+    }
+
+    /// Those of the springs before number `middle`, and the others.
+    pub(super) fn split_at(self, middle: usize) -> [Self; 2] {
+        let (solved, slid) = (self.solved.split_at_mut(middle), self.slid.split_at_mut(middle.min(self.slid.len())));
+        [Results { solved: solved.0, slid: slid.0 }, Results { solved: solved.1, slid: slid.1 }]
+    }
+
+    /// Those of some springs.
+    fn part(&mut self, range: Range<usize>) -> Results<'_, D> {
+        let slid = if self.slid.is_empty() { &mut [] } else { &mut self.slid[range.clone()] };
+        Results { solved: &mut self.solved[range], slid }
+    }
+
+    /// Enters those of a spring.
+    #[inline(always)]
+    pub(super) fn set(&mut self, number: usize, solved: Solved, slid: impl FnOnce() -> Slid<D>) {
+        self.solved[number] = solved;
+        if let Some(entry) = self.slid.get_mut(number) {
+            *entry = slid();
+        }
+    }
+}
+
 impl<const D: usize> Workspace<D>
 where
     Dim<D>: TangentSpace<D>,
@@ -89,9 +132,11 @@ where
         if self.list.is_empty() {
             return;
         }
-        let Workspace { topology, solved, tasks, large, desks } = &mut self.work;
+        let Workspace { topology, solved, slid, tasks, large, desks } = &mut self.work;
         let is_new = topology.update((&self.list, &self.terms_of), &mut self.ends, update, LARGE);
         solved.resize(self.list.len(), Solved::default());
+        slid.resize(if self.has_tangential { self.list.len() } else { 0 }, Slid::default());
+        let mut results = Results { solved, slid };
         let threads = if self.list.len() >= SERIAL { threads() } else { 1 };
         let chunks = topology.chunks.len();
         if tasks.len() < chunks {
@@ -101,16 +146,17 @@ where
             desks.resize_with(threads, Desk::default);
         }
         let Topology { places, at, slots, .. } = &*topology;
-        let laws = Laws { list: &self.list, terms: &self.terms, terms_of: &self.terms_of, time_steps: update.time_steps };
+        let laws =
+            Laws { list: &self.list, slips: &self.slips, terms: &self.terms, terms_of: &self.terms_of, time_steps: update.time_steps };
         let joints = Joints { laws, ended: &self.ended, ends: &self.ends, places, at, slots, update };
         let plan = Plan { joints, topology, is_new };
-        plan.solve(0..chunks, solved, &mut tasks[..chunks], &mut desks[..threads]);
+        plan.solve(0..chunks, results.part(0..self.list.len()), &mut tasks[..chunks], &mut desks[..threads]);
         let mut effort = Effort::default();
         for (number, chunk) in (0..chunks).filter(|&chunk| plan.is_large(chunk)).enumerate() {
             if number == large.len() {
                 large.push(Clusters::default());
             }
-            let own = &mut solved[topology.links(chunk..chunk + 1)];
+            let own = results.part(topology.links(chunk..chunk + 1));
             effort.join(plan.solve_large((chunk, &topology.colourings[number]), own, &mut large[number], &mut desks[0], threads));
         }
         tasks[..chunks].iter().for_each(|task| effort.join(task.effort));
@@ -135,18 +181,18 @@ where
     Dim<D>: TangentSpace<D>,
 {
     /// Solves the small islands of chunks: halves of them at the same time, as many as there are desks.
-    fn solve(&self, chunks: std::ops::Range<usize>, solved: &mut [Solved<D>], tasks: &mut [Task<D>], desks: &mut [Desk<D>]) {
+    fn solve(&self, chunks: Range<usize>, results: Results<'_, D>, tasks: &mut [Task<D>], desks: &mut [Desk<D>]) {
         let [desk] = &mut *desks else {
             let middle = chunks.start + chunks.len() / 2;
             let (low, high) = (chunks.start..middle, middle..chunks.end);
-            let (solved, more) = solved.split_at_mut(self.topology.links(low.clone()).len());
+            let [results, more] = results.split_at(self.topology.links(low.clone()).len());
             let (tasks, other_tasks) = tasks.split_at_mut(low.len());
             let (desks, other_desks) = desks.split_at_mut(desks.len() / 2);
-            rayon::join(|| self.solve(low, solved, tasks, desks), || self.solve(high, more, other_tasks, other_desks));
+            rayon::join(|| self.solve(low, results, tasks, desks), || self.solve(high, more, other_tasks, other_desks));
             return;
         };
-        chunks.zip(tasks).fold(solved, |solved, (chunk, task)| {
-            let (own, rest) = solved.split_at_mut(self.topology.links(chunk..chunk + 1).len());
+        chunks.zip(tasks).fold(results, |results, (chunk, task)| {
+            let [own, rest] = results.split_at(self.topology.links(chunk..chunk + 1).len());
             task.effort = Effort::default();
             if !self.is_large(chunk) {
                 self.solve_chunk(chunk, own, task, desk);
@@ -161,7 +207,7 @@ where
     }
 
     /// Solves the islands of a chunk.
-    fn solve_chunk(&self, chunk: usize, solved: &mut [Solved<D>], task: &mut Task<D>, desk: &mut Desk<D>) {
+    fn solve_chunk(&self, chunk: usize, mut results: Results<'_, D>, task: &mut Task<D>, desk: &mut Desk<D>) {
         let (springs, Task { block, effort }) = (self.topology.springs_of(chunk), task);
         if self.is_new {
             let islands = self.topology.islands_of(chunk);
@@ -175,13 +221,13 @@ where
             relax(block, self.joints.laws, self.joints.update.level);
             block.parts.iter_mut().filter(|part| !part.is_done).for_each(|part| part.close_sweep(MOST));
         }
-        settle(block, solved, self.joints.laws, self.joints.update.level);
+        settle(block, results.part(0..springs.len()), self.joints.laws, self.joints.update.level);
         let mut begin = 0;
         for part in &block.parts {
             let own = begin..part.end as usize;
             begin = own.end;
             if part.is_general {
-                effort.join(self.solve_island(&springs[own.clone()], &mut solved[own], desk));
+                effort.join(self.solve_island(&springs[own.clone()], results.part(own), desk));
             } else {
                 effort.join(Effort { sweeps: part.sweeps as usize, unsolved: false });
             }
@@ -192,7 +238,7 @@ where
     fn solve_large(
         &self,
         (chunk, colouring): (usize, &Colouring),
-        solved: &mut [Solved<D>],
+        mut results: Results<'_, D>,
         clusters: &mut Clusters<D>,
         desk: &mut Desk<D>,
         tasks: usize,
@@ -202,18 +248,19 @@ where
         if self.is_new {
             clusters.arrange(&problem);
         }
-        clusters.solve(&problem, solved).unwrap_or_else(|| self.solve_island(springs, solved, desk))
+        let all = 0..springs.len();
+        clusters.solve(&problem, results.part(all.clone())).unwrap_or_else(|| self.solve_island(springs, results.part(all), desk))
     }
 
     /// Solves an island by [`super::relax`].
-    fn solve_island(&self, springs: &[u32], solved: &mut [Solved<D>], desk: &mut Desk<D>) -> Effort {
+    fn solve_island(&self, springs: &[u32], results: Results<'_, D>, desk: &mut Desk<D>) -> Effort {
         let Desk { bench, newton, live, .. } = desk;
         let length = part_length(springs.len());
         bench.fill(&self.joints, springs, length);
         let Bench { links, arms, slips, slots, couplings, forces, .. } = bench;
         let mut island = Island { links, arms, slips, slots, couplings, forces, laws: self.joints.laws };
         let effort = island.solve(newton, live);
-        island.settle(solved, length);
+        island.settle(results, length);
         effort
     }
 }

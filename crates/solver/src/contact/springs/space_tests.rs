@@ -16,7 +16,7 @@ struct Cloud {
     mass: Vec<f64>,
     positions: Vec<Vector>,
     velocities: Vec<Vector>,
-    springs: Vec<(Spring<3>, Vec<End<3>>)>,
+    springs: Vec<(Spring<3>, Slip<3>, Vec<End<3>>)>,
     dt: f64,
 }
 
@@ -44,8 +44,8 @@ fn coulomb(coefficient: f64) -> Tangential {
 impl Cloud {
     fn solve(&self, terms: Terms, bodies: &Bodies<3>) -> Springs<3> {
         let mut springs = Springs::new(self.mass.len(), bodies.len(), vec![terms]);
-        for (spring, ends) in &self.springs {
-            springs.push(*spring, ends);
+        for (spring, slip, ends) in &self.springs {
+            springs.push(*spring, *slip, ends);
         }
         springs.close_group(0);
         springs.solve(&Update { time_steps: [self.dt; 2], positions: &self.positions, nodes: self, bodies, level: Level::best() });
@@ -57,7 +57,7 @@ impl Cloud {
         let mut velocities = self.velocities.clone();
         for answer in springs.answers(0..springs.list.len()) {
             for end in answer.ends() {
-                let (force, node) = (end.force(answer.spring, answer.solved), end.at as usize);
+                let (force, node) = (answer.force_on(&end), end.at as usize);
                 (0..3).for_each(|d| velocities[node][d] += self.dt * force[d] / self.mass[node]);
             }
         }
@@ -70,7 +70,8 @@ impl Cloud {
         let (dt, terms, velocities) = (self.dt, &springs.terms[0], self.pushed(springs));
         let answers = springs.answers(0..springs.list.len());
         let largest = answers.clone().map(|answer| answer.solved.force).fold(0.0, f64::max);
-        let error = |Answer { spring, solved, .. }: Answer<'_, 3>| {
+        let error = |answer: Answer<'_, 3>| {
+            let (Answer { spring, solved, .. }, slid) = (answer, answer.slid());
             let ends: Vec<_> = springs.ends(spring).collect();
             let rate = |along: Vector, v: &[Vector]| ends.iter().map(|end| end.share * dot(along, v[end.at as usize])).sum::<f64>();
             // Ends that are one node count together.
@@ -84,16 +85,16 @@ impl Cloud {
             let free = spring.gap + 0.5 * dt * rate(spring.normal, &velocities) - compliance * solved.force;
             let wrong = (terms.law.force(&Closing { spring: &spring.patch(), old, free, compliance }, [dt; 2]) - solved.force).abs();
             let Tangential::Friction(law) = terms.tangential else { return wrong / largest };
-            let tangents = spring.tangents();
+            let tangents = answer.tangents();
             let stick = friction::FrictionInput::<3> {
                 old: tangents.map(|t| rate(t, &self.velocities)),
-                free: [0, 1].map(|a| rate(tangents[a], &velocities) - own * solved.friction[a]),
+                free: [0, 1].map(|a| rate(tangents[a], &velocities) - own * slid.friction[a]),
                 compliance: [[own, 0.0], [0.0, own]],
                 stiffness: terms.law.slip_stiffness(&spring.patch()),
                 time_steps: [dt; 2],
             };
-            let found = friction::cone::slide(&stick, spring.slip, law.limit(solved.force, spring.area, 0.0));
-            let off = (0..2).map(|a| (found.friction[a] - solved.friction[a]).abs()).fold(wrong, f64::max);
+            let found = friction::cone::slide(&stick, answer.slip().slip, law.limit(solved.force, spring.area, 0.0));
+            let off = (0..2).map(|a| (found.friction[a] - slid.friction[a]).abs()).fold(wrong, f64::max);
             off / largest
         };
         answers.map(error).fold(0.0, f64::max)
@@ -111,7 +112,7 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness_in_3d() {
                 Cloud { mass: vec![1.0], positions: vec![normal.map(|n| n * x)], velocities: vec![v], dt: 1.0, ..Cloud::default() };
             for (sign, gap) in [(1.0, x), (-1.0, 20.0 - x)] {
                 let spring = Spring { normal: normal.map(|n| sign * n), gap, stiffness: k, ..Spring::default() };
-                cloud.springs.push((spring, vec![End::node(0, 1.0)]));
+                cloud.springs.push((spring, Slip::default(), vec![End::node(0, 1.0)]));
             }
             let springs = cloud.solve(terms(Tangential::Free), &bodies);
             let new = cloud.pushed(&springs)[0];
@@ -161,7 +162,7 @@ fn sheets(counts: [usize; 2], stiffness: f64) -> Cloud {
             ends.extend(corners.iter().zip(weights).map(|(&corner, weight)| End::node(corner, -weight)));
             let gap = sign * (cloud.positions[node as usize][2] - below);
             let spring = Spring { normal: [0.0, 0.0, sign], gap, stiffness, area: 1.0 / (slaves * slaves) as f64, ..Spring::default() };
-            cloud.springs.push((spring, ends));
+            cloud.springs.push((spring, Slip::default(), ends));
         }
     }
     cloud
@@ -230,32 +231,34 @@ proptest! {
         for (s, a, b, (angle, z), gap, weight) in seeds {
             let ends = [(s, 1.0), (a, weight - 1.0), (b, -weight)].map(|(node, share)| End::node(node % nodes as u32, share));
             let flat = (1.0 - z * z).sqrt();
-            let spring = Spring { normal: [flat * angle.cos(), flat * angle.sin(), z], gap, stiffness: k * 1e4, slip: [0.3 * gap, 0.2 - gap], ..Spring::default() };
-            cloud.springs.push((spring, ends.to_vec()));
+            let spring = Spring { normal: [flat * angle.cos(), flat * angle.sin(), z], gap, stiffness: k * 1e4, ..Spring::default() };
+            cloud.springs.push((spring, Slip::of([0.3 * gap, 0.2 - gap]), ends.to_vec()));
         }
         let terms = Terms { law: Box::new(Tie { rigid: false }), tangential: Tangential::Tied, damping: 0.0 };
         let springs = cloud.solve(terms, &Bodies::default());
         let (dt, count) = (0.01, cloud.springs.len());
         let direction = |u: usize| {
-            let spring = &cloud.springs[u / 3].0;
-            [spring.normal, spring.tangents()[0], spring.tangents()[1]][u % 3]
+            let normal = cloud.springs[u / 3].0.normal;
+            let [first, second] = Dim::<3>::tangents(normal, &[0.0; 3]);
+            [normal, first, second][u % 3]
         };
         let row = |u: usize, node: usize| {
-            let share: f64 = cloud.springs[u / 3].1.iter().filter(|end| end.at as usize == node).map(|end| end.share).sum();
+            let share: f64 = cloud.springs[u / 3].2.iter().filter(|end| end.at as usize == node).map(|end| end.share).sum();
             direction(u).map(|n| share * n)
         };
         let entry = |u: usize, v: usize| (0..nodes).map(|node| 0.5 * dt * dt / cloud.mass[node] * dot(row(u, node), row(v, node))).sum::<f64>();
         // F = -k (g⁻ + g⁺) / 2, so 2 F / k + Σ A F = -(g⁻ + g⁺ without forces); equal steps: = -2 g^n.
         let matrix: Vec<Vec<f64>> = (0..3 * count).map(|u| (0..3 * count).map(|v| entry(u, v) + if u == v { 2.0 / (k * 1e4) } else { 0.0 }).collect()).collect();
         let right = (0..3 * count).map(|u| {
-            let spring = &cloud.springs[u / 3].0;
-            -2.0 * [spring.gap, spring.slip[0], spring.slip[1]][u % 3]
+            let (spring, slip, _) = &cloud.springs[u / 3];
+            -2.0 * [spring.gap, slip.slip[0], slip.slip[1]][u % 3]
         }).collect();
         let wanted = dense(matrix, right);
         let largest = wanted.iter().fold(0.0f64, |largest, force| largest.max(force.abs()));
         prop_assert_eq!(springs.unsolved, 0);
-        for (i, Answer { solved, .. }) in springs.answers(0..count).enumerate() {
-            let found = [solved.force, solved.friction[0], solved.friction[1]];
+        for (i, answer) in springs.answers(0..count).enumerate() {
+            let [first, second] = answer.slid().friction;
+            let found = [answer.solved.force, first, second];
             let error = (0..3).map(|a| (found[a] - wanted[3 * i + a]).abs() / largest).fold(0.0, f64::max);
             // Both lose digits where a spring is much stiffer than its nodes.
             prop_assert!(error < 1e-11 * k.max(1.0), "{:?} {}", error, springs.sweeps_max);
@@ -306,12 +309,11 @@ fn a_rigid_body_that_bounces_on_its_corners_keeps_its_energy_and_with_friction_l
             for (corner, slip) in corners.iter().zip(slips) {
                 let arm = body.to_global(*corner);
                 let point = [0, 1, 2].map(|d| body.centre[d] + arm[d]);
-                let spring =
-                    Spring { normal: [0.0, 0.0, 1.0], gap: point[2], stiffness: k, slip, tangent: [1.0, 0.0, 0.0], ..Spring::default() };
-                springs.push(spring, &[End { at: 0, share: 1.0, point, ..End::default() }]);
+                let spring = Spring { normal: [0.0, 0.0, 1.0], gap: point[2], stiffness: k, ..Spring::default() };
+                springs.push(spring, Slip { slip, tangent: [1.0, 0.0, 0.0] }, &[End { at: 0, share: 1.0, point, ..End::default() }]);
                 // A lid that it comes back from.
                 let lid = Spring { normal: [0.0, 0.0, -1.0], gap: 3.0 - point[2], stiffness: k, ..Spring::default() };
-                springs.push(lid, &[End { at: 0, share: 1.0, point, ..End::default() }]);
+                springs.push(lid, Slip::default(), &[End { at: 0, share: 1.0, point, ..End::default() }]);
             }
             springs.close_group(0);
             springs.solve(&Update { time_steps: [dt; 2], positions: &[], nodes: &cloud, bodies: &bodies, level: Level::best() });
@@ -321,11 +323,11 @@ fn a_rigid_body_that_bounces_on_its_corners_keeps_its_energy_and_with_friction_l
                 stored += books.stored[0];
                 lost += books.lost.friction;
                 if number % 2 == 0 {
-                    slips[number / 2] = answer.solved.slip_new;
+                    slips[number / 2] = answer.slid().slip_new;
                 }
                 pressed += usize::from(force > 0.0);
                 for end in answer.ends() {
-                    bodies.push_at(0, end.force(answer.spring, answer.solved), end.point());
+                    bodies.push_at(0, answer.force_on(&end), end.point());
                 }
             }
             let sums = bodies.accelerate([dt; 2], &ContactForces::new(0), &[], &mut []);
@@ -347,17 +349,18 @@ fn friction_and_normal_forces_of_a_spring_keep_the_angular_momentum_where_its_ro
     let (weights, gradients) = ([0.45, 0.3, 0.25], [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]]);
     let (arm, normal): (f64, Vector) = (0.05, [0.0, 0.0, 1.0]);
     let mut ends = vec![End::node(0, 1.0)];
-    let spring = Spring { normal, gap: -0.01, stiffness: 1e3, area: 1.0, tangent: [0.6, 0.8, 0.0], ..Spring::default() };
-    let tangents = spring.tangents();
+    let spring = Spring { normal, gap: -0.01, stiffness: 1e3, area: 1.0, ..Spring::default() };
+    let slip = Slip { tangent: [0.6, 0.8, 0.0], ..Slip::default() };
+    let tangents = Dim::<3>::tangents(normal, &slip.tangent);
     for k in 0..3 {
         let turn = tangents.map(|t| normal.map(|n| arm * (t[0] * gradients[k][0] + t[1] * gradients[k][1]) * n));
         ends.push(End { turn, ..End::node(k as u32 + 1, -weights[k]) });
     }
     let velocities = vec![[1.0, -0.5, -1.0], [0.0, 0.1, 0.2], [0.3, 0.0, 0.0], [0.0, -0.2, 0.1]];
-    let cloud = Cloud { mass: vec![1.0, 2.0, 1.5, 0.7], positions, velocities, springs: vec![(spring, ends)], dt: 0.01 };
+    let cloud = Cloud { mass: vec![1.0, 2.0, 1.5, 0.7], positions, velocities, springs: vec![(spring, slip, ends)], dt: 0.01 };
     let springs = cloud.solve(terms(coulomb(0.4)), &Bodies::default());
     let answer = springs.answers(0..1).next().unwrap();
-    assert!(answer.solved.force > 0.0 && answer.solved.slides && answer.solved.friction[0].abs() > 0.0);
+    assert!(answer.solved.force > 0.0 && answer.slid().slides && answer.slid().friction[0].abs() > 0.0);
     let after = cloud.pushed(&springs);
     let moment = |v: &[Vector]| {
         let of = |k: usize| cross(cloud.positions[k], v[k].map(|v| cloud.mass[k] * v));
@@ -371,7 +374,8 @@ fn friction_and_normal_forces_of_a_spring_keep_the_angular_momentum_where_its_ro
 /// springs would decide what it remembers.
 #[test]
 fn a_spring_that_is_open_in_the_end_remembers_no_slip_of_an_earlier_sweep() {
-    let spring = |normal: Vector, gap: f64| (Spring { normal, gap, stiffness: 1e4, ..Spring::default() }, vec![End::node(0, 1.0)]);
+    let spring =
+        |normal: Vector, gap: f64| (Spring { normal, gap, stiffness: 1e4, ..Spring::default() }, Slip::default(), vec![End::node(0, 1.0)]);
     let [grazes, presses] = [spring([0.6, 0.0, 0.8], 1e-3), spring([0.0, 0.0, 1.0], -0.02)];
     for springs in [[grazes.clone(), presses.clone()], [presses, grazes]] {
         let is_open = |spring: &Spring<3>| spring.gap > 0.0;
@@ -380,8 +384,9 @@ fn a_spring_that_is_open_in_the_end_remembers_no_slip_of_an_earlier_sweep() {
         let solved = cloud.solve(terms(coulomb(0.6)), &Bodies::default());
         for answer in solved.answers(0..2) {
             assert_eq!(is_open(answer.spring), answer.solved.force == 0.0);
-            let remembers = answer.solved.slip_new != [0.0; 2] || answer.solved.slides;
-            assert_eq!(remembers, !is_open(answer.spring), "{:?}", answer.solved);
+            let slid = answer.slid();
+            let remembers = slid.slip_new != [0.0; 2] || slid.slides;
+            assert_eq!(remembers, !is_open(answer.spring), "{slid:?}");
         }
     }
 }
@@ -416,9 +421,9 @@ fn bed(count: usize, heaviness: f64, stiffness: f64) -> (Cloud, Bodies<3>, [f64;
     let mut push = |point: Vector, ends: Vec<End<3>>| {
         let gap = 2e-3 * (3.0 * point[0]).cos() * (4.0 * point[1]).sin() - 1e-3;
         let (tangent, area) = ([1.0, 0.0, 0.0], 1.0 / (count * count) as f64);
-        let spring = Spring { normal: [0.0, 0.0, 1.0], gap, stiffness, area, tangent, ..Spring::default() };
+        let spring = Spring { normal: [0.0, 0.0, 1.0], gap, stiffness, area, ..Spring::default() };
         let own = End { at: (count * count) as u32, share: 1.0, point, ..End::default() };
-        cloud.springs.push((spring, [vec![own], ends].concat()));
+        cloud.springs.push((spring, Slip { tangent, ..Slip::default() }, [vec![own], ends].concat()));
     };
     let at = |i: usize, j: usize| (i * count + j) as u32;
     for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
@@ -446,7 +451,7 @@ fn a_rigid_body_on_a_thousand_springs_moves_as_their_forces_want_it_however_ligh
             let (mut velocities, mut push, mut moment) = (cloud.velocities.clone(), [0.0; 3], [0.0; 3]);
             for answer in answers() {
                 for end in answer.ends() {
-                    let (force, node) = (end.force(answer.spring, answer.solved), end.at as usize);
+                    let (force, node) = (answer.force_on(&end), end.at as usize);
                     if node < nodes {
                         (0..3).for_each(|d| velocities[node][d] += dt * force[d] / cloud.mass[node]);
                     } else {
@@ -474,8 +479,8 @@ fn a_rigid_body_on_a_thousand_springs_moves_as_their_forces_want_it_however_ligh
             let largest = answers().map(|answer| answer.solved.force).fold(0.0, f64::max);
             let (mut worst, mut open, mut slides) = (0.0f64, 0, 0);
             for answer in answers() {
-                let Answer { spring, solved, .. } = answer;
-                let tangents = spring.tangents();
+                let (Answer { spring, solved, .. }, slid) = (answer, answer.slid());
+                let tangents = answer.tangents();
                 // Any share of its own answer may be left out.
                 let own: f64 = answer.ends().filter(|end| (end.at as usize) < nodes).map(|end| end.share.powi(2) * dt * nodes as f64).sum();
                 let [old, new] = [0, 1].map(|state| rate(&answer, spring.normal, state));
@@ -490,14 +495,14 @@ fn a_rigid_body_on_a_thousand_springs_moves_as_their_forces_want_it_however_ligh
                 if let Tangential::Friction(law) = tangential {
                     let stick = friction::FrictionInput::<3> {
                         old: tangents.map(|t| rate(&answer, t, 0)),
-                        free: [0, 1].map(|a| rate(&answer, tangents[a], 1) - own * solved.friction[a]),
+                        free: [0, 1].map(|a| rate(&answer, tangents[a], 1) - own * slid.friction[a]),
                         compliance: [[own, 0.0], [0.0, own]],
                         stiffness: Penalty.slip_stiffness(&spring.patch()),
                         time_steps: [dt; 2],
                     };
-                    let found = friction::cone::slide(&stick, spring.slip, law.limit(solved.force, spring.area, 0.0));
-                    worst = (0..2).map(|a| (found.friction[a] - solved.friction[a]).abs() / largest).fold(worst, f64::max);
-                    slides += usize::from(solved.slides && solved.force > 0.0);
+                    let found = friction::cone::slide(&stick, answer.slip().slip, law.limit(solved.force, spring.area, 0.0));
+                    worst = (0..2).map(|a| (found.friction[a] - slid.friction[a]).abs() / largest).fold(worst, f64::max);
+                    slides += usize::from(slid.slides && solved.force > 0.0);
                 }
             }
             let case =

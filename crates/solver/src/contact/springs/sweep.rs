@@ -10,7 +10,8 @@ use super::friction::{FrictionInput, FrictionResult, lanes};
 use super::islands::NONE;
 use super::link::Laws;
 use super::relax::TOLERANCE;
-use super::{Closing, Patch, Solved, TangentSpace, Tangential};
+use super::solve::Results;
+use super::{Closing, Patch, Slid, Solved, TangentSpace, Tangential};
 use crate::tensor::Dim;
 use embate_lanes::{BATCH, Batch, Kernel, Lane, math, prefetch};
 
@@ -356,11 +357,11 @@ where
                 // What is open has slid nowhere, whatever an earlier sweep gave it.
                 let is_open = (0..D).all(|axis| forces[axis].0[lane] == 0.0);
                 let limit = || friction.limit(force, data.area, Dim::<D>::size(&slip_rate_old));
-                let slid = if is_open { FrictionResult::default() } else { Dim::<D>::slide(&stick(), data.slip, limit()) };
+                let slid = if is_open { FrictionResult::default() } else { Dim::<D>::slide(&stick(), laws.slip(number).slip, limit()) };
                 block.slid[spring as usize] = (slid.slip, slid.slides);
                 slid.friction
             }
-            Tangential::Tied => Dim::<D>::tie(&stick(), data.slip),
+            Tangential::Tied => Dim::<D>::tie(&stick(), laws.slip(number).slip),
         };
         (1..D).for_each(|axis| forces[axis].0[lane] = friction[axis - 1]);
     }
@@ -464,7 +465,7 @@ where
     pub(super) block: &'a Block<D>,
     pub(super) laws: Laws<'a, D>,
     /// Of each spring of the block.
-    pub(super) solved: &'a mut [Solved<D>],
+    pub(super) results: Results<'a, D>,
 }
 
 impl<const SLIDES: bool, const PLAIN: bool, const D: usize> Kernel for Settle<'_, SLIDES, PLAIN, D>
@@ -475,7 +476,7 @@ where
 
     #[inline(always)]
     fn run<L: Lane>(self) {
-        let block = self.block;
+        let Self { block, laws, mut results } = self;
         for batch in 0..block.heads.len() {
             let mut new = [Batch::default(); D];
             for at in (0..BATCH).step_by(L::WIDTH) {
@@ -488,16 +489,17 @@ where
             for (lane, &spring) in block.lanes[batch].iter().enumerate().filter(|(_, spring)| **spring != NONE) {
                 let along = |of: &[Batch]| Dim::<D>::tangent_vector(|a| of[a + 1].0[lane]);
                 let (forces, old, force) = (&block.forces[batch], &block.old[batch], block.forces[batch][0].0[lane]);
-                let mut solved =
-                    Solved { gap: block.gaps[batch].now.0[lane], force, rates: [old[0].0[lane], new[0].0[lane]], ..Solved::default() };
-                solved.slides = force != 0.0;
-                if SLIDES {
-                    (solved.friction, solved.slip_rates) = (along(forces), [along(old), along(&new)]);
-                    if !matches!(self.laws.terms(block.number(spring)).tangential, Tangential::Free) {
-                        (solved.slip_new, solved.slides) = block.slid_at(batch, lane);
+                let solved = Solved { gap: block.gaps[batch].now.0[lane], force, rates: [old[0].0[lane], new[0].0[lane]] };
+                results.set(spring as usize, solved, || {
+                    let mut slid = Slid { slides: force != 0.0, ..Slid::default() };
+                    if SLIDES {
+                        (slid.friction, slid.rates) = (along(forces), [along(old), along(&new)]);
+                        if !matches!(laws.terms(block.number(spring)).tangential, Tangential::Free) {
+                            (slid.slip_new, slid.slides) = block.slid_at(batch, lane);
+                        }
                     }
-                }
-                self.solved[spring as usize] = solved;
+                    slid
+                });
             }
         }
     }

@@ -32,7 +32,11 @@ fn a_bouncing_mass_keeps_its_energy_for_every_stiffness() {
         for _ in 0..2000 {
             springs.clear();
             for (normal, gap) in [(1.0, x), (-1.0, 20.0 - x)] {
-                springs.push(Spring { normal: [normal, 0.0], gap, stiffness: k, ..Spring::default() }, &[End::node(0, 1.0)]);
+                springs.push(
+                    Spring { normal: [normal, 0.0], gap, stiffness: k, ..Spring::default() },
+                    Slip::default(),
+                    &[End::node(0, 1.0)],
+                );
             }
             springs.close_group(0);
             let (old, free) = ([v], v);
@@ -58,7 +62,7 @@ struct Rows {
     mass: Vec<f64>,
     positions: Vec<Vector>,
     velocities: Vec<Vector>,
-    springs: Vec<(Spring<2>, Vec<End<2>>)>,
+    springs: Vec<(Spring<2>, Slip<2>, Vec<End<2>>)>,
 }
 
 /// `counts` segments below and above, `stiffness` of each spring.
@@ -84,7 +88,7 @@ fn rows(counts: [usize; 2], stiffness: f64) -> Rows {
             let sign = 2.0 * side as f64 - 1.0;
             let ends = vec![End::node(s as u32, 1.0), End::node(a as u32, weight - 1.0), End::node(b as u32, -weight)];
             let spring = Spring { normal: [0.0, sign], gap: sign * height, stiffness, area: 1.0 / slaves as f64, ..Spring::default() };
-            rows.springs.push((spring, ends));
+            rows.springs.push((spring, Slip::default(), ends));
         }
     }
     rows
@@ -112,8 +116,8 @@ impl Rows {
 
     fn solve_again(&self, springs: &mut Springs<2>, level: Level) {
         springs.clear();
-        for (spring, ends) in &self.springs {
-            springs.push(*spring, ends);
+        for (spring, slip, ends) in &self.springs {
+            springs.push(*spring, *slip, ends);
         }
         springs.close_group(0);
         let update = Update { time_steps: [0.01; 2], positions: &self.positions, nodes: self, bodies: &Bodies::default(), level };
@@ -127,7 +131,7 @@ impl Rows {
         let mut velocities = self.velocities.clone();
         for answer in answers.clone() {
             for end in answer.ends() {
-                let force = end.force(answer.spring, answer.solved);
+                let force = answer.force_on(&end);
                 (0..2).for_each(|d| velocities[end.at as usize][d] += dt * force[d] / self.mass[end.at as usize]);
             }
         }
@@ -196,13 +200,13 @@ fn islands_are_solved_to_the_same_bits_by_any_number_of_threads() {
         all.positions.extend(one.positions);
         all.velocities.extend(one.velocities);
         let shift = |end: &End<2>| End { at: end.at + first, ..*end };
-        all.springs.extend(one.springs.iter().map(|(spring, ends)| (*spring, ends.iter().map(shift).collect())));
+        all.springs.extend(one.springs.iter().map(|(spring, slip, ends)| (*spring, *slip, ends.iter().map(shift).collect())));
     }
     assert!(all.springs.len() > 1500);
     let solved = |threads: Option<usize>| {
         let solve = || {
             let springs = all.solve(Terms { law: Box::new(Penalty), tangential: coulomb(0.2), damping: 0.0 });
-            springs.answers(0..springs.list.len()).map(|answer| *answer.solved).collect::<Vec<_>>()
+            springs.answers(0..springs.list.len()).map(|answer| (*answer.solved, answer.slid())).collect::<Vec<_>>()
         };
         match threads {
             None => solve(),
@@ -210,7 +214,7 @@ fn islands_are_solved_to_the_same_bits_by_any_number_of_threads() {
         }
     };
     let alone = solved(None);
-    assert!(alone.iter().filter(|solved| solved.force > 0.0).count() > 500);
+    assert!(alone.iter().filter(|(solved, _)| solved.force > 0.0).count() > 500);
     for threads in [1, 2, 8] {
         assert!(solved(Some(threads)) == alone, "{threads} threads");
     }
@@ -226,12 +230,12 @@ fn every_instruction_set_and_any_number_of_threads_find_the_same_bits() {
                 let solve = || {
                     let mut springs = Springs::new(rows.mass.len(), 0, vec![Terms { law: Box::new(Penalty), tangential, damping: 0.0 }]);
                     rows.solve_again(&mut springs, level);
-                    springs.answers(0..springs.list.len()).map(|answer| *answer.solved).collect::<Vec<_>>()
+                    springs.answers(0..springs.list.len()).map(|answer| (*answer.solved, answer.slid())).collect::<Vec<_>>()
                 };
                 rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(solve)
             };
             let expected = found(Level::SCALAR, 1);
-            assert!(expected.iter().any(|solved| solved.force > 0.0));
+            assert!(expected.iter().any(|(solved, _)| solved.force > 0.0));
             for level in Level::available() {
                 for threads in [1, 2, 5] {
                     assert!(found(level, threads) == expected, "{counts:?} {tangential:?}: {} on {threads} threads", level.name());
@@ -252,7 +256,8 @@ fn what_is_kept_while_springs_have_the_same_ends_changes_nothing() {
         scenes[scene].solve_again(&mut kept, Level::best());
         let mut new = Springs::new(nodes, 0, terms());
         scenes[scene].solve_again(&mut new, Level::best());
-        let all = |springs: &Springs<2>| springs.answers(0..springs.list.len()).map(|answer| *answer.solved).collect::<Vec<_>>();
+        let all =
+            |springs: &Springs<2>| springs.answers(0..springs.list.len()).map(|answer| (*answer.solved, answer.slid())).collect::<Vec<_>>();
         assert!(all(&kept) == all(&new), "scene {scene}");
     }
 }
@@ -296,27 +301,27 @@ proptest! {
         }
         for (s, a, b, angle, gap, weight) in seeds {
             let ends = [(s, 1.0), (a, weight - 1.0), (b, -weight)].map(|(node, share)| End::node(node % nodes as u32, share));
-            let spring = Spring { normal: [angle.cos(), angle.sin()], gap, stiffness: k * 1e4, slip: [0.3 * gap], ..Spring::default() };
-            rows.springs.push((spring, ends.to_vec()));
+            let spring = Spring { normal: [angle.cos(), angle.sin()], gap, stiffness: k * 1e4, ..Spring::default() };
+            rows.springs.push((spring, Slip::of([0.3 * gap]), ends.to_vec()));
         }
         let terms = Terms { law: Box::new(Tie { rigid: false }), tangential: Tangential::Tied, damping: 0.0 };
         let springs = rows.solve(terms);
         let (dt, count) = (0.01, rows.springs.len());
         let direction = |u: usize| if u < count { rows.springs[u].0.normal } else { tangent(rows.springs[u - count].0.normal) };
         let row = |u: usize, node: usize| {
-            let share: f64 = rows.springs[u % count].1.iter().filter(|end| end.at as usize == node).map(|end| end.share).sum();
+            let share: f64 = rows.springs[u % count].2.iter().filter(|end| end.at as usize == node).map(|end| end.share).sum();
             direction(u).map(|n| share * n)
         };
         let product = |a: Vector, b: Vector| a[0] * b[0] + a[1] * b[1];
         let entry = |u: usize, v: usize| (0..nodes).map(|node| 0.5 * dt * dt / rows.mass[node] * product(row(u, node), row(v, node))).sum::<f64>();
         // F = -k (g⁻ + g⁺) / 2, so 2 F / k + Σ A F = -(g⁻ + g⁺ without forces); equal steps: = -2 g^n.
         let matrix: Vec<Vec<f64>> = (0..2 * count).map(|u| (0..2 * count).map(|v| entry(u, v) + if u == v { 2.0 / (k * 1e4) } else { 0.0 }).collect()).collect();
-        let right = (0..2 * count).map(|u| -2.0 * if u < count { rows.springs[u].0.gap } else { rows.springs[u - count].0.slip[0] }).collect();
+        let right = (0..2 * count).map(|u| -2.0 * if u < count { rows.springs[u].0.gap } else { rows.springs[u - count].1.slip[0] }).collect();
         let wanted = dense(matrix, right);
         let largest = wanted.iter().fold(0.0f64, |largest, force| largest.max(force.abs()));
         prop_assert_eq!(springs.unsolved, 0);
-        for (i, Answer { solved, .. }) in springs.answers(0..count).enumerate() {
-            let errors = [solved.force - wanted[i], solved.friction[0] - wanted[count + i]].map(|error| error.abs() / largest);
+        for (i, answer) in springs.answers(0..count).enumerate() {
+            let errors = [answer.solved.force - wanted[i], answer.slid().friction[0] - wanted[count + i]].map(|error| error.abs() / largest);
             // Both lose digits where a spring is much stiffer than its nodes.
             prop_assert!(errors[0].max(errors[1]) < 1e-11 * k.max(1.0), "{:?} {}", errors, springs.sweeps_max);
         }

@@ -16,7 +16,7 @@ use std::ops::Range;
 /// Springs (at least) of the islands that one task solves.
 pub(super) const CHUNK: usize = 256;
 
-/// Fewer springs, ends or places are compared by one thread.
+/// Fewer places are looked at by one thread.
 const SHARED: usize = 16_384;
 
 /// A place that moves, until it has a slot.
@@ -25,10 +25,10 @@ const MOVES: u32 = NONE - 1;
 /// Ends and islands of a list of springs.
 #[derive(Default)]
 pub(super) struct Topology {
-    /// What was there: node or body of each end, ends and terms of each spring.
-    ends: Vec<u32>,
-    counts: Vec<u32>,
+    /// Terms of each spring.
     terms: Vec<u32>,
+    /// Whether it is not that of the springs that there are.
+    is_stale: bool,
     /// Ends on rigid bodies, and of nodes that move as others.
     led: Vec<u32>,
     /// Place of each node (then of each rigid body) in `at`; [`NONE`]: not touched.
@@ -67,17 +67,14 @@ impl Topology {
     where
         Dim<D>: TangentSpace<D>,
     {
-        if self.is_same(list, terms_of, ends, update) {
+        if self.is_same(terms_of, ends, update) {
             self.lead(ends, update);
             return false;
         }
-        self.ends.clear();
-        self.ends.extend((0..ends.len() as usize).map(|k| ends.at(k)));
-        self.counts.clear();
-        self.counts.extend(list.iter().map(|spring| spring.count));
+        self.is_stale = false;
         self.terms.clear();
         self.terms.extend_from_slice(terms_of);
-        self.gather(update);
+        self.gather(ends, update);
         self.lead(ends, update);
         let Self { islands, places, slots, at, .. } = self;
         islands.find(list.len(), |spring| list[spring].ends(), places, at.len(), |place| slots[place as usize] != NONE);
@@ -89,45 +86,31 @@ impl Topology {
     }
 
     /// Whether springs and ends are those of the step before, and the same nodes and bodies move.
-    fn is_same<M: NodeResponses<D> + Sync, const D: usize>(
-        &self,
-        list: &[Spring<D>],
-        terms_of: &[u32],
-        ends: &Ends<D>,
-        update: &Update<'_, M, D>,
-    ) -> bool
+    fn is_same<M: NodeResponses<D> + Sync, const D: usize>(&self, terms_of: &[u32], ends: &Ends<D>, update: &Update<'_, M, D>) -> bool
     where
         Dim<D>: TangentSpace<D>,
     {
         let nodes = update.nodes.count();
-        let are_all = |of: &(dyn Fn(Range<usize>) -> bool + Sync), count: usize| holds_for_all(of, 0..count);
-        self.ends.len() == ends.len() as usize
-            && self.counts.len() == list.len()
-            && self.terms == terms_of
-            && are_all(&|of| self.counts[of.clone()].iter().zip(&list[of]).all(|(&count, spring)| count == spring.count), list.len())
-            && are_all(&|of| ends.all_at(of.clone(), &self.ends[of]), self.ends.len())
-            && are_all(
-                &|of| {
-                    let mut places = self.at[of.clone()].iter().zip(&self.slots[of]);
-                    places.all(|(&at, &slot)| Movable::moves(at, nodes, update) == (slot != NONE))
-                },
-                self.at.len(),
-            )
+        let move_as_before = |of: Range<usize>| {
+            let mut places = self.at[of.clone()].iter().zip(&self.slots[of]);
+            places.all(|(&at, &slot)| Movable::moves(at, nodes, update) == (slot != NONE))
+        };
+        !self.is_stale && ends.are_as_before() && self.terms == terms_of && holds_for_all(&move_as_before, 0..self.at.len())
     }
 
     /// The nodes and bodies at the springs.
-    fn gather<M: NodeResponses<D>, const D: usize>(&mut self, update: &Update<'_, M, D>)
+    fn gather<M: NodeResponses<D>, const D: usize>(&mut self, ends: &Ends<D>, update: &Update<'_, M, D>)
     where
         Dim<D>: TangentSpace<D>,
     {
         let nodes = update.nodes.count();
-        let Self { ends, led, place, at: all, places, slots, .. } = self;
+        let Self { led, place, at: all, places, slots, .. } = self;
         led.clear();
         all.clear();
         places.clear();
         slots.clear();
-        for (k, &end) in ends.iter().enumerate() {
-            let mut at = end;
+        for k in 0..ends.len() {
+            let mut at = ends.at(k);
             if let Some(body) = update.bodies.of_node(at) {
                 led.push(k as u32);
                 at = (nodes + body) as u32;
@@ -214,7 +197,7 @@ impl Topology {
 
     /// Lets so many springs be solved in the order of the list, until the next update.
     pub(super) fn number_in_order(&mut self, springs: usize) {
-        self.counts.clear();
+        self.is_stale = true;
         self.rank.clear();
         self.rank.extend(0..springs as u32);
     }
@@ -245,7 +228,7 @@ impl Topology {
 }
 
 /// Whether something holds for all of a range, halves of it at the same time where threads share the work.
-fn holds_for_all(of: &(dyn Fn(Range<usize>) -> bool + Sync), range: Range<usize>) -> bool {
+fn holds_for_all(of: &(impl Fn(Range<usize>) -> bool + Sync), range: Range<usize>) -> bool {
     if range.len() <= SHARED {
         return of(range);
     }

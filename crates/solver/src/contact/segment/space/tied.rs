@@ -6,7 +6,7 @@ use crate::contact::Scene;
 use crate::contact::checked::Look;
 use crate::contact::node_facet::groups::{bend, halves};
 use crate::contact::projection::node_facet::unit;
-use crate::contact::springs::{Answers, End, Spring, Springs, TangentSpace};
+use crate::contact::springs::{Answers, End, Slip, Spring, Springs, TangentSpace};
 use crate::contact::tied::surfaces::{self, Bound, PairHold};
 use crate::contact::tied::{Bindable, NEAR, PendingTies, Tie};
 use crate::mesh::surface::Corners;
@@ -72,7 +72,7 @@ impl Bindable<3> for Segment {
             }
             let gap = dot(normal, apart) - tie.gap;
             let slip = tangents.map(|t| dot(t, apart));
-            springs.push(Spring { normal, gap, slip, ..tie.spring(side) }, &ends[..count]);
+            springs.push(Spring { normal, gap, ..tie.spring(side) }, Slip::of(slip), &ends[..count]);
         }
     }
 

@@ -3,7 +3,7 @@
 
 use crate::bodies::*;
 use embate_solver::error::Error;
-use embate_solver::model::{MassScaling, Model, Obstacle, ObstacleShape};
+use embate_solver::model::{Friction, MassScaling, Model, Obstacle, ObstacleShape};
 use embate_solver::output::Frame;
 use embate_solver::post_mortem::{FailureEntity, FailureLocation, MassNeeded, Trace};
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation};
@@ -79,6 +79,33 @@ fn a_failure_location_is_followed_to_its_failure_with_the_same_bits() {
     assert!(good.row == before.history_row());
     let pressing = trace.contacts.iter().position(|(kind, name)| *kind == "obstacle" && name == "punch").unwrap();
     assert!(trace.moments.iter().any(|moment| moment.pressing[pressing] > 0.0));
+}
+
+#[test]
+fn the_last_output_of_a_failed_run_shows_contacts_where_the_bodies_are() {
+    let model = punched();
+    for threads in [1, 2] {
+        let mut simulation = Simulation::new(&model, &Options { threads, simd: None }).unwrap();
+        assert!(matches!(simulation.run(&mut Deaf), Err(Error::Inverted { .. })));
+        let frame = simulation.frame();
+        let field = |name: &str| &frame.fields.iter().find(|field| field.kind.name == name).unwrap().values;
+        let nodes = field("contact_gap").iter().zip(field("contact_status")).zip(frame.positions::<2>());
+        let on_floor: Vec<(f64, f64)> =
+            nodes.filter(|((_, status), x)| **status > 0.0 && x[1] < 0.02).map(|((gap, _), x)| (*gap, x[1])).collect();
+        assert!(on_floor.len() > 2 && on_floor.iter().all(|(gap, y)| (gap - y).abs() < 1e-12), "{on_floor:?}");
+    }
+}
+
+#[test]
+fn a_run_that_fails_before_its_first_step_says_so() {
+    for friction in [None, Some(0.3)] {
+        let mut model = punched();
+        let of = |coefficient| Friction { coefficient, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
+        model.obstacles.iter_mut().for_each(|obstacle| obstacle.interface.friction = friction.map(of));
+        model.run.step_limit = Some(0.5 * model.run.end);
+        let failed = Simulation::new(&model, &Options { threads: 1, simd: None }).and_then(|mut simulation| simulation.run(&mut Deaf));
+        assert!(matches!(failed, Err(Error::Collapsed { .. })), "{failed:?}");
+    }
 }
 
 #[test]

@@ -22,6 +22,7 @@
 //! own, since a point on the model's side of the plane is never farther from the model's own side.
 
 pub(in crate::contact) mod eight;
+mod pseudo_normal;
 mod triangle;
 
 use super::node_segment::END_TOLERANCE;
@@ -313,90 +314,6 @@ impl Placed<'_> {
         }
     }
 
-    /// Direction by which a feature reports outside from inside, not of unit length, and whether the surface
-    /// ends there.
-    fn pseudo_normal(&self, facet: u32, k: usize, feature: Feature, weights: [f64; 3]) -> (Vector, Border) {
-        let plus = |a: Vector, b: Vector| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-        match feature {
-            Feature::Face => (self.normal(facet, k), Border::None),
-            Feature::Crease => {
-                // Between two triangles, or in the middle of all four.
-                let along = |k: usize| self.normal(facet, k);
-                let sum = match (weights[0] > 0.0, weights[1] > 0.0) {
-                    (true, _) => plus(along(k), along((k + 3) % 4)),
-                    (_, true) => plus(along(k), along((k + 1) % 4)),
-                    _ => (0..4).fold([0.0; 3], |sum, k| plus(sum, self.angle_weighted(facet, k, 2))),
-                };
-                (sum, Border::None)
-            }
-            Feature::Edge(corner) => {
-                let own = self.normal(facet, self.at_edge(facet, corner));
-                let other = self.surface.across(facet, corner);
-                if other == NONE {
-                    let border = self.border(facet, corner);
-                    return (border.kept(own), border);
-                }
-                let edge = self.surface.edges_of[facet as usize][corner];
-                let there = (0..4).find(|&k| self.surface.edges_of[other as usize][k] == edge).unwrap_or(0);
-                (plus(own, self.normal(other, self.at_edge(other, there))), Border::None)
-            }
-            Feature::Node(corner) => self.node_normal(facet, corner),
-        }
-    }
-
-    /// Normal of triangle `k` times its angle at its corner `at`.
-    fn angle_weighted(&self, facet: u32, k: usize, at: usize) -> Vector {
-        let x = self.triangle(facet, k);
-        let (p, q) = (minus(x[(at + 1) % 3], x[at]), minus(x[(at + 2) % 3], x[at]));
-        let normal = cross(p, q);
-        // The angle by a rational bound of its sine and cosine is not enough: weights must be angles for the
-        // sign to be right.
-        let angle = angle_of(dot(normal, normal).sqrt(), dot(p, q));
-        unit(normal).map(|n| angle * n)
-    }
-
-    /// Sum of what a facet has at its corner.
-    fn corner_weighted(&self, facet: u32, corner: usize) -> Vector {
-        if self.triangles(facet) == 1 {
-            return self.angle_weighted(facet, 0, corner);
-        }
-        let (after, before) = (self.angle_weighted(facet, corner, 0), self.angle_weighted(facet, (corner + 3) % 4, 1));
-        [0, 1, 2].map(|d| after[d] + before[d])
-    }
-
-    /// Angle-weighted normal at a corner of a facet, over the facets that follow each other around it, and
-    /// whether the surface ends there.
-    #[must_use]
-    pub fn node_normal(&self, facet: u32, corner: usize) -> (Vector, Border) {
-        let node = self.surface.facets[facet as usize][corner];
-        let mut sum = self.corner_weighted(facet, corner);
-        let most = self.surface.facets_at(node).len();
-        let mut borders = [Border::Cut; 2];
-        // One way around, and where the surface ends the other way from the beginning.
-        for (way, forward) in [true, false].into_iter().enumerate() {
-            let mut here = (facet, corner);
-            for _ in 0..most {
-                let count = self.surface.facets[here.0 as usize].corners().len();
-                let edge = if forward { here.1 } else { (here.1 + count - 1) % count };
-                let other = self.surface.across(here.0, edge);
-                if other == facet {
-                    return (sum, Border::None);
-                }
-                if other == NONE {
-                    borders[way] = self.border(here.0, edge);
-                    break;
-                }
-                let Some(at) = self.surface.facets[other as usize].corners().iter().position(|&there| there == node) else { break };
-                let more = self.corner_weighted(other, at);
-                (0..3).for_each(|d| sum[d] += more[d]);
-                here = (other, at);
-            }
-        }
-        let [Border::Mirrors([first, _]), Border::Mirrors([second, _])] = borders else { return (sum, Border::Cut) };
-        let border = Border::Mirrors([first, second]);
-        (border.kept(sum), border)
-    }
-
     /// How the surface ends at the edge from a corner of a facet on, at which it ends.
     fn border(&self, facet: u32, corner: usize) -> Border {
         let edge = self.surface.edges_of[facet as usize][corner];
@@ -533,10 +450,16 @@ impl Placed<'_> {
     pub(in crate::contact) fn seen(&self, x: Vector, (nearest, facet, triangle): Found) -> Option<Projection> {
         let Nearest { square, weights, foot } = nearest;
         let feature = self.feature(facet, triangle, weights);
-        let (pseudo, border) = self.pseudo_normal(facet, triangle, feature, weights);
         let (away, distance) = (minus(x, foot), square.sqrt());
         let spread = self.spread(facet, triangle, weights);
         let projection = |gap: f64, normal: Vector| Projection { facet, feature, triangle, weights: spread, foot, gap, normal };
+        if let Feature::Node(corner) = feature
+            && distance > ROUNDING * self.size(facet)
+            && let Some(side) = self.side_of_node(facet, corner, away)
+        {
+            return Some(projection(side * distance, away.map(|c| side * c / distance)));
+        }
+        let (pseudo, border) = self.pseudo_normal(facet, triangle, feature, weights);
         if feature == Feature::Face {
             return Some(projection(dot(away, pseudo), pseudo));
         }
@@ -564,27 +487,6 @@ impl Placed<'_> {
         let side = if dot(away, pseudo) >= 0.0 { 1.0 } else { -1.0 };
         Some(projection(side * distance, away.map(|c| side * c / distance)))
     }
-}
-
-/// Angle (rad) between two directions with the sine `sin` ≥ 0 and the cosine `cos`, both times any positive
-/// number: the same bits everywhere, to some 1e-15.
-fn angle_of(sin: f64, cos: f64) -> f64 {
-    use std::f64::consts::{FRAC_PI_2, PI};
-    if sin == 0.0 {
-        return if cos < 0.0 { PI } else { 0.0 };
-    }
-    // tan of an angle below 45 degrees, halved twice: tan(a/2) = t / (1 + √(1 + t²)); then its series.
-    let (t, swapped) = if sin < cos.abs() { (sin / cos.abs(), false) } else { (cos.abs() / sin, true) };
-    let half = |t: f64| t / (1.0 + (1.0 + t * t).sqrt());
-    let q = half(half(half(t)));
-    let square = q * q;
-    let mut sum = 0.0;
-    for k in (0..9).rev() {
-        sum = 1.0 / f64::from(2 * k + 1) - square * sum;
-    }
-    let angle = 8.0 * q * sum;
-    let angle = if swapped { FRAC_PI_2 - angle } else { angle };
-    if cos < 0.0 { PI - angle } else { angle }
 }
 
 #[cfg(test)]

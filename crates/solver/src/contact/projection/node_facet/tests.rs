@@ -1,4 +1,6 @@
+use super::pseudo_normal::angle_of;
 use super::*;
+use crate::bench::Random;
 use crate::mesh::cell::CellKind;
 use crate::mesh::surface::Surface;
 use proptest::prelude::*;
@@ -262,6 +264,28 @@ fn a_surface_that_ends_on_symmetry_planes_knows_their_normals_and_no_others() {
     let x = [0.0, 2.1, 0.0];
     let (_, way) = placed[1].seen_over(x, placed[1].nearest_of(x, all(&quarter)).unwrap(), |_| true).unwrap();
     assert_eq!(way, [0.0; 3]);
+}
+
+#[test]
+fn the_side_of_a_node_that_all_triangles_agree_on_is_that_of_its_angle_weighted_normal() {
+    let (mut random, mut counts) = (Random::new(9), [0; 3]);
+    for _ in 0..60 {
+        let shifts: Vec<Vector> = (0..100).map(|_| [0; 3].map(|_| 0.5 * (random.unit() - 0.5))).collect();
+        let gone = [0; 4].map(|_| [0; 3].map(|_| (3.0 * random.unit()) as usize));
+        let (surface, positions) = blocks([3; 3], |at| !gone.contains(&at), |node| shifts[node]);
+        let placed = Placed { surface: &surface, positions: &positions };
+        for (facet, corner) in all(&surface).flat_map(|facet| (0..4).map(move |corner| (facet, corner))) {
+            let away = [0; 3].map(|_| random.unit() - 0.5);
+            let (normal, _) = placed.node_normal(facet, corner);
+            match placed.side_of_node(facet, corner, away) {
+                Some(side) => assert!(side * dot(away, normal) > 0.0 && side.abs() == 1.0),
+                None => counts[2] += 1,
+            }
+            // Along a normal that all have in common, they do agree.
+            counts[usize::from(placed.side_of_node(facet, corner, normal) == Some(1.0))] += 1;
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 300), "{counts:?}");
 }
 
 #[test]

@@ -27,20 +27,20 @@ where
     Dim<D>: TangentSpace<D>,
 {
     /// Batch and lane of the spring.
-    pub(super) batch: u32,
-    pub(super) lane: u8,
+    batch: u32,
+    lane: u8,
     /// Number of the body among those of the island.
-    pub(super) body: u8,
+    body: u8,
     /// Rows of the gap and of the slips along each tangent.
-    pub(super) rows: [Row<D>; D],
+    rows: [Row<D>; D],
 }
 
 /// What springs do to all bodies: forces Σ r F, and answers Σ κ r rᵀ.
 #[derive(Default)]
 pub(super) struct Pushes {
-    pub(super) forces: Vec<f64>,
+    forces: Vec<f64>,
     /// Row by row.
-    pub(super) answers: Vec<f64>,
+    answers: Vec<f64>,
 }
 
 impl Pushes {

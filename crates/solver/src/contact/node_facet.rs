@@ -360,9 +360,7 @@ impl Formulation<3> for NodeFacet {
                 note(memory, &answer);
             }
             if self.edges.is_some() && memory.spring.half() < reach {
-                let (facet, rest, slave) = (memory.facet, memory.rest, self.tracker.slave(touch.pass));
-                let facets = self.tracker.target(touch.pass).sharing(facet, rest);
-                self.closed_nodes.extend(facets.map(|facet| (slave, touch.node, facet)));
+                self.closed_nodes.extend(self.tracker.lay_on(&touch));
             }
         }
         self.closed_nodes.sort_unstable();

@@ -278,13 +278,22 @@ impl Tracker {
         for pass in &self.passes {
             // A node that edges stand for touches without a spring.
             let is_closed = |group: &&Group<Known>| group.known.touches && group.known.memory.spring.half() < open;
-            let target = &self.surfaces[pass.target];
-            for Group { node, known: Known { memory: ContactHistory { facet, rest, .. }, .. }, .. } in pass.groups.iter().filter(is_closed)
-            {
-                closed.extend(target.sharing(*facet, *rest).map(|facet| (pass.slave, *node, facet)));
+            for group in pass.groups.iter().filter(is_closed) {
+                closed.extend(self.lies_on(pass, group));
             }
         }
         closed.sort_unstable();
+    }
+
+    /// Slave surface and node of a touch, and each facet on which it lay in the last step.
+    pub fn lay_on(&self, touch: &ContactPoint) -> impl Iterator<Item = (usize, u32, u32)> {
+        let pass = &self.passes[touch.pass as usize];
+        self.lies_on(pass, &pass.groups[touch.group as usize])
+    }
+
+    fn lies_on(&self, pass: &Pass, group: &Group<Known>) -> impl Iterator<Item = (usize, u32, u32)> {
+        let (slave, node, ContactHistory { facet, rest, .. }) = (pass.slave, group.node, group.known.memory);
+        self.surfaces[pass.target].sharing(facet, rest).map(move |facet| (slave, node, facet))
     }
 
     /// Body of each node as far as the surfaces go.

@@ -328,12 +328,11 @@ where
         let Self { movers, parts, rooms, rooms_old, rooms_free, axes, .. } = self;
         axes.clear();
         for list in [&mut *rooms, rooms_old, rooms_free] {
+            list.clear();
             list.resize(movers.len(), Room::default());
-            list[0] = Room::default();
         }
         for (room, &(place, part)) in movers.iter().enumerate().skip(1) {
             let part = &mut parts[part as usize];
-            [rooms[room], rooms_old[room], rooms_free[room]] = Default::default();
             if part.is_barred {
                 continue;
             }

@@ -16,17 +16,55 @@ pub(super) struct Ends<const D: usize>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Beyond the first `count` those of the step before.
-    list: Vec<PackedEnd>,
-    count: usize,
-    /// Where the ends of each spring end, beyond the first `springs` those of the step before.
-    closed: Vec<u32>,
-    springs: usize,
-    /// Whether any spring has other nodes or bodies at its ends than in the step before.
-    differ: bool,
+    list: Replacing<PackedEnd>,
+    /// Where the ends of each spring end.
+    closed: Replacing<u32>,
     /// As far as any end has one.
     turns: Vec<<Dim<D> as TangentSpace<D>>::Tangents>,
     more: Vec<More<D>>,
+}
+
+/// Entries that replace those of the step before one by one.
+struct Replacing<T> {
+    /// Beyond the first `count` those of the step before.
+    entries: Vec<T>,
+    count: usize,
+    /// Whether any is not as it was.
+    differs: bool,
+}
+
+impl<T> Default for Replacing<T> {
+    fn default() -> Self {
+        Self { entries: Vec::new(), count: 0, differs: false }
+    }
+}
+
+impl<T> Replacing<T> {
+    /// Begins a step.
+    fn clear(&mut self) {
+        self.entries.truncate(self.count);
+        (self.count, self.differs) = (0, false);
+    }
+
+    fn is_as_before(&self) -> bool {
+        !self.differs && self.entries.len() == self.count
+    }
+
+    /// Adds an entry, of which is said whether it is the same as another one.
+    #[inline]
+    fn push(&mut self, entry: T, is_same: impl Fn(&T, &T) -> bool) {
+        match self.entries.get_mut(self.count) {
+            Some(before) => {
+                self.differs |= !is_same(before, &entry);
+                *before = entry;
+            }
+            None => {
+                self.differs = true;
+                self.entries.push(entry);
+            }
+        }
+        self.count += 1;
+    }
 }
 
 /// What every end has.
@@ -78,54 +116,33 @@ where
 {
     /// Begins a step.
     pub(super) fn clear(&mut self) {
-        self.list.truncate(self.count);
-        self.closed.truncate(self.springs);
-        (self.count, self.springs, self.differ) = (0, 0, false);
+        self.list.clear();
+        self.closed.clear();
         self.turns.clear();
         self.more.clear();
     }
 
     pub(super) fn len(&self) -> usize {
-        self.count
+        self.list.count
     }
 
     /// Whether springs have the same nodes and bodies at their ends as in the step before.
     pub(super) fn are_as_before(&self) -> bool {
-        !self.differ && self.list.len() == self.count && self.closed.len() == self.springs
+        self.list.is_as_before() && self.closed.is_as_before()
     }
 
     /// Ends a spring: number of its first end, and how many it has.
     #[inline]
     pub(super) fn close(&mut self) -> [u32; 2] {
-        let first = if self.springs == 0 { 0 } else { self.closed[self.springs - 1] };
-        let end = self.count as u32;
-        match self.closed.get_mut(self.springs) {
-            Some(before) => {
-                self.differ |= *before != end;
-                *before = end;
-            }
-            None => {
-                self.differ = true;
-                self.closed.push(end);
-            }
-        }
-        self.springs += 1;
+        let first = if self.closed.count == 0 { 0 } else { self.closed.entries[self.closed.count - 1] };
+        let end = self.list.count as u32;
+        self.closed.push(end, u32::eq);
         [first, end - first]
     }
 
     #[inline]
     fn add(&mut self, end: PackedEnd) {
-        match self.list.get_mut(self.count) {
-            Some(before) => {
-                self.differ |= before.at != end.at;
-                *before = end;
-            }
-            None => {
-                self.differ = true;
-                self.list.push(end);
-            }
-        }
-        self.count += 1;
+        self.list.push(end, |before, now| before.at == now.at);
     }
 
     #[inline]
@@ -137,7 +154,7 @@ where
             self.more.push(more);
         }
         if turn != Default::default() {
-            self.turns.resize(self.count, Default::default());
+            self.turns.resize(self.list.count, Default::default());
             self.turns.push(turn);
         }
         self.add(PackedEnd { at, more: number, share });
@@ -151,21 +168,21 @@ where
 
     #[inline]
     pub(super) fn get(&self, k: usize) -> KeptEnd<'_, D> {
-        let PackedEnd { at, more, share } = self.list[k];
+        let PackedEnd { at, more, share } = self.list.entries[k];
         KeptEnd { at, share, turn: self.turns.get(k), more: self.more.get(more as usize) }
     }
 
     /// Share of an end in the gap; `None`: it has more than that and what is along the surface.
     #[inline]
     pub(super) fn share_alone(&self, k: usize) -> Option<f64> {
-        let PackedEnd { more, share, .. } = self.list[k];
+        let PackedEnd { more, share, .. } = self.list.entries[k];
         (more == NONE).then_some(share)
     }
 
     /// Node or rigid body of an end.
     #[inline]
     pub(super) fn at(&self, k: usize) -> u32 {
-        self.list[k].at
+        self.list.entries[k].at
     }
 
     /// Lets the end act at a place, m.
@@ -179,7 +196,7 @@ where
     }
 
     fn more_of(&mut self, k: usize) -> &mut More<D> {
-        let number = &mut self.list[k].more;
+        let number = &mut self.list.entries[k].more;
         if *number == NONE {
             *number = self.more.len() as u32;
             self.more.push(More::default());

@@ -7,7 +7,7 @@
 use super::{Border, Feature, Placed, Vector, unit};
 use crate::mesh::surface::{Corners, NONE};
 use crate::tensor::{cross, dot};
-use crate::vector::minus;
+use crate::vector::{minus, plus};
 
 /// A direction is clearly on one side of a triangle from this sine of the angle between both on.
 const CLEAR: f64 = 1e-6;
@@ -15,7 +15,6 @@ impl Placed<'_> {
     /// Direction by which a feature reports outside from inside, not of unit length, and whether the surface
     /// ends there.
     pub(super) fn pseudo_normal(&self, facet: u32, k: usize, feature: Feature, weights: [f64; 3]) -> (Vector, Border) {
-        let plus = |a: Vector, b: Vector| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         match feature {
             Feature::Face => (self.normal(facet, k), Border::None),
             Feature::Crease => {
@@ -45,8 +44,7 @@ impl Placed<'_> {
 
     /// Normal of triangle `k` times its angle at its corner `at`.
     fn angle_weighted(&self, facet: u32, k: usize, at: usize) -> Vector {
-        let x = self.triangle(facet, k);
-        let (p, q) = (minus(x[(at + 1) % 3], x[at]), minus(x[(at + 2) % 3], x[at]));
+        let [p, q] = self.sides(facet, k, at);
         let normal = cross(p, q);
         // The angle by a rational bound of its sine and cosine is not enough: weights must be angles for the
         // sign to be right.
@@ -54,13 +52,29 @@ impl Placed<'_> {
         unit(normal).map(|n| angle * n)
     }
 
+    /// From corner `at` of triangle `k` to its other two.
+    fn sides(&self, facet: u32, k: usize, at: usize) -> [Vector; 2] {
+        let x = self.triangle(facet, k);
+        [1, 2].map(|next| minus(x[(at + next) % 3], x[at]))
+    }
+
+    /// Triangles of a facet at its corner, each with the number of that among its own.
+    fn triangles_at(&self, facet: u32, corner: usize) -> ((usize, usize), Option<(usize, usize)>) {
+        if self.triangles(facet) == 1 { ((0, corner), None) } else { ((corner, 0), Some(((corner + 3) % 4, 1))) }
+    }
+
     /// Sum of what a facet has at its corner.
     fn corner_weighted(&self, facet: u32, corner: usize) -> Vector {
-        if self.triangles(facet) == 1 {
-            return self.angle_weighted(facet, 0, corner);
-        }
-        let (after, before) = (self.angle_weighted(facet, corner, 0), self.angle_weighted(facet, (corner + 3) % 4, 1));
-        [0, 1, 2].map(|d| after[d] + before[d])
+        let ((k, at), second) = self.triangles_at(facet, corner);
+        let first = self.angle_weighted(facet, k, at);
+        second.map_or(first, |(k, at)| plus(first, self.angle_weighted(facet, k, at)))
+    }
+
+    /// The facet across an edge, and its corner at a node of that; nothing where the surface ends.
+    fn beyond(&self, facet: u32, edge: usize, node: u32) -> Option<(u32, usize)> {
+        let other = self.surface.across(facet, edge);
+        let corners = self.surface.facets.get(other as usize)?;
+        Some((other, corners.corners().iter().position(|&there| there == node)?))
     }
 
     /// Angle-weighted normal at a corner of a facet, over the facets that follow each other around it, and
@@ -77,17 +91,14 @@ impl Placed<'_> {
             for _ in 0..most {
                 let count = self.surface.facets[here.0 as usize].corners().len();
                 let edge = if forward { here.1 } else { (here.1 + count - 1) % count };
-                let other = self.surface.across(here.0, edge);
+                let Some((other, at)) = self.beyond(here.0, edge, node) else {
+                    borders[way] = self.border(here.0, edge);
+                    break;
+                };
                 if other == facet {
                     return (sum, Border::None);
                 }
-                if other == NONE {
-                    borders[way] = self.border(here.0, edge);
-                    break;
-                }
-                let Some(at) = self.surface.facets[other as usize].corners().iter().position(|&there| there == node) else { break };
-                let more = self.corner_weighted(other, at);
-                (0..3).for_each(|d| sum[d] += more[d]);
+                sum = plus(sum, self.corner_weighted(other, at));
                 here = (other, at);
             }
         }
@@ -104,25 +115,20 @@ impl Placed<'_> {
         let (least, mut side, mut here) = (CLEAR * CLEAR * dot(away, away), 0.0, (first, corner));
         for _ in 0..self.surface.facets_at(node).len() {
             let (facet, corner) = here;
-            let of_four = [(corner, 0), ((corner + 3) % 4, 1)];
-            let triangles = if self.triangles(facet) == 1 { &[(0, corner)][..] } else { &of_four };
-            for &(k, at) in triangles {
-                let x = self.triangle(facet, k);
-                let across = cross(minus(x[(at + 1) % 3], x[at]), minus(x[(at + 2) % 3], x[at]));
+            let (one, other) = self.triangles_at(facet, corner);
+            for (k, at) in std::iter::once(one).chain(other) {
+                let [p, q] = self.sides(facet, k, at);
+                let across = cross(p, q);
                 let along = dot(away, across);
                 if !(along * along > least * dot(across, across)) || along * side < 0.0 {
                     return None;
                 }
                 side = along;
             }
-            let other = self.surface.across(facet, corner);
-            if other == first {
+            here = self.beyond(facet, corner, node)?;
+            if here.0 == first {
                 return Some(side.signum());
             }
-            if other == NONE {
-                return None;
-            }
-            here = (other, self.surface.facets[other as usize].corners().iter().position(|&there| there == node)?);
         }
         None
     }

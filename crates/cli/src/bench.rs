@@ -13,7 +13,8 @@ use embate_files::results::write_whole;
 use embate_solver::bench::{self, Level, Patch, Size};
 use embate_solver::error::Error;
 use embate_solver::material;
-use embate_solver::model::{Contact, Partners};
+use embate_solver::mesh::cell::CellKind;
+use embate_solver::model::{Contact, Friction, Interface, Partners};
 use embate_solver::simulation::{Options, Simulation};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -43,11 +44,14 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Elements along a side of a body that stays in a cache, of one that does not, and of the stack of strips
-/// with contact in all.
-const SMALL: usize = 32;
-const LARGE: usize = 1024;
+/// Elements along a side of a body that stays in a cache, of one of about 100,000, and of one of about a
+/// million, in 2D and 3D.
+const SMALL: [usize; 2] = [32, 10];
+const MIDDLE: [usize; 2] = [316, 46];
+const LARGE: [usize; 2] = [1024, 101];
+/// Elements of the stack of strips with contact, and along the long sides of slabs of ten layers.
 const STRIPS: usize = 100_000;
+const SLABS: usize = 71;
 /// Memory that an element may take while large bodies are made, bytes: with some to spare.
 const BYTES_PER_ELEMENT: u64 = 2000;
 /// Shortest time for all measurements with which large bodies are measured, s.
@@ -56,7 +60,44 @@ const SECONDS_FOR_LARGE: f64 = 5.0;
 const TRIAD: u64 = 128 << 20;
 
 const ELEMENTS: [&str; 3] = ["quad4", "quad4_full", "quad4_reduced"];
+/// Elements in 3D, and the cells of their patches.
+const SOLIDS: [(&str, CellKind); 3] =
+    [("hex8", CellKind::Hexahedron), ("hex8_reduced", CellKind::Hexahedron), ("tet4", CellKind::Tetrahedron)];
+/// Coefficients of bulk viscosity, where a row has it.
+const VISCOSITY: [f64; 2] = [0.06, 1.2];
+
+/// Whole steps that are measured: element, law, elements along a side, all threads, bulk viscosity.
+#[rustfmt::skip]
+const STEPS: &[(&str, &str, usize, bool, bool)] = &[
+    ("quad4", "elastic", SMALL[0], false, false),
+    ("quad4", "j2", SMALL[0], false, false),
+    ("quad4_reduced", "elastic", SMALL[0], false, false),
+    ("quad4_reduced", "j2", SMALL[0], false, false),
+    ("quad4_reduced", "j2", SMALL[0], false, true),
+    ("hex8", "j2", SMALL[1], false, false),
+    ("hex8_reduced", "j2", SMALL[1], false, false),
+    ("hex8_reduced", "j2", SMALL[1], false, true),
+    ("quad4", "j2", MIDDLE[0], false, false),
+    ("quad4_reduced", "j2", MIDDLE[0], false, false),
+    ("hex8", "j2", MIDDLE[1], false, false),
+    ("hex8_reduced", "j2", MIDDLE[1], false, false),
+    ("hex8_reduced", "j2", MIDDLE[1], true, false),
+    ("quad4", "j2", LARGE[0], false, false),
+    ("quad4", "j2", LARGE[0], true, false),
+    ("quad4_reduced", "j2", LARGE[0], false, false),
+    ("quad4_reduced", "j2", LARGE[0], true, false),
+    ("hex8_reduced", "j2", LARGE[1], false, false),
+    ("hex8_reduced", "j2", LARGE[1], true, false),
+];
 const LAWS: [&str; 3] = ["elastic", "j2", "neo_hookean"];
+
+/// Contacts that are measured, with the coefficient of friction.
+const CONTACTS: &[(&str, f64)] = &[
+    ("strips in 2D", 0.0),
+    ("strips in 2D, with friction", 0.3),
+    ("slabs of hex8_reduced", 0.0),
+    ("slabs of hex8_reduced, with friction", 0.3),
+];
 
 /// A rate of element-steps.
 struct Row {
@@ -65,6 +106,8 @@ struct Row {
     elements: usize,
     threads: usize,
     level: &'static str,
+    /// Whether with bulk viscosity.
+    is_viscous: bool,
     /// Element-steps per second.
     rate: f64,
     /// Resident memory per element, bytes; of large bodies.
@@ -80,6 +123,7 @@ struct Ceilings {
 
 /// Share of contact in a step.
 struct Share {
+    of: &'static str,
     elements: usize,
     without: f64,
     with: f64,
@@ -99,7 +143,10 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     let threads = machine::processors();
     let has_large = arguments.seconds >= SECONDS_FOR_LARGE;
     let laws = if arguments.all { material::registry().len() } else { LAWS.len() };
-    let count = 2 + Level::available().len() + LAWS.len() * ELEMENTS.len() + laws + 4 + if has_large { 9 } else { 1 };
+    let small = STEPS.iter().filter(|(_, _, side, ..)| SMALL.contains(side)).count();
+    // Of a large body two figures' time.
+    let steps = if has_large { 2 * STEPS.len() - small + CONTACTS.len() } else { small };
+    let count = 2 + Level::available().len() + LAWS.len() * (ELEMENTS.len() + SOLIDS.len()) + laws + steps;
     let mut bench = Bench { each: arguments.seconds / count as f64, interrupt, left_out: Vec::new() };
     let print = |text: &str| if arguments.quiet { Ok(()) } else { terminal::print(text) };
 
@@ -110,11 +157,11 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     print(&rows_text("kernels alone, one thread", &kernels, &ceilings))?;
     let steps = bench.steps(threads, has_large)?;
     print(&rows_text("whole steps without contact and output", &steps, &ceilings))?;
-    let share = if has_large { Some(bench.contact()?) } else { None };
+    let shares = if has_large { bench.contact()? } else { Vec::new() };
     if !has_large {
         bench.left_out.push(format!("large bodies and contact: they need --seconds {SECONDS_FOR_LARGE} or more"));
     }
-    print(&closing_text(share.as_ref(), &bench.left_out, begin.elapsed().as_secs_f64()))?;
+    print(&closing_text(&shares, &bench.left_out, begin.elapsed().as_secs_f64()))?;
     let Some(file) = &arguments.json else { return Ok(()) };
     let value = json!({
         "version": env!("CARGO_PKG_VERSION"),
@@ -131,7 +178,7 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
         },
         "kernels": kernels.iter().map(|row| row.json(&ceilings)).collect::<Vec<_>>(),
         "steps": steps.iter().map(|row| row.json(&ceilings)).collect::<Vec<_>>(),
-        "contact": share.map(|share| json!({ "elements": share.elements, "seconds_without": share.without, "seconds_with": share.with, "share": share.fraction() })),
+        "contact": shares.iter().map(Share::json).collect::<Vec<_>>(),
         "left_out": bench.left_out,
         "wall_seconds": begin.elapsed().as_secs_f64(),
     });
@@ -156,7 +203,7 @@ impl Bench {
     }
 
     fn kernels(&mut self, all: bool) -> Result<Vec<Row>, Failure> {
-        let patch = Patch::new(SMALL);
+        let patch = Patch::new(SMALL[0]);
         let registered: Vec<&'static str> = material::registry().iter().map(|kind| kind.name).collect();
         let best = Level::best();
         let usual = |element: &'static str| LAWS.map(|law| (element, law, best));
@@ -169,62 +216,79 @@ impl Bench {
         for (element, law, level) in wanted {
             self.continue_run()?;
             let rate = bench::kernel(element, law, &patch, level, self.each).map_err(failed)?;
-            rows.push(Row { element, law, elements: SMALL * SMALL, threads: 1, level: level.name(), rate, memory: None });
+            rows.push(Row::of_kernel((element, law), SMALL[0] * SMALL[0], level, rate));
         }
-        Ok(rows)
-    }
-
-    fn steps(&mut self, threads: usize, has_large: bool) -> Result<Vec<Row>, Failure> {
-        let level = Level::best().name();
-        let one = Options { threads: 1, simd: None };
-        let mut rows = Vec::new();
-        for (element, law) in [("quad4", "elastic"), ("quad4", "j2"), ("quad4_reduced", "elastic"), ("quad4_reduced", "j2")] {
-            self.continue_run()?;
-            let rate = bench::step(element, law, SMALL, Size::Small, &one, self.each).map_err(failed)?;
-            rows.push(Row { element, law, elements: SMALL * SMALL, threads: 1, level, rate, memory: None });
-        }
-        if !has_large {
-            return Ok(rows);
-        }
-        let n = self.large();
-        for element in ["quad4", "quad4_reduced"] {
-            for threads in if threads > 1 { vec![1, threads] } else { vec![1] } {
+        for (element, cell) in SOLIDS {
+            let patch = Patch::solid(cell, SMALL[1]);
+            for law in LAWS {
                 self.continue_run()?;
-                let model = bench::spinning_block(element, "j2", n);
-                let before = machine::memory_used();
-                let mut simulation = Simulation::new(&model, &Options { threads, simd: None }).map_err(failed)?;
-                let rate = bench::steps_of(&mut simulation, 2.0 * self.each).map_err(failed)?;
-                let used =
-                    machine::memory_used().zip(before).and_then(|(after, before)| after.checked_sub(before)).filter(|used| *used > 0);
-                let memory = used.map(|used| used as f64 / (n * n) as f64);
-                rows.push(Row { element, law: "j2", elements: n * n, threads, level, rate, memory });
+                let rate = bench::kernel(element, law, &patch, best, self.each).map_err(failed)?;
+                rows.push(Row::of_kernel((element, law), patch.connectivity.len() / cell.facts().nodes, best, rate));
             }
         }
         Ok(rows)
     }
 
-    /// Elements along a side of a large body, as memory allows.
-    fn large(&mut self) -> usize {
-        let room = machine::memory_available().map_or(f64::INFINITY, |bytes| (bytes / BYTES_PER_ELEMENT) as f64).sqrt();
-        let n = LARGE.min(room as usize).max(SMALL);
-        if n < LARGE {
-            self.left_out.push(format!(
-                "bodies of {} elements: memory is enough for {}",
-                grouped((LARGE * LARGE) as u64),
-                grouped((n * n) as u64)
-            ));
+    fn steps(&mut self, threads: usize, has_large: bool) -> Result<Vec<Row>, Failure> {
+        let mut rows = Vec::new();
+        let side = self.large(has_large);
+        for &(element, law, wanted, on_all, is_viscous) in STEPS {
+            let (is_small, is_solid) = (SMALL.contains(&wanted), wanted == SMALL[1] || wanted == MIDDLE[1] || wanted == LARGE[1]);
+            if (!has_large && !is_small) || (on_all && threads == 1) {
+                continue;
+            }
+            self.continue_run()?;
+            let n = wanted.min(side[usize::from(is_solid)]);
+            let mut model = if is_solid { bench::spinning_cube(element, law, n) } else { bench::spinning_block(element, law, n) };
+            if is_viscous {
+                model.run.bulk_viscosity = VISCOSITY;
+            }
+            let threads = if on_all { threads } else { 1 };
+            let options = Options { threads, simd: None };
+            let elements = if is_solid { n * n * n } else { n * n };
+            let mut row = Row { threads, is_viscous, ..Row::of_kernel((element, law), elements, Level::best(), 0.0) };
+            if is_small {
+                row.rate = bench::step(&model, Size::Small, &options, self.each).map_err(failed)?;
+            } else {
+                let before = machine::memory_used();
+                let mut simulation = Simulation::new(&model, &options).map_err(failed)?;
+                row.rate = bench::steps_of(&mut simulation, 2.0 * self.each).map_err(failed)?;
+                let used =
+                    machine::memory_used().zip(before).and_then(|(after, before)| after.checked_sub(before)).filter(|used| *used > 0);
+                // Smaller ones take what others have left.
+                row.memory = used.filter(|_| LARGE.contains(&wanted)).map(|used| used as f64 / elements as f64);
+            }
+            rows.push(row);
         }
-        n
+        Ok(rows)
     }
 
-    fn contact(&mut self) -> Result<Share, Failure> {
-        self.continue_run()?;
-        let plain = bench::strips(STRIPS, 2.0);
-        let mut touching = plain.clone();
-        touching.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), ..Contact::default() });
-        let one = Options { threads: 1, simd: None };
-        let ([without, with], [simulation, _]) = bench::step_times([&plain, &touching], &one, 9, self.each).map_err(failed)?;
-        Ok(Share { elements: simulation.summary().elements, without, with })
+    /// Most elements along a side of a body in 2D and 3D, as memory allows.
+    fn large(&mut self, is_wanted: bool) -> [usize; 2] {
+        let room = machine::memory_available().map_or(f64::INFINITY, |bytes| (bytes / BYTES_PER_ELEMENT) as f64);
+        let most = [room.sqrt(), room.cbrt()];
+        let sides = [0, 1].map(|k| LARGE[k].min(most[k] as usize).max(SMALL[k]));
+        if is_wanted && sides != LARGE {
+            let all = LARGE[0] * LARGE[0];
+            self.left_out.push(format!("bodies of {} elements: memory is enough for {}", grouped(all as u64), grouped(room as u64)));
+        }
+        sides
+    }
+
+    fn contact(&mut self) -> Result<Vec<Share>, Failure> {
+        let mut shares = Vec::new();
+        for &(of, coefficient) in CONTACTS {
+            self.continue_run()?;
+            let plain = if of.starts_with("strips") { bench::strips(STRIPS, 2.0) } else { bench::slabs(SLABS, 2.0, 0.3) };
+            let mut touching = plain.clone();
+            let friction = Friction { coefficient, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
+            let interface = Interface { friction: (coefficient > 0.0).then_some(friction), ..Interface::default() };
+            touching.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), interface, ..Contact::default() });
+            let one = Options { threads: 1, simd: None };
+            let ([without, with], [simulation, _]) = bench::step_times([&plain, &touching], &one, 9, self.each).map_err(failed)?;
+            shares.push(Share { of, elements: simulation.summary().elements, without, with });
+        }
+        Ok(shares)
     }
 }
 
@@ -244,6 +308,11 @@ impl Ceilings {
 }
 
 impl Row {
+    /// Of a kernel alone, on one thread.
+    fn of_kernel((element, law): (&'static str, &'static str), elements: usize, level: Level, rate: f64) -> Self {
+        Self { element, law, elements, threads: 1, level: level.name(), is_viscous: false, rate, memory: None }
+    }
+
     /// Multiplications and additions that the ceiling has time for in one element-step.
     fn operations(&self, ceilings: &Ceilings) -> Option<f64> {
         Some(ceilings.arithmetic(self.level, self.threads)? / self.rate)
@@ -261,6 +330,7 @@ impl Row {
             "elements": self.elements,
             "threads": self.threads,
             "level": self.level,
+            "bulk_viscosity": self.is_viscous,
             "element_steps_per_second": self.rate,
             "operations_at_ceiling": self.operations(ceilings),
             "bytes_per_element": self.memory,
@@ -270,6 +340,11 @@ impl Row {
 }
 
 impl Share {
+    fn json(&self) -> Value {
+        let (without, with) = (self.without, self.with);
+        json!({ "of": self.of, "elements": self.elements, "seconds_without": without, "seconds_with": with, "share": self.fraction() })
+    }
+
     fn fraction(&self) -> f64 {
         1.0 - self.without / self.with
     }
@@ -303,7 +378,7 @@ fn rows_text(title: &str, rows: &[Row], ceilings: &Ceilings) -> String {
     for row in rows {
         let mut line = vec![
             row.element.to_string(),
-            row.law.to_string(),
+            if row.is_viscous { format!("{}, bulk viscosity", row.law) } else { row.law.to_string() },
             grouped(row.elements as u64),
             row.threads.to_string(),
             row.level.to_string(),
@@ -317,14 +392,17 @@ fn rows_text(title: &str, rows: &[Row], ceilings: &Ceilings) -> String {
     format!("{title}: million element-steps per second\n{}\n", table(&lines, "  "))
 }
 
-fn closing_text(share: Option<&Share>, left_out: &[String], seconds: f64) -> String {
+fn closing_text(shares: &[Share], left_out: &[String], seconds: f64) -> String {
     let mut text = String::new();
-    if let Some(share) = share {
-        text.push_str(&format!(
-            "contact of all strips with each other, {} elements in motion, one thread: {:.0} % of the step\n",
-            grouped(share.elements as u64),
-            100.0 * share.fraction()
-        ));
+    if !shares.is_empty() {
+        let mut rows =
+            vec![["bodies in motion, one thread", "elements", "ms without contact", "ms with it", "share"].map(String::from).to_vec()];
+        rows.extend(shares.iter().map(|share| {
+            let milliseconds = |seconds: f64| format!("{:.2}", 1e3 * seconds);
+            let (without, with) = (milliseconds(share.without), milliseconds(share.with));
+            vec![share.of.into(), grouped(share.elements as u64), without, with, format!("{:.0} %", 100.0 * share.fraction())]
+        }));
+        text.push_str(&format!("contact of all bodies with each other and themselves\n{}\n", table(&rows, "  ")));
     }
     text.push_str("operations: multiplications and additions for which the ceiling has time in one element-step\n");
     for what in left_out {

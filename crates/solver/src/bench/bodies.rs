@@ -117,7 +117,20 @@ const SPEED: f64 = 300.0;
 #[must_use]
 pub fn spinning_block(element: &str, law: &str, n: usize) -> Model {
     let size = n as f64 * 1e-3;
-    let shape = Shape::Rectangle(Rectangle { corner: [-0.5 * size; 2], size: [size; 2], elements: [n, n], ..Rectangle::default() });
+    let shape = Rectangle { corner: [-0.5 * size; 2], size: [size; 2], elements: [n, n], ..Rectangle::default() };
+    spinning(element, law, Shape::Rectangle(shape), size)
+}
+
+/// The same in 3D: a cube of `n` × `n` × `n` elements.
+#[must_use]
+pub fn spinning_cube(element: &str, law: &str, n: usize) -> Model {
+    let size = n as f64 * 1e-3;
+    let shape = Cuboid { corner: [-0.5 * size; 3], size: [size; 3], elements: [n; 3], ..Cuboid::default() };
+    spinning(element, law, Shape::Cuboid(shape), size)
+}
+
+/// A body with sides of a `size`, m, about the origin.
+fn spinning(element: &str, law: &str, shape: Shape, size: f64) -> Model {
     let part = Part {
         name: "block".into(),
         material: "block".into(),

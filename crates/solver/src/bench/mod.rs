@@ -10,7 +10,7 @@ mod ceilings;
 mod random;
 mod rates;
 
-pub use bodies::{Patch, material, slabs, spinning_block, strips};
+pub use bodies::{Patch, material, slabs, spinning_block, spinning_cube, strips};
 pub use ceilings::{multiply_add, triad};
 pub use embate_lanes::Level;
 pub use random::Random;

@@ -1,6 +1,6 @@
 //! Rates of kernels and of whole steps, in element-steps per second, and what contact adds to a step.
 
-use super::bodies::{Patch, material, spinning_block};
+use super::bodies::{Patch, material};
 use crate::block::{BlockInput, Blocks, Motion, NodalForces, make};
 use crate::error::{Error, Fault};
 use crate::model::Model;
@@ -92,25 +92,25 @@ pub enum Size {
     Large,
 }
 
-/// Element-steps per second of whole steps of a spinning block of `n` × `n` elements without contact and
-/// output.
+/// Element-steps per second of whole steps of a model without contact and output, such as
+/// [`super::spinning_block`].
 ///
 /// # Errors
-/// An element or law that is not in its registry; a step that fails.
-pub fn step(element: &str, law: &str, n: usize, size: Size, options: &Options, seconds: f64) -> Result<f64, Error> {
-    let model = spinning_block(element, law, n);
+/// A model that is not sound, as of an element or law that is not in its registry; a step that fails.
+pub fn step(model: &Model, size: Size, options: &Options, seconds: f64) -> Result<f64, Error> {
     if size == Size::Large {
-        return steps_of(&mut Simulation::new(&model, options)?, seconds);
+        return steps_of(&mut Simulation::new(model, options)?, seconds);
     }
     let (begin, mut best, mut rounds) = (Instant::now(), 0.0_f64, 0);
     while rounds < ROUNDS || begin.elapsed().as_secs_f64() < seconds {
-        let mut simulation = Simulation::new(&model, options)?;
+        let mut simulation = Simulation::new(model, options)?;
+        let elements = simulation.summary().elements;
         let warm = Instant::now();
         simulation.advance(f64::INFINITY, 10)?;
-        let steps = repeats(0.1 * warm.elapsed().as_secs_f64(), n * n, seconds).max(10);
+        let steps = repeats(0.1 * warm.elapsed().as_secs_f64(), elements, seconds).max(10);
         let start = Instant::now();
         simulation.advance(f64::INFINITY, steps as u64)?;
-        best = best.max((steps * n * n) as f64 / start.elapsed().as_secs_f64().max(1e-9));
+        best = best.max((steps * elements) as f64 / start.elapsed().as_secs_f64().max(1e-9));
         rounds += 1;
     }
     Ok(best)
@@ -161,6 +161,7 @@ pub fn step_times(models: [&Model; 2], options: &Options, rounds: usize, seconds
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::{spinning_block, spinning_cube};
     use crate::material::LAWS;
 
     #[test]
@@ -172,24 +173,26 @@ mod tests {
         }
         for element in ["quad4", "quad4_reduced"] {
             for law in ["elastic", "j2", "neo_hookean"] {
-                let rate = step(element, law, 16, Size::Small, &Options::default(), 0.0).unwrap();
+                let rate = step(&spinning_block(element, law, 16), Size::Small, &Options::default(), 0.0).unwrap();
                 assert!(rate.is_finite() && rate > 0.0, "{element} {law}");
             }
         }
     }
 
     #[test]
-    fn every_element_of_3d_can_be_measured_in_a_kernel() {
+    fn every_element_of_3d_can_be_measured_in_a_kernel_and_a_cube_in_whole_steps() {
         for kind in crate::element::ELEMENTS_OF_SPACE {
             let patch = Patch::solid(kind.cell, 3);
             let rate = kernel(kind.name, "j2", &patch, Level::best(), 0.0).unwrap();
             assert!(rate.is_finite() && rate > 0.0, "{}", kind.name);
         }
+        let rate = step(&spinning_cube("hex8_reduced", "j2", 4), Size::Small, &Options::default(), 0.0).unwrap();
+        assert!(rate.is_finite() && rate > 0.0);
     }
 
     #[test]
     fn what_is_not_there_is_reported() {
         assert!(kernel("quad5", "j2", &Patch::new(2), Level::SCALAR, 0.0).is_err());
-        assert!(step("quad4", "j3", 2, Size::Small, &Options::default(), 0.0).is_err());
+        assert!(step(&spinning_block("quad4", "j3", 2), Size::Small, &Options::default(), 0.0).is_err());
     }
 }

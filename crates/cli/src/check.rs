@@ -8,7 +8,7 @@ use clap::Args;
 use embate_files::results::messages::NO_PICTURES;
 use embate_files::{picture, results};
 use embate_solver::model::Model;
-use embate_solver::simulation::{Options, Overview, Simulation};
+use embate_solver::simulation::{CostlyElement, Options, Overview, Simulation, TimeStepCosts};
 use std::path::{Path, PathBuf};
 
 /// Which model, and where the picture goes.
@@ -19,7 +19,13 @@ pub(crate) struct Arguments {
     /// Folder for check.png [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Show the hundred elements with the shortest stable steps, and the first step without them
+    #[arg(long)]
+    time_step: bool,
 }
+
+/// Elements that `--time-step` shows.
+const WORST: usize = 100;
 
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
     let loaded = input::load(&arguments.model)?;
@@ -27,6 +33,9 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
     let simulation = input::ready(model, &Options::default())?;
     input::warn(&loaded, &simulation);
     let mut text = overview_text(model, &simulation.overview());
+    if arguments.time_step {
+        text.push_str(&time_step_text(model, &simulation.time_step_costs(WORST)));
+    }
     let folder = input::folder(arguments.out.as_deref(), input::default_folder(model))?;
     match draw(model, &simulation, &folder) {
         Ok(path) => text.push_str(&format!("picture: {}\n", path.display())),
@@ -65,6 +74,29 @@ fn overview_text(model: &Model, overview: &Overview) -> String {
         text.push_str("no initial penetrations\n");
     }
     text
+}
+
+/// The worst elements, and the first step by nodes.
+fn time_step_text(model: &Model, costs: &TimeStepCosts) -> String {
+    let steps = |time_step: f64| if time_step.is_finite() { grouped((model.run.end / time_step).ceil() as u64) } else { "-".into() };
+    let shown = |time_step: f64| if time_step.is_finite() { with_unit(time_step, "s") } else { "-".into() };
+    let head = ["element", "of part", "at, m", "stable step", "without it and those above", "steps"];
+    let mut rows = vec![head.map(ToString::to_string).to_vec()];
+    rows.extend(costs.elements.iter().map(|CostlyElement { part, number, at, time_step, without }| {
+        let at: Vec<String> = at.iter().map(|x| format!("{x:.4e}")).collect();
+        vec![number.to_string(), part.clone(), at.join(", "), shown(*time_step), shown(*without), steps(*without)]
+    }));
+    let by_nodes = match &costs.by_nodes {
+        Some((time_step, governor)) => {
+            format!(
+                "by nodes (run.stable_step = \"nodes\") the first step is {} (governed by {governor}), about {} steps",
+                shown(*time_step),
+                steps(*time_step)
+            )
+        }
+        None => "by nodes (run.stable_step = \"nodes\") the first step is the same".into(),
+    };
+    format!("shortest stable steps, safety included\n{}{by_nodes}\n", table(&rows, "  "))
 }
 
 /// Draws the mesh.

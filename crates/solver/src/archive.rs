@@ -294,10 +294,10 @@ impl<K: Persist + Default + Ord + Clone, V: Persist + Default> Persist for BTree
 
 /// Makes a structure [`Persist`] all of its fields: each is named, so that none can be forgotten.
 macro_rules! persist_all {
-    ($name:ty { $($field:ident),* $(,)? }) => {
+    ($name:ty { $($field:ident),* $(,)? } $(but { $($left_out:ident),* })?) => {
         impl $crate::archive::Persist for $name {
             fn persist(&mut self, archive: &mut $crate::archive::Archive<'_>) -> $crate::archive::ArchiveResult {
-                let Self { $($field),* } = self;
+                let Self { $($field),* $(, $($left_out: _),*)? } = self;
                 $($crate::archive::Persist::persist($field, archive)?;)*
                 Ok(())
             }

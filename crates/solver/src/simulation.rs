@@ -8,9 +8,11 @@ pub(crate) mod run;
 mod state;
 mod steering;
 mod summary;
+mod time_step_costs;
 mod tiny;
 
 pub use state::State;
+pub use time_step_costs::{CostlyElement, TimeStepCosts};
 
 use crate::archive::Section;
 use crate::body_columns::BodyColumns;
@@ -451,6 +453,13 @@ impl Simulation {
     #[must_use]
     pub fn history_row(&self) -> Vec<f64> {
         either!(self, run => run.history_row())
+    }
+
+    /// The `most` elements with the shortest stable steps, what the first step would be without them, and by
+    /// nodes; before the first step.
+    #[must_use]
+    pub fn time_step_costs(&self, most: usize) -> TimeStepCosts {
+        either!(self, run => run.time_step_costs(most))
     }
 
     /// Parts, masses, step, penetrations.

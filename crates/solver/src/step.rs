@@ -6,9 +6,10 @@
 
 pub(crate) mod erosion;
 pub(crate) mod free;
-mod persist;
 mod limits;
+mod nodal_bound;
 mod nodes;
+mod persist;
 pub(crate) mod relaxation;
 pub(crate) mod rotations;
 
@@ -40,6 +41,7 @@ use embate_lanes::{Chunks, Level, Team};
 use erosion::Erosion;
 use free::Groups;
 pub use limits::{Governor, Limits, RUNAWAY};
+pub(crate) use nodal_bound::NodalBound;
 use nodes::Nodes;
 use relaxation::Relaxation;
 use rotations::NodalRotations;
@@ -104,6 +106,8 @@ where
     /// Step that will lead to the next positions, s.
     pub(crate) time_step: f64,
     pub(crate) governor: Governor,
+    /// The stable step by nodes, where the model wants it.
+    pub(crate) nodal_bound: Option<NodalBound>,
     pub(crate) positions: Vec<[f64; D]>,
     /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to.
     pub(crate) positions_old: Vec<[f64; D]>,
@@ -295,12 +299,19 @@ where
     /// What all blocks reported, with the step that is stable for elements and springs together.
     pub(crate) fn joined_reports(&self) -> Report {
         let all = Report::joined(self.reports.iter().copied());
-        match self.reports.split_last() {
-            Some((springs, elements)) if self.has_springs => {
-                let of_elements = reductions::min(elements.iter().map(|report| report.time_step_squared));
-                Report { time_step_squared: together(of_elements, springs.time_step_squared), ..all }
-            }
-            _ => all,
+        if !self.has_springs {
+            return all;
+        }
+        let elements = &self.reports[..self.reports.len() - 1];
+        let of_elements = reductions::min(elements.iter().map(|report| report.time_step_squared));
+        Report { time_step_squared: self.with_springs(of_elements), ..all }
+    }
+
+    /// Square of the step that is stable for springs too, s², from that of the elements.
+    fn with_springs(&self, of_elements: f64) -> f64 {
+        match self.reports.last() {
+            Some(springs) if self.has_springs => together(of_elements, springs.time_step_squared),
+            _ => of_elements,
         }
     }
 

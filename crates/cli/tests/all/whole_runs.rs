@@ -117,6 +117,12 @@ fn a_check_reports_parts_and_steps() {
     let answer = embate(&folder, ["check", "model.toml", "--out", "out"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
     assert!(answer.out.contains("block") && answer.out.contains("0.7800 kg/m") && answer.out.contains("steps to 100 µs"), "{}", answer.out);
+    assert!(!answer.out.contains("by nodes"), "{}", answer.out);
+    let answer = embate(&folder, ["check", "model.toml", "--out", "out", "--time-step"]);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    for words in ["shortest stable steps", "without it and those above", "by nodes (run.stable_step = \"nodes\") the first step is"] {
+        assert!(answer.out.contains(words), "{}", answer.out);
+    }
     // A picture of the mesh is not a result in the way of a run.
     assert_eq!(run(&folder, &[]).code, Some(0));
 }

@@ -44,6 +44,8 @@ struct Bar<const D: usize> {
     damped: f64,
     damping: f64,
     time_step_squared: f64,
+    /// The same when it was marked; 0: not yet.
+    marked: f64,
     is_gone: bool,
 }
 
@@ -52,8 +54,12 @@ impl<const D: usize> Persist for Bar<D> {
         #[rustfmt::skip]
         let Self {
             nodes: _, initial: _, mass: _,
-            length_old, length, direction, stored, dissipated, damped, damping, time_step_squared, is_gone,
+            length_old, length, direction, stored, dissipated, damped, damping, time_step_squared, marked, is_gone,
         } = self;
+        // There, or not, before anything is read.
+        if *marked > 0.0 {
+            marked.persist(archive)?;
+        }
         persist_each!(archive; length_old, length, direction, stored, dissipated, damped, damping, time_step_squared, is_gone);
         Ok(())
     }
@@ -117,6 +123,7 @@ impl<const D: usize> Bars<D> {
                 damped: 0.0,
                 damping: 0.0,
                 time_step_squared: 0.0,
+                marked: 0.0,
                 is_gone: false,
             }
         };
@@ -179,7 +186,9 @@ impl<const D: usize> Bars<D> {
     fn sum(&self) -> Report {
         let of = |bar: &Bar<D>| {
             let gone = Report { dissipated: bar.dissipated, damping: bar.damping, ..Report::NOTHING };
-            let there = Report { time_step_squared: bar.time_step_squared, determinant: bar.length, stored: bar.stored, ..gone };
+            let step_change = if bar.marked > 0.0 { bar.time_step_squared / bar.marked } else { f64::INFINITY };
+            let there =
+                Report { time_step_squared: bar.time_step_squared, step_change, determinant: bar.length, stored: bar.stored, ..gone };
             if bar.is_gone { gone } else { there }
         };
         Report::joined(self.bars.iter().map(of))
@@ -288,6 +297,19 @@ where
 
     fn time_step_squared(&self, element: usize) -> f64 {
         self.bars[element].time_step_squared
+    }
+
+    fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
+        for bar in self.bars.iter().filter(|bar| !bar.is_gone) {
+            let (mass, squared) = (0.5 * bar.mass, bar.time_step_squared);
+            let stiffness = 4.0 * mass / if self.damping > 0.0 { squared.sqrt() * shortest } else { squared };
+            bar.nodes.iter().for_each(|&node| add(node, stiffness, mass));
+        }
+    }
+
+    fn mark_time_steps(&mut self) {
+        // The step of a bar without length is no number.
+        self.bars.iter_mut().for_each(|bar| bar.marked = bar.time_step_squared.max(f64::MIN_POSITIVE));
     }
 
     fn state(&self, element: usize) -> ElementState {

@@ -256,6 +256,9 @@ where
             }
         }
         self.volume_initial[place[0]].0[place[1]] = self.volume_initial[source[0]].0[source[1]];
+        if !self.marks.is_empty() {
+            self.marks[place[0]].0[place[1]] = self.marks[source[0]].0[source[1]];
+        }
         let values = self.elements[source[0]];
         self.elements[place[0]].copy_lane(place[1], &values, source[1]);
         if self.resists() {
@@ -270,6 +273,7 @@ where
             let (values, lane) = (&self.elements[element / BATCH], element % BATCH);
             Report {
                 time_step_squared: values.time_step_squared.0[lane],
+                step_change: self.marks.get(element / BATCH).map_or(f64::INFINITY, |mark| values.time_step_squared.0[lane] / mark.0[lane]),
                 determinant: self.least_determinant(element, positions),
                 stored: values.stored.0[lane],
                 dissipated: values.dissipated.0[lane],

@@ -60,6 +60,8 @@ pub(super) struct Forces<'a, const D: usize> {
     pub(super) first: usize,
     /// Forces of the elements, where they are kept; else empty.
     pub(super) kept: &'a mut [Batch],
+    /// Squares of their stable steps when these were marked, s²; empty before.
+    pub(super) marks: &'a [Batch],
     pub(super) sums: &'a mut Sums,
 }
 
@@ -80,6 +82,7 @@ pub(super) struct Sums {
     viscous: Batch,
     damping: Batch,
     time_step_squared: Batch,
+    step_change: Batch,
     determinant: Batch,
 }
 
@@ -93,6 +96,7 @@ impl Sums {
             viscous: zero,
             damping: zero,
             time_step_squared: infinite,
+            step_change: infinite,
             determinant: infinite,
         }
     }
@@ -101,6 +105,7 @@ impl Sums {
         let sum = |batch: &Batch| batch.0.iter().sum();
         Report {
             time_step_squared: least(&self.time_step_squared),
+            step_change: least(&self.step_change),
             determinant: least(&self.determinant),
             stored: sum(&self.stored),
             dissipated: sum(&self.dissipated),
@@ -239,6 +244,10 @@ where
             (L::load(&sums.damping, at) + L::load(&self.input.resistance[batch].damping, at) * live).store(&mut sums.damping, at);
         }
         time_step_squared.min(L::load(&sums.time_step_squared, at)).store(&mut sums.time_step_squared, at);
+        if let Some(mark) = self.input.marks.get(batch) {
+            let change = time_step_squared / L::load(mark, at);
+            change.min(L::load(&sums.step_change, at)).store(&mut sums.step_change, at);
+        }
         let mut worst = L::load(&sums.determinant, at);
         for p in 0..P {
             worst = geometry.map.determinants[p].min(worst);

@@ -27,6 +27,8 @@ pub(super) struct Facts {
     pub(super) turn: usize,
     /// Batches that hourglass control keeps per element.
     pub(super) hourglass: usize,
+    /// Whether that control damps.
+    pub(super) damps: bool,
     /// Batches of initial geometry per point, for hyperelastic laws.
     pub(super) initial: usize,
     /// Weight of its first point.
@@ -131,6 +133,7 @@ where
             components: <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS,
             turn: <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS,
             hourglass: E::HOURGLASS,
+            damps: E::DAMPS,
             initial: initial_width::<E, D, N, P>(state),
             weight: E::WEIGHTS[0],
             averages_at_nodes: E::NODAL_DILATATION && !state.is_plane_stress,

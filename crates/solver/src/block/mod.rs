@@ -83,6 +83,9 @@ impl<'a, const D: usize> NodalForces<'a, D> {
 pub struct Report {
     /// Smallest square of an element's stable step, s².
     pub time_step_squared: f64,
+    /// Smallest ratio of such a square to that of the same element at the last [`Block::mark_time_steps`];
+    /// infinite before the first.
+    pub step_change: f64,
     /// Smallest Jacobian determinant; not positive: an element is inverted.
     pub determinant: f64,
     /// Stored elastic energy, J/m.
@@ -97,12 +100,13 @@ pub struct Report {
     pub damping: f64,
 }
 
-persist_all!(Report { time_step_squared, determinant, stored, dissipated, hourglass, viscous, damping });
+persist_all!(Report { time_step_squared, determinant, stored, dissipated, hourglass, viscous, damping } but { step_change });
 
 impl Report {
     /// Of no element.
     pub const NOTHING: Self = Self {
         time_step_squared: f64::INFINITY,
+        step_change: f64::INFINITY,
         determinant: f64::INFINITY,
         stored: 0.0,
         dissipated: 0.0,
@@ -116,6 +120,7 @@ impl Report {
         let of = |value: fn(&Self) -> f64| parts.clone().map(move |report| value(&report));
         Self {
             time_step_squared: reductions::min(of(|report| report.time_step_squared)),
+            step_change: reductions::min(of(|report| report.step_change)),
             determinant: reductions::min(of(|report| report.determinant)),
             stored: reductions::sum(of(|report| report.stored)),
             dissipated: reductions::sum(of(|report| report.dissipated)),
@@ -185,6 +190,13 @@ pub trait Block<const D: usize>: Send + Sync {
     fn release_corner_masses(&mut self) {}
     /// Square of an element's stable step, s², in the state of the last [`Block::advance`].
     fn time_step_squared(&self, element: usize) -> f64;
+    /// Hands over for each live element and each of its nodes the stiffness k_e with which its own is at most
+    /// k_e 1, N/m, and the mass m_c of its lightest corner, kg/m, in the state of the last
+    /// [`Block::advance`]: k_e = 4 m_c / dt_e² of its stable step, and 4 m_c / (dt_e `shortest`) where
+    /// damping is in it, with the `shortest` stable step of all elements, s.
+    fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64));
+    /// From now on reports how the stable steps have changed since the last [`Block::advance`].
+    fn mark_time_steps(&mut self);
     /// Mean state of an element.
     fn state(&self, element: usize) -> ElementState;
     /// Mean states of several elements, in their order: one call for all of them.

@@ -281,7 +281,7 @@ where
         let (means, places) = (&nodal.mean, &self.nodes.places);
         let (keeps_forces, kept) = (self.keeps_forces, chunk(self.kept_width()));
         let (resists, resistance) = (self.resists(), chunk(self.resistance_width()));
-        let (slots_of_chunk, eroded) = (self.nodes.width(), &self.eroded);
+        let (slots_of_chunk, eroded, marks) = (self.nodes.width(), &self.eroded, &self.marks[..]);
         let parts = (
             Chunks::new(&mut self.elements, CHUNK),
             Chunks::new(&mut nodal.stress, CHUNK * components),
@@ -338,6 +338,7 @@ where
                 places,
                 first,
                 kept: if keeps_forces { kept } else { &mut [] },
+                marks: marks.get(first..first + count).unwrap_or_default(),
                 sums: &mut sums,
             };
             kernel.forces(level, forces);

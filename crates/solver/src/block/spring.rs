@@ -216,6 +216,9 @@ where
     fn time_step_squared(&self, element: usize) -> f64 {
         self.pairs[element].time_step_squared
     }
+    // The step of springs counts besides that of the elements ([`together`]).
+    fn bound_stiffness(&self, _shortest: f64, _add: &mut dyn FnMut(u32, f64, f64)) {}
+    fn mark_time_steps(&mut self) {}
     fn state(&self, _element: usize) -> ElementState {
         ElementState::default()
     }

@@ -53,6 +53,8 @@ pub(super) struct ElementStore<const D: usize> {
     /// Forces of the elements in the last step, where they are kept.
     pub(super) kept: Vec<Batch>,
     pub(super) keeps_forces: bool,
+    /// Squares of the stable steps when these were marked, s²; empty before.
+    pub(super) marks: Vec<Batch>,
     /// Share of each corner in the element's mass: a batch per corner and batch of elements; only until nodes
     /// have their masses.
     pub(super) corner_mass: Vec<Batch>,
@@ -79,6 +81,7 @@ struct Chunk<'a, const D: usize> {
     hourglass: &'a mut [Batch],
     pulls: &'a mut [[f64; D]],
     kept: &'a mut [Batch],
+    marks: &'a [Batch],
 }
 
 /// What is the same for all tasks.
@@ -137,6 +140,7 @@ where
             hourglass: scratch(hourglass),
             kept: scratch(0),
             keeps_forces: false,
+            marks: Vec::new(),
             corner_mass: vec![Batch::default(); batches * nodes],
             volume_initial: vec![Batch::default(); batches],
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
@@ -316,6 +320,7 @@ where
                 places: &common.nodes.places,
                 first: chunk.index * CHUNK + from,
                 kept: if common.keeps_forces { &mut chunk.kept[from * nodes * D..to * nodes * D] } else { &mut [] },
+                marks: chunk.marks.get(from..to).unwrap_or_default(),
                 sums: &mut sums,
             };
             common.kernel.forces(level, forces);
@@ -371,7 +376,7 @@ where
             level,
         };
         let (initial, volume_initial, strips) = (&self.initial[..], &self.volume_initial[..], &self.strips[..]);
-        let (eroded, width) = (&self.eroded, self.nodes.width());
+        let (eroded, width, marks) = (&self.eroded, self.nodes.width(), &self.marks[..]);
         let [stress, history, _, hourglass] = widths.map(chunk);
         let parts = (
             Chunks::new(&mut self.stress, stress),
@@ -394,10 +399,29 @@ where
             let last = first + elements.len();
             let mut strip = strips[member].lock().unwrap_or_else(PoisonError::into_inner);
             let (initial, volume_initial) = (&initial[first * widths[2]..last * widths[2]], &volume_initial[first..last]);
-            let chunk = Chunk { index, stress, damped, history, initial, volume_initial, elements, resistance, hourglass, pulls, kept };
+            let marks = marks.get(first..last).unwrap_or_default();
+            let chunk =
+                Chunk { index, stress, damped, history, initial, volume_initial, elements, resistance, hourglass, pulls, kept, marks };
             report.fill(Self::advance_chunk(&common, chunk, &mut strip));
         });
         Report::joined(self.reports.iter().copied().chain([self.eroded.left]))
+    }
+
+    fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
+        let Facts { nodes, damps, .. } = *self.facts();
+        let lags = self.resists() || damps;
+        for element in (0..self.count).filter(|&element| self.is_alive(element)) {
+            let (batch, lane) = (element / BATCH, element % BATCH);
+            let values = &self.elements[batch];
+            let (mass, squared) = (values.mass_least.0[lane] / nodes as f64, values.time_step_squared.0[lane]);
+            let stiffness = 4.0 * mass / if lags { squared.sqrt() * shortest } else { squared };
+            (0..nodes).for_each(|a| add(self.nodes.node(batch * nodes + a, lane, nodes) as u32, stiffness, mass));
+        }
+    }
+
+    fn mark_time_steps(&mut self) {
+        self.marks.clear();
+        self.marks.extend(self.elements.iter().map(|values| values.time_step_squared));
     }
 
     fn mass(&self, element: usize) -> f64 {
@@ -484,10 +508,14 @@ where
         let Self {
             kernel: _, law: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
             reports: _, strips: _, nodal: _,
-            stress, damped, history, elements, resistance, hourglass, eroded,
+            marks, stress, damped, history, elements, resistance, hourglass, eroded,
         } = self;
         for list in [stress, damped, history, hourglass] {
             list[..].persist(archive)?;
+        }
+        // There, or not, before anything is read.
+        if !marks.is_empty() {
+            marks[..].persist(archive)?;
         }
         elements[..].persist(archive)?;
         resistance[..].persist(archive)?;

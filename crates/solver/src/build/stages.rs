@@ -32,12 +32,12 @@ use crate::mesh::ElementGroup;
 use crate::mesh::surface::Surface;
 use crate::mesh::surface::tributary::Depth;
 use crate::model::messages::UNKNOWN_NAME;
-use crate::model::{self, ContactLaw, Penalty, PenaltySource};
+use crate::model::{self, ContactLaw, Penalty, PenaltySource, StableStep};
 use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
 use crate::step::relaxation::Relaxation;
 use crate::step::rotations::NodalRotations;
-use crate::step::{CHUNK, Governor, System};
+use crate::step::{CHUNK, Governor, NodalBound, System};
 use crate::tensor::Dim;
 use embate_lanes::{Level, Team};
 use std::mem::take;
@@ -227,6 +227,7 @@ where
             time_step_old: 0.0,
             time_step: 0.0,
             governor: Governor::Schedule,
+            nodal_bound: (model.run.stable_step == StableStep::Nodes).then(NodalBound::default),
             team: if count >= SERIAL { Team::new(threads) } else { Team::alone() },
             mesh,
             blocks,

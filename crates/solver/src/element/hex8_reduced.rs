@@ -257,6 +257,7 @@ macro_rules! reduced {
                 Control::Viscous => DAMPERS,
                 Control::AssumedStrain => hex8_assumed_strain::POTENTIAL,
             };
+            const DAMPS: bool = matches!(Control::$control, Control::Viscous);
             const HOURGLASS_MODES: usize = if matches!(Control::$control, Control::Viscous) { 4 } else { 0 };
             const WARPED: bool = true;
             const PARTS: usize = hex8::PARTS;

@@ -87,6 +87,8 @@ where
     /// Patterns whose amplitude that control follows from step to step, keeping a force against each, which
     /// turns with the element; at most [`PATTERNS`].
     const HOURGLASS_MODES: usize = 0;
+    /// Whether that control damps, so that it lags behind the motion.
+    const DAMPS: bool = false;
     /// Whether the gradient at its one point is the exact mean over an element that may be warped: then it
     /// takes a second matrix of natural parts, [`Element::warp`].
     const WARPED: bool = false;

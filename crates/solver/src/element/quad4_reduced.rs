@@ -367,6 +367,7 @@ macro_rules! reduced {
             const NODES: [[f64; 2]; 4] = DIAGONAL_NODES;
             const MEAN_DILATATION: bool = false;
             const HOURGLASS: usize = if matches!(Control::$control, Control::AssumedStrain) { POTENTIAL } else { 2 };
+            const DAMPS: bool = matches!(Control::$control, Control::Viscous);
             const HOURGLASS_MODES: usize = if matches!(Control::$control, Control::AssumedStrain) { 0 } else { 1 };
 
             fn new(options: &ElementOptions) -> Self {

@@ -30,7 +30,7 @@ pub use obstacle::{Obstacle, ObstacleShape};
 pub use output::{Cadence, Camera, Output, PictureView, Probe, ProbeAt};
 pub use part::Part;
 pub use placement::{Copies, Mirror, Placement};
-pub use run::{MassScaling, Relaxation, Run};
+pub use run::{MassScaling, Relaxation, Run, StableStep};
 pub use triangles::TriangleSurface;
 pub use values::Values;
 

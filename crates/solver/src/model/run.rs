@@ -3,8 +3,18 @@
 use super::section;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{NotNegative, Positive, UpTo};
-use crate::vocabulary::Kind::{Integer, Quantity, Table, Vector};
-use crate::vocabulary::{Form, Section};
+use crate::vocabulary::Kind::{Choice, Integer, Quantity, Table, Vector};
+use crate::vocabulary::{Choices, Form, Section};
+
+/// What bounds the stable step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StableStep {
+    /// The element that alone would need the shortest.
+    #[default]
+    Elements,
+    /// The node at which the stiffness of its elements together is the largest for its mass.
+    Nodes,
+}
 
 section! {
     /// `[run]`: how long and how carefully.
@@ -19,6 +29,11 @@ section! {
     end: f64 = Quantity(Dimension::TIME, Positive), Required, "End time.";
     safety: f64 = Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("0.9"),
         "Fraction of the stable time step that is used.";
+    stable_step: StableStep = Choice(Choices::Words(&["elements", "nodes"])), Default("\"elements\""),
+        "What bounds the stable step: the element that alone would need the shortest, or the node at which the \
+            stiffness of its elements together is the largest for its mass. By nodes the step is never shorter, and \
+            longer where bad elements lie among good ones; its bound is proven as well.",
+        read |values| if values.get::<String>("stable_step") == "nodes" { StableStep::Nodes } else { StableStep::Elements };
     energy_limit: f64 = Quantity(Dimension::NONE, Positive), Default("0.05"),
         "Energy drift at which the run stops, as a fraction of the largest total energy.";
     step_limit: Option<f64> = Quantity(Dimension::TIME, Positive), Optional("a thousandth of the first stable step"),

@@ -3,7 +3,9 @@
 use super::clock::Clock;
 use super::memory::Memory;
 use super::output_cursor::OutputCursor;
-use super::{Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Runs, State, tiny};
+use super::{
+    Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Runs, State, TimeStepCosts, time_step_costs, tiny,
+};
 use crate::build;
 use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::messages::INSIDE_AT_START;
@@ -462,6 +464,11 @@ where
     /// Values of the history's columns now.
     pub(crate) fn history_row(&self) -> Vec<f64> {
         self.recorded.row(&self.system)
+    }
+
+    /// What the stable step costs.
+    pub(crate) fn time_step_costs(&self, most: usize) -> TimeStepCosts {
+        time_step_costs::of(&self.system, most)
     }
 
     /// Parts, masses, step, penetrations.

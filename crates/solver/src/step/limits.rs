@@ -70,6 +70,8 @@ pub struct Limits {
 pub enum Governor {
     /// An element of the block whose smallest squared step this is.
     Element(f64),
+    /// A node, by the elements that meet there.
+    Node(u32),
     /// The model, by the largest step that it allows.
     Given,
     /// Bodies that come at each other so fast that a longer step would let them overlap before a contact sees
@@ -83,14 +85,14 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// The next step: the elements' bound (which is that of the nodes in contact too, see
+    /// The next step: the bound of the elements or nodes (which is that of the nodes in contact too, see
     /// [`crate::contact::springs`]), the largest one of the model, growth, and the end.
     pub(super) fn stable_step(&mut self, elements: &Report) -> Result<f64, Error> {
         if elements.determinant <= 0.0 {
             return Err(self.inverted());
         }
-        let mut time_step = self.limits.safety * elements.time_step_squared.sqrt();
-        let mut governor = Governor::Element(elements.time_step_squared);
+        let (squared, mut governor) = self.stable_step_squared(elements);
+        let mut time_step = self.limits.safety * squared.sqrt();
         if self.limits.largest < time_step {
             (time_step, governor) = (self.limits.largest, Governor::Given);
         }

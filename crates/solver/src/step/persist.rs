@@ -14,6 +14,7 @@ impl Persist for Governor {
             Self::Given => (1, 0.0),
             Self::Schedule => (2, 0.0),
             Self::Contact => (3, 0.0),
+            Self::Node(node) => (4, f64::from(node)),
         };
         persist_each!(archive; &mut number, &mut square);
         *self = match number {
@@ -21,6 +22,7 @@ impl Persist for Governor {
             1 => Self::Given,
             2 => Self::Schedule,
             3 => Self::Contact,
+            4 => Self::Node(square as u32),
             _ => return Err(ArchiveError::new("unknown governor of the time step")),
         };
         Ok(())
@@ -32,6 +34,9 @@ where
     Dim<D>: Dimension<D>,
 {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        if archive.reads() && self.nodal_bound.is_some() {
+            self.blocks.iter_mut().zip(&self.rigid).filter(|(_, rigid)| !**rigid).for_each(|(block, _)| block.mark_time_steps());
+        }
         (archive.nodes, archive.places) = (self.positions.len(), self.positions.len() + self.bodies.len());
         archive.section("system")?;
         self.persist_system(archive)?;
@@ -68,11 +73,14 @@ where
             mass_added: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
             springs: _, erosion: _, rotations: _,
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
-            bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation,
+            bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound,
         } = self;
         persist_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
         persist_each!(archive; ledger, bodies, curves, &mut reports[..]);
         forces.persist_pushes(archive)?;
+        if let Some(bound) = nodal_bound {
+            bound.persist(archive)?;
+        }
         let mut has_relaxation = relaxation.is_some();
         has_relaxation.persist(archive)?;
         archive.check(has_relaxation == relaxation.is_some(), "there is no relaxation")?;

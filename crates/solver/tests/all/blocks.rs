@@ -9,12 +9,12 @@ use embate_solver::material::variable::PLASTIC_STRAIN;
 
 type Gradient = [[f64; 2]; 2];
 
-fn apply(g: &Gradient, x: [f64; 2]) -> [f64; 2] {
+pub(crate) fn apply(g: &Gradient, x: [f64; 2]) -> [f64; 2] {
     [g[0][0] * x[0] + g[0][1] * x[1], g[1][0] * x[0] + g[1][1] * x[1]]
 }
 
 /// Unit tensor plus a random tensor of this size.
-fn near_one(size: f64, numbers: &mut Spread) -> Gradient {
+pub(crate) fn near_one(size: f64, numbers: &mut Spread) -> Gradient {
     let (a, b) = (numbers.vector(size), numbers.vector(size));
     [[1.0 + a[0], a[1]], [b[0], 1.0 + b[1]]]
 }

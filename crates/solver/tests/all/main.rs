@@ -42,6 +42,7 @@ mod johnson_cook;
 mod materials;
 mod mixed;
 mod models_in_3d;
+mod nodal_bound;
 mod nodal_pressure;
 mod numbering;
 mod obstacles;

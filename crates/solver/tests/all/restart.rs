@@ -353,6 +353,25 @@ fn runs_in_which_elements_are_eroded_continue() {
 }
 
 #[test]
+fn runs_with_steps_by_nodes_continue() {
+    let by_nodes = |mut model: Model| {
+        model.run.stable_step = StableStep::Nodes;
+        model
+    };
+    for element in ["quad4", "quad4_reduced_viscous", "tri3_anp"] {
+        let mut model = by_nodes(block(element, elastic_of_patches(), "plane_strain"));
+        model.run.bulk_viscosity = [0.06, 1.2];
+        continues(element, &model, 200);
+    }
+    let mut model = by_nodes(bullet([6, 60]));
+    let (whole, _, _) = reported(simulation(&model));
+    assert!(whole.summary().erosion.is_some());
+    continues("bullet", &model, whole.steps());
+    model.run.safety = 0.5;
+    continues("bullet, short", &model, 300);
+}
+
+#[test]
 fn runs_of_ties_that_break_and_contacts_that_begin_later_continue() {
     for formulation in [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }, Formulation::Segment] {
         for (active, strength) in [([0.0, f64::INFINITY], f64::INFINITY), ([0.0, 4e-4], 2e6), ([1e-4, 5e-4], 2e6)] {

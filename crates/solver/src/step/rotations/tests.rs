@@ -132,6 +132,8 @@ where
     fn time_step_squared(&self, _: usize) -> f64 {
         f64::INFINITY
     }
+    fn bound_stiffness(&self, _: f64, _: &mut dyn FnMut(u32, f64, f64)) {}
+    fn mark_time_steps(&mut self) {}
     fn state(&self, _: usize) -> ElementState {
         ElementState::default()
     }

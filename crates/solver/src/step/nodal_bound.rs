@@ -14,7 +14,8 @@
 //!
 //! The sums are not made in every step. With the least ratio r ≤ dt_e²/dt_e²(then) over all elements, k_e ≤
 //! k_e(then) / r at each of them, so dt² ≥ r dt²(then): elements report r, and sums are made again when the
-//! step would be cut. Nodes of rigid bodies count with what their elements weigh.
+//! step would be cut; where they gained less than a hundredth, not for a hundred steps. Nodes of rigid bodies
+//! count with what their elements weigh.
 
 use super::{Governor, System};
 use crate::archive::persist_all;
@@ -26,6 +27,11 @@ use crate::tensor::Dim;
 /// Squares of steps that differ by less are the same but for rounding.
 const LONGER: f64 = 1.0 + 1e-9;
 
+/// Squares of steps by nodes over those by elements below which sums are not worth it, and the steps for
+/// which none are made then.
+const WORTH: f64 = 1.02;
+const REST: u32 = 100;
+
 /// The stable step by nodes when the sums were made last.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NodalBound {
@@ -33,11 +39,13 @@ pub(crate) struct NodalBound {
     squared: f64,
     /// Node that sets it.
     node: u32,
+    /// Steps for which no sums are made.
+    rest: u32,
     /// Of each node the sum of k_e, N/m, and of the masses of the corners, kg/m.
     sums: Vec<[f64; 2]>,
 }
 
-persist_all!(NodalBound { squared, node } but { sums });
+persist_all!(NodalBound { squared, node, rest } but { sums });
 
 impl<const D: usize> System<D>
 where
@@ -50,11 +58,13 @@ where
         let change = reductions::min(self.reports.iter().map(|report| report.step_change));
         let mut squared = self.with_springs(bound.squared * change);
         let is_cut = self.limits.safety * squared.sqrt() < self.time_step_old;
-        if bound.squared == 0.0 || is_cut {
+        bound.rest = bound.rest.saturating_sub(1);
+        if bound.squared == 0.0 || (is_cut && bound.rest == 0) {
             (bound.squared, bound.node) = self.squared_by_nodes(&mut bound.sums);
             squared = self.with_springs(bound.squared);
             let strained = self.blocks.iter_mut().zip(&self.rigid).filter(|(_, rigid)| !**rigid);
             strained.for_each(|(block, _)| block.mark_time_steps());
+            bound.rest = if squared > WORTH * by_elements.0 { 0 } else { REST };
         }
         let by_nodes = (squared, Governor::Node(bound.node));
         self.nodal_bound = Some(bound);

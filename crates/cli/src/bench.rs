@@ -10,11 +10,11 @@ use crate::numbers::{grouped, table};
 use crate::{Failure, machine, terminal, version};
 use clap::Args;
 use embate_files::results::write_whole;
-use embate_solver::bench::{self, Level, Patch, Size};
+use embate_solver::bench::{self, Level, Patch};
 use embate_solver::error::Error;
 use embate_solver::material;
 use embate_solver::mesh::cell::CellKind;
-use embate_solver::model::{Contact, Friction, Interface, Partners};
+use embate_solver::model::{Model, Partners};
 use embate_solver::simulation::{Options, Simulation};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -66,38 +66,48 @@ const SOLIDS: [(&str, CellKind); 3] =
 /// Coefficients of bulk viscosity, where a row has it.
 const VISCOSITY: [f64; 2] = [0.06, 1.2];
 
-/// Whole steps that are measured: element, law, elements along a side, all threads, bulk viscosity.
+/// Whole steps that are measured: element, law, elements along a side in 2D and 3D, all threads, bulk
+/// viscosity.
 #[rustfmt::skip]
-const STEPS: &[(&str, &str, usize, bool, bool)] = &[
-    ("quad4", "elastic", SMALL[0], false, false),
-    ("quad4", "j2", SMALL[0], false, false),
-    ("quad4_reduced", "elastic", SMALL[0], false, false),
-    ("quad4_reduced", "j2", SMALL[0], false, false),
-    ("quad4_reduced", "j2", SMALL[0], false, true),
-    ("hex8", "j2", SMALL[1], false, false),
-    ("hex8_reduced", "j2", SMALL[1], false, false),
-    ("hex8_reduced", "j2", SMALL[1], false, true),
-    ("quad4", "j2", MIDDLE[0], false, false),
-    ("quad4_reduced", "j2", MIDDLE[0], false, false),
-    ("hex8", "j2", MIDDLE[1], false, false),
-    ("hex8_reduced", "j2", MIDDLE[1], false, false),
-    ("hex8_reduced", "j2", MIDDLE[1], true, false),
-    ("quad4", "j2", LARGE[0], false, false),
-    ("quad4", "j2", LARGE[0], true, false),
-    ("quad4_reduced", "j2", LARGE[0], false, false),
-    ("quad4_reduced", "j2", LARGE[0], true, false),
-    ("hex8_reduced", "j2", LARGE[1], false, false),
-    ("hex8_reduced", "j2", LARGE[1], true, false),
+const STEPS: &[(&str, &str, [usize; 2], bool, bool)] = &[
+    ("quad4", "elastic", SMALL, false, false),
+    ("quad4", "j2", SMALL, false, false),
+    ("quad4_reduced", "elastic", SMALL, false, false),
+    ("quad4_reduced", "j2", SMALL, false, false),
+    ("quad4_reduced", "j2", SMALL, false, true),
+    ("hex8", "j2", SMALL, false, false),
+    ("hex8_reduced", "j2", SMALL, false, false),
+    ("hex8_reduced", "j2", SMALL, false, true),
+    ("quad4", "j2", MIDDLE, false, false),
+    ("quad4_reduced", "j2", MIDDLE, false, false),
+    ("hex8", "j2", MIDDLE, false, false),
+    ("hex8_reduced", "j2", MIDDLE, false, false),
+    ("hex8_reduced", "j2", MIDDLE, true, false),
+    ("quad4", "j2", LARGE, false, false),
+    ("quad4", "j2", LARGE, true, false),
+    ("quad4_reduced", "j2", LARGE, false, false),
+    ("quad4_reduced", "j2", LARGE, true, false),
+    ("hex8_reduced", "j2", LARGE, false, false),
+    ("hex8_reduced", "j2", LARGE, true, false),
 ];
 const LAWS: [&str; 3] = ["elastic", "j2", "neo_hookean"];
 
-/// Contacts that are measured, with the coefficient of friction.
-const CONTACTS: &[(&str, f64)] = &[
-    ("strips in 2D", 0.0),
-    ("strips in 2D, with friction", 0.3),
-    ("slabs of hex8_reduced", 0.0),
-    ("slabs of hex8_reduced, with friction", 0.3),
+/// Of what a contact is measured, how it is made, and the coefficient of friction.
+type Pressing = (&'static str, fn() -> Model, f64);
+const CONTACTS: &[Pressing] = &[
+    ("strips in 2D", strips, 0.0),
+    ("strips in 2D, with friction", strips, 0.3),
+    ("slabs of hex8_reduced", slabs, 0.0),
+    ("slabs of hex8_reduced, with friction", slabs, 0.3),
 ];
+
+fn strips() -> Model {
+    bench::strips(STRIPS, 2.0)
+}
+
+fn slabs() -> Model {
+    bench::slabs(SLABS, 2.0, 0.3)
+}
 
 /// A rate of element-steps.
 struct Row {
@@ -143,7 +153,7 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     let threads = machine::processors();
     let has_large = arguments.seconds >= SECONDS_FOR_LARGE;
     let laws = if arguments.all { material::registry().len() } else { LAWS.len() };
-    let small = STEPS.iter().filter(|(_, _, side, ..)| SMALL.contains(side)).count();
+    let small = STEPS.iter().filter(|(_, _, side, ..)| *side == SMALL).count();
     // Of a large body two figures' time.
     let steps = if has_large { 2 * STEPS.len() - small + CONTACTS.len() } else { small };
     let count = 2 + Level::available().len() + LAWS.len() * (ELEMENTS.len() + SOLIDS.len()) + laws + steps;
@@ -216,14 +226,14 @@ impl Bench {
         for (element, law, level) in wanted {
             self.continue_run()?;
             let rate = bench::kernel(element, law, &patch, level, self.each).map_err(failed)?;
-            rows.push(Row::of_kernel((element, law), SMALL[0] * SMALL[0], level, rate));
+            rows.push(Row::new((element, law), SMALL[0] * SMALL[0], level, rate));
         }
         for (element, cell) in SOLIDS {
             let patch = Patch::solid(cell, SMALL[1]);
             for law in LAWS {
                 self.continue_run()?;
                 let rate = bench::kernel(element, law, &patch, best, self.each).map_err(failed)?;
-                rows.push(Row::of_kernel((element, law), patch.connectivity.len() / cell.facts().nodes, best, rate));
+                rows.push(Row::new((element, law), patch.connectivity.len() / cell.facts().nodes, best, rate));
             }
         }
         Ok(rows)
@@ -233,12 +243,13 @@ impl Bench {
         let mut rows = Vec::new();
         let side = self.large(has_large);
         for &(element, law, wanted, on_all, is_viscous) in STEPS {
-            let (is_small, is_solid) = (SMALL.contains(&wanted), wanted == SMALL[1] || wanted == MIDDLE[1] || wanted == LARGE[1]);
+            let (is_small, is_solid) = (wanted == SMALL, SOLIDS.iter().any(|(solid, _)| *solid == element));
             if (!has_large && !is_small) || (on_all && threads == 1) {
                 continue;
             }
             self.continue_run()?;
-            let n = wanted.min(side[usize::from(is_solid)]);
+            let dimension = usize::from(is_solid);
+            let n = wanted[dimension].min(side[dimension]);
             let mut model = if is_solid { bench::spinning_cube(element, law, n) } else { bench::spinning_block(element, law, n) };
             if is_viscous {
                 model.run.bulk_viscosity = VISCOSITY;
@@ -246,19 +257,20 @@ impl Bench {
             let threads = if on_all { threads } else { 1 };
             let options = Options { threads, simd: None };
             let elements = if is_solid { n * n * n } else { n * n };
-            let mut row = Row { threads, is_viscous, ..Row::of_kernel((element, law), elements, Level::best(), 0.0) };
-            if is_small {
-                row.rate = bench::step(&model, Size::Small, &options, self.each).map_err(failed)?;
+            let mut memory = None;
+            let rate = if is_small {
+                bench::step(&model, &options, self.each).map_err(failed)?
             } else {
                 let before = machine::memory_used();
                 let mut simulation = Simulation::new(&model, &options).map_err(failed)?;
-                row.rate = bench::steps_of(&mut simulation, 2.0 * self.each).map_err(failed)?;
+                let rate = bench::steps_of(&mut simulation, 2.0 * self.each).map_err(failed)?;
                 let used =
                     machine::memory_used().zip(before).and_then(|(after, before)| after.checked_sub(before)).filter(|used| *used > 0);
                 // Smaller ones take what others have left.
-                row.memory = used.filter(|_| LARGE.contains(&wanted)).map(|used| used as f64 / elements as f64);
-            }
-            rows.push(row);
+                memory = used.filter(|_| wanted == LARGE).map(|used| used as f64 / elements as f64);
+                rate
+            };
+            rows.push(Row { threads, is_viscous, memory, ..Row::new((element, law), elements, Level::best(), rate) });
         }
         Ok(rows)
     }
@@ -277,13 +289,11 @@ impl Bench {
 
     fn contact(&mut self) -> Result<Vec<Share>, Failure> {
         let mut shares = Vec::new();
-        for &(of, coefficient) in CONTACTS {
+        for &(of, make, friction) in CONTACTS {
             self.continue_run()?;
-            let plain = if of.starts_with("strips") { bench::strips(STRIPS, 2.0) } else { bench::slabs(SLABS, 2.0, 0.3) };
+            let plain = make();
             let mut touching = plain.clone();
-            let friction = Friction { coefficient, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
-            let interface = Interface { friction: (coefficient > 0.0).then_some(friction), ..Interface::default() };
-            touching.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), interface, ..Contact::default() });
+            touching.contacts.push(bench::contact(Partners::Bodies(Vec::new()), friction));
             let one = Options { threads: 1, simd: None };
             let ([without, with], [simulation, _]) = bench::step_times([&plain, &touching], &one, 9, self.each).map_err(failed)?;
             shares.push(Share { of, elements: simulation.summary().elements, without, with });
@@ -308,8 +318,8 @@ impl Ceilings {
 }
 
 impl Row {
-    /// Of a kernel alone, on one thread.
-    fn of_kernel((element, law): (&'static str, &'static str), elements: usize, level: Level, rate: f64) -> Self {
+    /// On one thread, without bulk viscosity.
+    fn new((element, law): (&'static str, &'static str), elements: usize, level: Level, rate: f64) -> Self {
         Self { element, law, elements, threads: 1, level: level.name(), is_viscous: false, rate, memory: None }
     }
 

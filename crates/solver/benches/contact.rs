@@ -9,13 +9,13 @@
 //! its tracking and the swept check take, and the time of a global search. In 3D two slabs lie on each other,
 //! node on node or shifted, also facets on facets.
 
-use embate_solver::bench::{shortest, slabs, step_times, strips};
+use embate_solver::bench::{contact, shortest, slabs, step_times, strips};
 use embate_solver::contact::Sweep;
 use embate_solver::contact::projection::node_segment::Target;
 use embate_solver::contact::search::registry;
 use embate_solver::contact::tracker::Tracker;
 use embate_solver::mesh::Mesh;
-use embate_solver::model::{Contact, Formulation, Friction, Interface, Model, Partners, Shape};
+use embate_solver::model::{Contact, Formulation, Model, Partners, Shape};
 use embate_solver::simulation::Options;
 use std::hint::black_box;
 
@@ -81,13 +81,6 @@ fn lift(model: &mut Model, by: f64) {
     if let Shape::Cuboid(cuboid) = &mut model.parts[1].shape {
         cuboid.corner[2] += by;
     }
-}
-
-/// A contact with a coefficient of friction.
-fn contact(partners: Partners, friction: f64) -> Contact {
-    let friction = Friction { coefficient: friction, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
-    let interface = Interface { friction: (friction.coefficient > 0.0).then_some(friction), ..Interface::default() };
-    Contact { name: "all".into(), partners, interface, ..Contact::default() }
 }
 
 /// Times of steps with and without contact, and their shares; the time of a step with contact, ms.

@@ -5,6 +5,7 @@ use crate::contact::Contact;
 use crate::contact::findings::{Findings, Overlap};
 use crate::dimension::Dimension;
 use crate::error::Error;
+use crate::mesh::ElementGroup;
 use crate::mesh::geometry::CellGeometry;
 use crate::step::{Governor, System};
 use crate::tensor::Dim;
@@ -43,6 +44,16 @@ where
     /// The element, by group and number, whose squared step this is.
     pub(crate) fn governing_element(&self, squared: f64) -> Option<(usize, usize)> {
         self.blocks.iter().enumerate().find_map(|(g, block)| block.governing_element(squared).map(|element| (g, element)))
+    }
+
+    /// Squares of the stable steps of the live elements in the groups that are `wanted` and strained, s²,
+    /// with the group and the number in it.
+    pub(crate) fn element_steps(&self, wanted: impl Fn(&ElementGroup) -> bool) -> impl Iterator<Item = (f64, usize, usize)> {
+        let groups = self.mesh.groups.iter().zip(&self.blocks).enumerate().filter(move |(g, (group, _))| !self.rigid[*g] && wanted(group));
+        groups.flat_map(|(g, (group, block))| {
+            let live = (0..group.elements()).filter(|&element| group.is_alive(element));
+            live.map(move |element| (block.time_step_squared(element), g, element))
+        })
     }
 
     pub(crate) fn centre(&self, nodes: &[u32]) -> [f64; D] {

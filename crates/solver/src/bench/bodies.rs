@@ -3,7 +3,7 @@
 
 use crate::material;
 use crate::mesh::cell::CellKind;
-use crate::model::{Cuboid, Material, Model, Output, Part, Rectangle, Run, Shape};
+use crate::model::{Contact, Cuboid, Friction, Interface, Material, Model, Output, Part, Partners, Rectangle, Run, Shape};
 
 /// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of
 /// its stiffness.
@@ -147,6 +147,14 @@ fn spinning(element: &str, law: &str, shape: Shape, size: f64) -> Model {
         output: Output { pictures: false, ..Output::default() },
         ..Model::default()
     }
+}
+
+/// A contact with a coefficient of friction.
+#[must_use]
+pub fn contact(partners: Partners, friction: f64) -> Contact {
+    let friction = Friction { coefficient: friction, dynamic: None, decay: 0.0, viscosity: 0.0, limit: f64::INFINITY };
+    let interface = Interface { friction: (friction.coefficient > 0.0).then_some(friction), ..Interface::default() };
+    Contact { name: "all".into(), partners, interface, ..Contact::default() }
 }
 
 /// Elements through a strip, and along it per element through it.

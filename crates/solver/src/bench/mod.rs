@@ -10,8 +10,8 @@ mod ceilings;
 mod random;
 mod rates;
 
-pub use bodies::{Patch, material, slabs, spinning_block, spinning_cube, strips};
+pub use bodies::{Patch, contact, material, slabs, spinning_block, spinning_cube, strips};
 pub use ceilings::{multiply_add, triad};
 pub use embate_lanes::Level;
 pub use random::Random;
-pub use rates::{Size, best_rate, kernel, shortest, step, step_times, steps_of};
+pub use rates::{best_rate, kernel, shortest, step, step_times, steps_of};

@@ -83,24 +83,12 @@ fn repeats(once: f64, elements: usize, seconds: f64) -> usize {
     ((seconds / ROUNDS as f64 / once.max(1e-9)) as usize).clamp(1, (ROUND / elements).max(1))
 }
 
-/// How large the body of a measurement is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Size {
-    /// It fits into a cache: each round begins with a new body.
-    Small,
-    /// One body through all rounds.
-    Large,
-}
-
-/// Element-steps per second of whole steps of a model without contact and output, such as
-/// [`super::spinning_block`].
+/// Element-steps per second of whole steps of a small model without contact and output, such as
+/// [`super::spinning_block`], which fits into a cache: each round begins with a new body.
 ///
 /// # Errors
 /// A model that is not sound, as of an element or law that is not in its registry; a step that fails.
-pub fn step(model: &Model, size: Size, options: &Options, seconds: f64) -> Result<f64, Error> {
-    if size == Size::Large {
-        return steps_of(&mut Simulation::new(model, options)?, seconds);
-    }
+pub fn step(model: &Model, options: &Options, seconds: f64) -> Result<f64, Error> {
     let (begin, mut best, mut rounds) = (Instant::now(), 0.0_f64, 0);
     while rounds < ROUNDS || begin.elapsed().as_secs_f64() < seconds {
         let mut simulation = Simulation::new(model, options)?;
@@ -173,7 +161,7 @@ mod tests {
         }
         for element in ["quad4", "quad4_reduced"] {
             for law in ["elastic", "j2", "neo_hookean"] {
-                let rate = step(&spinning_block(element, law, 16), Size::Small, &Options::default(), 0.0).unwrap();
+                let rate = step(&spinning_block(element, law, 16), &Options::default(), 0.0).unwrap();
                 assert!(rate.is_finite() && rate > 0.0, "{element} {law}");
             }
         }
@@ -186,13 +174,13 @@ mod tests {
             let rate = kernel(kind.name, "j2", &patch, Level::best(), 0.0).unwrap();
             assert!(rate.is_finite() && rate > 0.0, "{}", kind.name);
         }
-        let rate = step(&spinning_cube("hex8_reduced", "j2", 4), Size::Small, &Options::default(), 0.0).unwrap();
+        let rate = step(&spinning_cube("hex8_reduced", "j2", 4), &Options::default(), 0.0).unwrap();
         assert!(rate.is_finite() && rate > 0.0);
     }
 
     #[test]
     fn what_is_not_there_is_reported() {
         assert!(kernel("quad5", "j2", &Patch::new(2), Level::SCALAR, 0.0).is_err());
-        assert!(step(&spinning_block("quad4", "j3", 2), Size::Small, &Options::default(), 0.0).is_err());
+        assert!(step(&spinning_block("quad4", "j3", 2), &Options::default(), 0.0).is_err());
     }
 }

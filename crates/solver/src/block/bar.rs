@@ -302,7 +302,7 @@ where
     fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
         for bar in self.bars.iter().filter(|bar| !bar.is_gone) {
             let (mass, squared) = (0.5 * bar.mass, bar.time_step_squared);
-            let stiffness = 4.0 * mass / if self.damping > 0.0 { squared.sqrt() * shortest } else { squared };
+            let stiffness = damping::bounding_stiffness(mass, squared, shortest, self.damping > 0.0);
             bar.nodes.iter().for_each(|&node| add(node, stiffness, mass));
         }
     }

@@ -23,6 +23,12 @@ use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{Batch, Lane};
 
+/// The stiffness k with which that of an element is at most k 1, N/m: 4 m / dt² of its stable step and the
+/// mass m of its lightest corner; where it is damped 4 m / (dt `shortest`) with the shortest step of all, s.
+pub(super) fn bounding_stiffness(mass: f64, time_step_squared: f64, shortest: f64, is_damped: bool) -> f64 {
+    4.0 * mass / if is_damped { time_step_squared.sqrt() * shortest } else { time_step_squared }
+}
+
 /// Square of the stable step with damping from that without, s²: dt_d² of the head of the file.
 #[inline(always)]
 pub(super) fn step_squared<L: Lane>(time_step_squared: L, damping: f64) -> L {

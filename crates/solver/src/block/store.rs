@@ -6,7 +6,7 @@
 //! threads and do not depend on their number.
 
 use super::batch::{ElementBatch, Resistance};
-use super::damping::Damp;
+use super::damping::{Damp, bounding_stiffness};
 use super::erosion::Eroded;
 use super::forces::{Forces, Sums};
 use super::kernel::{ElementGeometry, ElementKernel, Facts};
@@ -409,12 +409,12 @@ where
 
     fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
         let Facts { nodes, damps, .. } = *self.facts();
-        let lags = self.resists() || damps;
+        let is_damped = self.resists() || damps;
         for element in (0..self.count).filter(|&element| self.is_alive(element)) {
             let (batch, lane) = (element / BATCH, element % BATCH);
             let values = &self.elements[batch];
             let (mass, squared) = (values.mass_least.0[lane] / nodes as f64, values.time_step_squared.0[lane]);
-            let stiffness = 4.0 * mass / if lags { squared.sqrt() * shortest } else { squared };
+            let stiffness = bounding_stiffness(mass, squared, shortest, is_damped);
             (0..nodes).for_each(|a| add(self.nodes.node(batch * nodes + a, lane, nodes) as u32, stiffness, mass));
         }
     }

@@ -220,13 +220,7 @@ where
 
     /// The element with the shortest step, springs left aside.
     fn shortest_element(&self) -> Option<(usize, usize)> {
-        let groups = self.mesh.groups.iter().zip(&self.blocks).enumerate().filter(|(g, _)| !self.rigid[*g]);
-        let all = groups.flat_map(|(g, (group, block))| {
-            (0..group.elements())
-                .filter(|&element| group.is_alive(element))
-                .map(move |element| ((g, element), block.time_step_squared(element)))
-        });
-        all.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(element, _)| element)
+        self.element_steps(|_| true).min_by(|(a, ..), (b, ..)| a.total_cmp(b)).map(|(_, g, element)| (g, element))
     }
 
     /// The first element whose stress or energy is no number.

@@ -37,10 +37,7 @@ pub(super) fn of<const D: usize>(system: &System<D>, most: usize) -> TimeStepCos
 where
     Dim<D>: Runs<D>,
 {
-    let groups = (0..system.mesh.groups.len()).filter(|&g| !system.rigid[g]);
-    let mut all: Vec<(f64, usize, usize)> = groups
-        .flat_map(|g| (0..system.blocks[g].elements()).map(move |element| (system.blocks[g].time_step_squared(element), g, element)))
-        .collect();
+    let mut all: Vec<(f64, usize, usize)> = system.element_steps(|_| true).collect();
     all.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let step = |squared: f64| system.limits.safety * squared.sqrt();
     let next = all.iter().skip(1).map(|&(squared, ..)| step(squared)).chain([f64::INFINITY]);

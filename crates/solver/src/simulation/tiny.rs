@@ -25,10 +25,7 @@ fn of_part<const D: usize>(system: &System<D>, part: usize) -> Option<Warning>
 where
     Dim<D>: Runs<D>,
 {
-    let groups = (0..system.mesh.groups.len()).filter(|&g| system.mesh.groups[g].part == part && !system.rigid[g]);
-    let steps =
-        groups.flat_map(|g| (0..system.blocks[g].elements()).map(move |element| (system.blocks[g].time_step_squared(element), g, element)));
-    let mut steps: Vec<(f64, usize, usize)> = steps.collect();
+    let mut steps: Vec<(f64, usize, usize)> = system.element_steps(|group| group.part == part).collect();
     let (least, group, element) = steps.iter().copied().reduce(|a, b| if b.0 < a.0 { b } else { a })?;
     // Of two the larger one.
     let middle = steps.len() / 2;

@@ -62,13 +62,18 @@ where
         if bound.squared == 0.0 || (is_cut && bound.rest == 0) {
             (bound.squared, bound.node) = self.squared_by_nodes(&mut bound.sums);
             squared = self.with_springs(bound.squared);
-            let strained = self.blocks.iter_mut().zip(&self.rigid).filter(|(_, rigid)| !**rigid);
-            strained.for_each(|(block, _)| block.mark_time_steps());
+            self.mark_time_steps();
             bound.rest = if squared > WORTH * by_elements.0 { 0 } else { REST };
         }
         let by_nodes = (squared, Governor::Node(bound.node));
         self.nodal_bound = Some(bound);
         if squared.is_finite() && squared > by_elements.0 { by_nodes } else { by_elements }
+    }
+
+    /// Lets all elements that are strained report from here on how their steps change.
+    pub(super) fn mark_time_steps(&mut self) {
+        let strained = self.blocks.iter_mut().zip(&self.rigid).filter(|(_, rigid)| !**rigid);
+        strained.for_each(|(block, _)| block.mark_time_steps());
     }
 
     /// Square of the stable step by nodes, s², as elements are now, and the node that sets it; infinite

@@ -35,7 +35,7 @@ where
 {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         if archive.reads() && self.nodal_bound.is_some() {
-            self.blocks.iter_mut().zip(&self.rigid).filter(|(_, rigid)| !**rigid).for_each(|(block, _)| block.mark_time_steps());
+            self.mark_time_steps();
         }
         (archive.nodes, archive.places) = (self.positions.len(), self.positions.len() + self.bodies.len());
         archive.section("system")?;

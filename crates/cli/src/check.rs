@@ -76,7 +76,7 @@ fn overview_text(model: &Model, overview: &Overview) -> String {
     text
 }
 
-/// The worst elements, and the first step by nodes.
+/// The worst elements, and the first step by nodes and by the assembled mesh.
 fn time_step_text(model: &Model, costs: &TimeStepCosts) -> String {
     let steps = |time_step: f64| if time_step.is_finite() { grouped((model.run.end / time_step).ceil() as u64) } else { "-".into() };
     let shown = |time_step: f64| if time_step.is_finite() { with_unit(time_step, "s") } else { "-".into() };
@@ -86,17 +86,17 @@ fn time_step_text(model: &Model, costs: &TimeStepCosts) -> String {
         let at: Vec<String> = at.iter().map(|x| format!("{x:.4e}")).collect();
         vec![number.to_string(), part.clone(), at.join(", "), shown(*time_step), shown(*without), steps(*without)]
     }));
-    let by_nodes = match &costs.by_nodes {
-        Some((time_step, governor)) => {
-            format!(
-                "by nodes (run.stable_step = \"nodes\") the first step is {} (governed by {governor}), about {} steps",
-                shown(*time_step),
-                steps(*time_step)
-            )
-        }
-        None => "by nodes (run.stable_step = \"nodes\") the first step is the same".into(),
+    let other = |how: &str, value: &str, first: &Option<(f64, String)>, none: &str| match first {
+        Some((time_step, governor)) => format!(
+            "{how} (run.stable_step = \"{value}\") the first step is {} (governed by {governor}), about {} steps\n",
+            shown(*time_step),
+            steps(*time_step)
+        ),
+        None => format!("{how} (run.stable_step = \"{value}\") the first step is {none}\n"),
     };
-    format!("shortest stable steps, safety included\n{}{by_nodes}\n", table(&rows, "  "))
+    let by_nodes = other("by nodes", "nodes", &costs.by_nodes, "the same");
+    let by_mesh = other("by the assembled mesh", "assembled", &costs.by_assembled_mesh, "not so much longer that it saves what it costs");
+    format!("shortest stable steps, safety included\n{}{by_nodes}{by_mesh}", table(&rows, "  "))
 }
 
 /// Draws the mesh.

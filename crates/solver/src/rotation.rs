@@ -111,6 +111,33 @@ where
     adjugate.map(|row| row.map(|component| component / determinant))
 }
 
+/// The rotation that is nearest to a matrix, in its polar decomposition; `None`: it turns inside out, or is
+/// singular.
+///
+/// Source: Newton's iteration with Higham's scaling, SIAM J. Sci. Stat. Comput. 7 (1986) 1160-1174.
+#[must_use]
+pub fn nearest_rotation<const D: usize>(matrix: &Square<D>) -> Option<Square<D>>
+where
+    Dim<D>: Space<D>,
+{
+    let size = |of: &Square<D>| of.as_flattened().iter().map(|value| value * value).sum::<f64>().sqrt();
+    let mut rotation = *matrix;
+    for _ in 0..60 {
+        if !(<Dim<D> as Space<D>>::determinant(&rotation) > 0.0) {
+            return None;
+        }
+        let inverse = transposed(&inverse(&rotation));
+        let scale = (size(&inverse) / size(&rotation)).sqrt();
+        let next: Square<D> = std::array::from_fn(|i| std::array::from_fn(|k| 0.5 * (rotation[i][k] * scale + inverse[i][k] / scale)));
+        let change: Square<D> = std::array::from_fn(|i| std::array::from_fn(|k| next[i][k] - rotation[i][k]));
+        rotation = next;
+        if size(&change) < 1e-14 {
+            return Some(rotation);
+        }
+    }
+    None
+}
+
 /// The unit vector along an axis that the model gives; z where it has no direction.
 #[must_use]
 pub fn axis(of: [f64; 3]) -> [f64; 3] {
@@ -120,6 +147,19 @@ pub fn axis(of: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_nearest_rotation_of_a_stretch_and_a_rotation_is_the_rotation() {
+        let (cos, sin) = (0.3_f64.cos(), 0.3_f64.sin());
+        let turn = [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]];
+        let stretch = [[3e5, 2e3, 0.0], [2e3, 4e2, -1.0], [0.0, -1.0, 1e-2]];
+        let product = std::array::from_fn(|i| std::array::from_fn(|k| (0..3).map(|j| turn[i][j] * stretch[j][k]).sum()));
+        let found = nearest_rotation::<3>(&product).unwrap();
+        assert!(found.as_flattened().iter().zip(turn.as_flattened()).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+        assert_eq!(nearest_rotation::<2>(&[[1.0, 0.0], [0.0, -1.0]]), None);
+        assert_eq!(nearest_rotation::<2>(&[[1.0, 2.0], [2.0, 4.0]]), None);
+        assert_eq!(nearest_rotation::<2>(&[[f64::NAN, 0.0], [0.0, 1.0]]), None);
+    }
 
     #[test]
     fn a_point_is_led_around_an_axis_on_its_circle() {

@@ -6,6 +6,8 @@
 
 pub(crate) mod erosion;
 pub(crate) mod free;
+mod assembled_bound;
+mod assembled_stiffness;
 mod limits;
 mod nodal_bound;
 mod nodes;
@@ -37,6 +39,7 @@ use crate::reductions;
 use crate::rigid::{Acting, Bodies};
 use crate::tensor::Dim;
 use crate::vector::{dot, minus, plus, times};
+pub(crate) use assembled_bound::AssembledBound;
 use embate_lanes::{Chunks, Level, Team};
 use erosion::Erosion;
 use free::Groups;
@@ -108,6 +111,8 @@ where
     pub(crate) governor: Governor,
     /// The stable step by nodes, where the model wants it.
     pub(crate) nodal_bound: Option<NodalBound>,
+    /// The stable step by the assembled mesh, where the model wants it.
+    pub(crate) assembled_bound: Option<AssembledBound<D>>,
     pub(crate) positions: Vec<[f64; D]>,
     /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to.
     pub(crate) positions_old: Vec<[f64; D]>,

@@ -210,6 +210,14 @@ where
         Ok(())
     }
 
+    /// The live element that a lane is, or is a copy of; `None` where its chunk has none.
+    pub(super) fn live_element_of(&self, lane: usize) -> Option<usize> {
+        if self.is_alive(lane) {
+            return Some(lane);
+        }
+        self.eroded.sources.get(&(lane / (CHUNK * BATCH))).copied().unwrap_or(Some(self.count - 1))
+    }
+
     /// Sums the forces of a chunk again, without elements that are gone.
     fn sum_again(&mut self, chunk: usize, gone: &[u32], slots: &mut [[f64; D]]) {
         if !self.keeps_forces {
@@ -256,8 +264,10 @@ where
             }
         }
         self.volume_initial[place[0]].0[place[1]] = self.volume_initial[source[0]].0[source[1]];
-        if !self.marks.is_empty() {
-            self.marks[place[0]].0[place[1]] = self.marks[source[0]].0[source[1]];
+        for list in [&mut self.marks, &mut self.weights] {
+            if !list.is_empty() {
+                list[place[0]].0[place[1]] = list[source[0]].0[source[1]];
+            }
         }
         let values = self.elements[source[0]];
         self.elements[place[0]].copy_lane(place[1], &values, source[1]);
@@ -274,6 +284,8 @@ where
             Report {
                 time_step_squared: values.time_step_squared.0[lane],
                 step_change: self.marks.get(element / BATCH).map_or(f64::INFINITY, |mark| values.time_step_squared.0[lane] / mark.0[lane]),
+                motion: 0.0,
+                viscosity: 0.0,
                 determinant: self.least_determinant(element, positions),
                 stored: values.stored.0[lane],
                 dissipated: values.dissipated.0[lane],

@@ -21,6 +21,7 @@ use super::strip::{Parts, StripBuffers};
 use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
+use crate::reductions;
 use crate::tensor::{Dim, Space, SymmetricTensor, product, scaled};
 use embate_lanes::{Batch, Indices, Lane, math};
 use std::f64::consts::TAU;
@@ -83,6 +84,7 @@ pub(super) struct Sums {
     damping: Batch,
     time_step_squared: Batch,
     step_change: Batch,
+    viscosity: Batch,
     determinant: Batch,
 }
 
@@ -97,15 +99,18 @@ impl Sums {
             damping: zero,
             time_step_squared: infinite,
             step_change: infinite,
+            viscosity: zero,
             determinant: infinite,
         }
     }
 
-    pub(super) fn report(&self) -> Report {
+    pub(super) fn report<const D: usize>(&self, strip: &StripBuffers<D>) -> Report {
         let sum = |batch: &Batch| batch.0.iter().sum();
         Report {
             time_step_squared: least(&self.time_step_squared),
             step_change: least(&self.step_change),
+            motion: reductions::max(strip.motion.0),
+            viscosity: reductions::max(self.viscosity.0),
             determinant: least(&self.determinant),
             stored: sum(&self.stored),
             dissipated: sum(&self.dissipated),
@@ -413,6 +418,9 @@ where
         let [linear, growing] = [L::splat(linear), L::splat(quadratic * quadratic) * length * rate / speed];
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
         let pressure = if is_plane_stress { pressure * depth } else { pressure };
+        let coefficient = L::select(shrinks, linear + growing + growing, zero) * live;
+        let largest = &mut self.input.sums.viscosity;
+        coefficient.max(L::load(largest, at)).store(largest, at);
         let damping = (linear + growing + growing) * length * (characteristic_length_squared[1] / characteristic_length_squared[0]).sqrt();
         // ζ = (…) l h / h₀² with the thickness h₀ of what dilates alone: the damping is that of the
         // dilatation.

@@ -6,11 +6,11 @@
 //! implementation.
 
 use super::forces::{Forces, ForcesKernel};
-use super::strain::{Strain, StrainKernel, Tensor, initial_width, point_volume, radius};
+use super::strain::{Strain, StrainKernel, Tensor, averages, initial_width, point_volume, radius};
 use super::strip::{ForEachBatch, StripBuffers};
-use crate::element::{Element, ElementOptions, map_of};
+use crate::element::{Element, ElementOptions, Map, map_of};
 use crate::stress_state::StressState;
-use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
+use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, product};
 use embate_lanes::{BATCH, Batch, Lane, Level};
 use std::marker::PhantomData;
 
@@ -112,6 +112,14 @@ pub(super) trait ElementKernel<const D: usize>: Send + Sync {
     /// Volumes, m² (m³), of the elements of a strip at the end of the step; for elements with one point that
     /// average at nodes.
     fn volumes(&self, strip: &StripBuffers<D>, volumes: &mut [Batch]);
+    /// Largest singular value of the matrix of the nodes' gradients ∇N_a over the points, 1/m, from above: no
+    /// displacement gradient is larger than that times √(Σ|u_a|²).
+    fn slope(&self, positions: &[[f64; D]]) -> f64;
+    /// How far it is from a reference form with its slope: ‖F⁻¹ − 1‖ from above, with what its one point does
+    /// not feel, and the largest ratio of volumes; infinite where it is inverted.
+    fn deformation(&self, slope: f64, reference: &[[f64; D]], positions: &[[f64; D]]) -> [f64; 2];
+    /// A copy.
+    fn copied(&self) -> Box<dyn ElementKernel<D>>;
 }
 
 /// An element, compiled, in a stress state.
@@ -212,4 +220,113 @@ where
             }
         }
     }
+
+    fn slope(&self, positions: &[[f64; D]]) -> f64 {
+        let x: [[f64; D]; N] = corners(positions);
+        let reference = Reference::<D, P>::of::<E, N>(&x);
+        let mut slope: f64 = 0.0;
+        for p in 0..P {
+            let mut square = [[0.0; D]; D];
+            for a in 0..N {
+                let mut nodal = [[0.0; D]; N];
+                nodal[a][0] = 1.0;
+                let gradient = reference.gradient::<E, N>(&nodal, p)[0];
+                for (row, g) in square.iter_mut().zip(gradient) {
+                    row.iter_mut().zip(gradient).for_each(|(square, other)| *square += g * other);
+                }
+            }
+            let mut own = largest_row(&square);
+            if self.facts.state.of::<D>().is_axisymmetric {
+                let shape = E::shape(E::POINTS[p]);
+                own += shape.iter().map(|share| share * share).sum::<f64>() / radius(&x, &shape).powi(2);
+            }
+            slope = slope.max(own.sqrt());
+        }
+        slope
+    }
+
+    fn deformation(&self, slope: f64, reference: &[[f64; D]], positions: &[[f64; D]]) -> [f64; 2] {
+        let (r, x): ([[f64; D]; N], [[f64; D]; N]) = (corners(reference), corners(positions));
+        let (map, state) = (Reference::<D, P>::of::<E, N>(&r), self.facts.state.of::<D>());
+        let (mut change, mut growth, mut least): (f64, f64, f64) = (0.0, 0.0, f64::INFINITY);
+        for p in 0..P {
+            let f = map.gradient::<E, N>(&x, p);
+            let (mut own, mut ratio) = (Dim::<D>::adjugate(&f), Dim::<D>::determinant(&f));
+            if !(ratio > 0.0) {
+                return [f64::INFINITY; 2];
+            }
+            for (i, row) in own.iter_mut().enumerate() {
+                row.iter_mut().for_each(|value| *value /= ratio);
+                row[i] -= 1.0;
+            }
+            let mut own = norm(&own);
+            if P == 1 && N > D + 1 {
+                own += (1.0 + own) * slope * unfelt(&f, &r, &x);
+            }
+            if state.is_axisymmetric {
+                let shape = E::shape(E::POINTS[p]);
+                let stretch = radius(&x, &shape) / radius(&r, &shape);
+                own = own.max((1.0 / stretch - 1.0).abs());
+                ratio *= stretch;
+            }
+            (change, growth, least) = (change.max(own), growth.max(ratio), least.min(ratio));
+        }
+        if averages::<E, D, N, P>(self.facts.state) {
+            // Means over the element have other weights.
+            change += growth / least - 1.0;
+        }
+        // A sheet that shrinks gets thicker.
+        [change, if state.is_plane_stress { growth.max(1.0) } else { growth }]
+    }
+
+    fn copied(&self) -> Box<dyn ElementKernel<D>> {
+        Box::new(Self { element: self.element, facts: self.facts })
+    }
+}
+
+/// The maps of an element's points in a reference form.
+struct Reference<const D: usize, const P: usize> {
+    adjugates: [Matrix<f64, D>; P],
+    warped: Matrix<f64, D>,
+    determinants: [f64; P],
+}
+
+impl<const D: usize, const P: usize> Reference<D, P>
+where
+    Dim<D>: Space<D>,
+{
+    fn of<E: Element<D, N, P>, const N: usize>(x: &[[f64; D]; N]) -> Self {
+        let Map { adjugates, warped, determinants } = map_of::<E, f64, D, N, P>(x);
+        Self { adjugates, warped, determinants }
+    }
+
+    /// Gradient of a nodal vector by the reference positions at a point.
+    fn gradient<E: Element<D, N, P>, const N: usize>(&self, nodal: &[[f64; D]; N], p: usize) -> Matrix<f64, D> {
+        let natural = E::natural(nodal);
+        let mut gradient = product(&E::gradients(&natural)[p], &self.adjugates[p]);
+        let more = if E::WARPED { product(&E::warp(&natural), &self.warped) } else { [[0.0; D]; D] };
+        for (row, more) in gradient.iter_mut().zip(more) {
+            row.iter_mut().zip(more).for_each(|(value, more)| *value = (*value + more) / self.determinants[p]);
+        }
+        gradient
+    }
+}
+
+/// Largest sum of magnitudes in a row: no eigenvalue of a symmetric matrix is larger.
+fn largest_row<const D: usize>(matrix: &Matrix<f64, D>) -> f64 {
+    matrix.iter().map(|row| row.iter().map(|value| value.abs()).sum()).fold(0.0, f64::max)
+}
+
+/// Spectral norm of a matrix, from above.
+fn norm<const D: usize>(matrix: &Matrix<f64, D>) -> f64 {
+    let of = |i: usize, j: usize| matrix.iter().map(|row| row[i] * row[j]).sum::<f64>();
+    largest_row(&std::array::from_fn::<[f64; D], D, _>(|i| std::array::from_fn(|j| of(i, j)))).sqrt()
+}
+
+/// √(Σ|r_a|²) of what is left of the motion of the nodes from `r` to `x` beside the deformation F, m.
+fn unfelt<const D: usize, const N: usize>(f: &Matrix<f64, D>, r: &[[f64; D]; N], x: &[[f64; D]; N]) -> f64 {
+    let mean = |of: &[[f64; D]; N], d: usize| of.iter().map(|x| x[d]).sum::<f64>() / N as f64;
+    let (mean_r, mean_x): ([f64; D], [f64; D]) = (std::array::from_fn(|d| mean(r, d)), std::array::from_fn(|d| mean(x, d)));
+    let left = |a: usize, i: usize| x[a][i] - mean_x[i] - (0..D).map(|k| f[i][k] * (r[a][k] - mean_r[k])).sum::<f64>();
+    (0..N).flat_map(|a| (0..D).map(move |i| (a, i))).map(|(a, i)| left(a, i).powi(2)).sum::<f64>().sqrt()
 }

@@ -5,8 +5,8 @@ use super::bar::Bars;
 use super::kernel::{Compiled, ElementKernel};
 use super::store::ElementStore;
 use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, Registered, with_element};
+use crate::material::points;
 use crate::material::points::PointLaw;
-use crate::material::{Parameters, points};
 use crate::model::Material;
 use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space};
@@ -52,6 +52,9 @@ impl<'a, const D: usize> BlockInput<'a, D> {
     }
 }
 
+/// Makes the law of a material for points of a kind.
+pub(super) type LawOf = fn(&Material) -> Option<Box<dyn PointLaw>>;
+
 /// Makes the block; `None` when the element is none of the dimension, or the stress state or the law is
 /// unknown.
 #[must_use]
@@ -86,11 +89,7 @@ impl Blocks<3> for Dim<3> {
 }
 
 /// A block of bars, or of elements in a stress state with the law that `law` makes of the material.
-fn of_elements<const D: usize>(
-    input: &BlockInput<'_, D>,
-    state: StressState,
-    law: fn(&Material) -> Option<Box<dyn PointLaw>>,
-) -> Option<Box<dyn Block<D>>>
+fn of_elements<const D: usize>(input: &BlockInput<'_, D>, state: StressState, law: LawOf) -> Option<Box<dyn Block<D>>>
 where
     Dim<D>: Space<D> + Registered<D>,
 {
@@ -98,9 +97,7 @@ where
         return Some(Box::new(Bars::new(input)?));
     }
     let kernel = with_element(input.element, Compile { options: &input.options, state })?;
-    // Every law has a density, and reads it the same way.
-    let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
-    Some(Box::new(ElementStore::new(law(input.material)?, kernel, density, input)))
+    Some(Box::new(ElementStore::new(law, kernel, input)?))
 }
 
 /// Makes the kernel of an element: the one place where elements are compiled into blocks.

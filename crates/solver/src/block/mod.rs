@@ -13,6 +13,7 @@
 mod bar;
 mod batch;
 mod damping;
+mod elastic;
 mod erosion;
 mod forces;
 mod initial;
@@ -25,6 +26,7 @@ mod store;
 mod strain;
 mod strip;
 
+pub use elastic::{Elastic, ElasticInput};
 pub use initial::{Initial, Wrong};
 pub use local::LocalNodes;
 pub use make::{BlockInput, Blocks, make};
@@ -86,6 +88,11 @@ pub struct Report {
     /// Smallest ratio of such a square to that of the same element at the last [`Block::mark_time_steps`];
     /// infinite before the first.
     pub step_change: f64,
+    /// Largest way of the nodes of an element around their mean in the step times its weight
+    /// ([`Block::weigh_motion`]); zero without weights.
+    pub motion: f64,
+    /// Largest coefficient of the bulk viscosity of an element with its quadratic part, L + 2 Q² l |ε̇|/c.
+    pub viscosity: f64,
     /// Smallest Jacobian determinant; not positive: an element is inverted.
     pub determinant: f64,
     /// Stored elastic energy, J/m.
@@ -100,13 +107,15 @@ pub struct Report {
     pub damping: f64,
 }
 
-persist_all!(Report { time_step_squared, determinant, stored, dissipated, hourglass, viscous, damping } but { step_change });
+persist_all!(Report { time_step_squared, determinant, stored, dissipated, hourglass, viscous, damping } but { step_change, motion, viscosity });
 
 impl Report {
     /// Of no element.
     pub const NOTHING: Self = Self {
         time_step_squared: f64::INFINITY,
         step_change: f64::INFINITY,
+        motion: 0.0,
+        viscosity: 0.0,
         determinant: f64::INFINITY,
         stored: 0.0,
         dissipated: 0.0,
@@ -121,6 +130,8 @@ impl Report {
         Self {
             time_step_squared: reductions::min(of(|report| report.time_step_squared)),
             step_change: reductions::min(of(|report| report.step_change)),
+            motion: reductions::max(of(|report| report.motion)),
+            viscosity: reductions::max(of(|report| report.viscosity)),
             determinant: reductions::min(of(|report| report.determinant)),
             stored: reductions::sum(of(|report| report.stored)),
             dissipated: reductions::sum(of(|report| report.dissipated)),
@@ -197,6 +208,13 @@ pub trait Block<const D: usize>: Send + Sync {
     fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64));
     /// From now on reports how the stable steps have changed since the last [`Block::advance`].
     fn mark_time_steps(&mut self);
+    /// The elastic body that its elements are never stiffer than, where its law has one.
+    fn elastic(&self) -> Option<&dyn Elastic<D>> {
+        None
+    }
+    /// From now on reports the largest way of the nodes of an element times its weight, 1/m; of blocks with
+    /// [`Block::elastic`].
+    fn weigh_motion(&mut self, _weight: &dyn Fn(usize) -> f64) {}
     /// Mean state of an element.
     fn state(&self, element: usize) -> ElementState;
     /// Mean states of several elements, in their order: one call for all of them.

@@ -149,7 +149,7 @@ where
             Chunks::new(&mut nodal.weight, CHUNK),
             Chunks::new(&mut nodal.moment, CHUNK),
         );
-        let eroded = &self.eroded;
+        let (eroded, weights) = (&self.eroded, &self.weights[..]);
         team.each(parts, |index, _, (stress, strips, weight, moment)| {
             if eroded.is_gone(index) {
                 weight.fill(Batch::default());
@@ -159,6 +159,7 @@ where
             let strip = &mut strips[0];
             let (first, last) = (index * CHUNK, index * CHUNK + weight.len());
             nodes.copy(index, motion, &mut strip.moving);
+            strip.motion = Batch::default();
             let strain = Strain {
                 time_step: motion.time_step,
                 measures,
@@ -170,6 +171,7 @@ where
                 initial: &all_initial[first * initial..last * initial],
                 stress,
                 hourglass: &mut [],
+                weights: weights.get(first..last).unwrap_or_default(),
                 strip,
             };
             kernel.strain(level, strain);
@@ -343,7 +345,7 @@ where
             };
             kernel.forces(level, forces);
             strip.pulls.copy_to(pulls);
-            report.fill(sums.report());
+            report.fill(sums.report(strip));
         });
         Report::joined(self.reports.iter().copied().chain([self.eroded.left]))
     }

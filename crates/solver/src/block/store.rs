@@ -7,19 +7,20 @@
 
 use super::batch::{ElementBatch, Resistance};
 use super::damping::{Damp, bounding_stiffness};
+use super::elastic::Elastic;
 use super::erosion::Eroded;
 use super::forces::{Forces, Sums};
 use super::kernel::{ElementGeometry, ElementKernel, Facts};
 use super::local::LocalNodes;
-use super::make::BlockInput;
+use super::make::{BlockInput, LawOf};
 use super::nodal::Nodal;
 use super::strain::{Measures, Strain};
 use super::strip::{ForEachBatch, STRIP, StripBuffers};
 use super::{Block, ElementState, Initial, Motion, NodalForces, Report, Wrong};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::failure::Criterion;
-use crate::material::Family;
 use crate::material::points::{PointLaw, Points, RESPONSE};
+use crate::material::{Family, Parameters};
 use crate::tensor::{Dim, Space};
 use embate_lanes::{BATCH, Batch, Chunks, Level, Team};
 use std::sync::{Mutex, PoisonError};
@@ -32,6 +33,9 @@ pub const CHUNK: usize = 64;
 pub(super) struct ElementStore<const D: usize> {
     pub(super) kernel: Box<dyn ElementKernel<D>>,
     pub(super) law: Box<dyn PointLaw>,
+    /// Makes laws for its points, and the density of its own, kg/m³.
+    pub(super) source: LawOf,
+    pub(super) density: f64,
     pub(super) viscosity: Option<[f64; 2]>,
     pub(super) count: usize,
     pub(super) nodes: LocalNodes,
@@ -55,6 +59,8 @@ pub(super) struct ElementStore<const D: usize> {
     pub(super) keeps_forces: bool,
     /// Squares of the stable steps when these were marked, s²; empty before.
     pub(super) marks: Vec<Batch>,
+    /// What the ways of the nodes of each element around their mean count with, 1/m; empty: nothing.
+    pub(super) weights: Vec<Batch>,
     /// Share of each corner in the element's mass: a batch per corner and batch of elements; only until nodes
     /// have their masses.
     pub(super) corner_mass: Vec<Batch>,
@@ -82,6 +88,7 @@ struct Chunk<'a, const D: usize> {
     pulls: &'a mut [[f64; D]],
     kept: &'a mut [Batch],
     marks: &'a [Batch],
+    weights: &'a [Batch],
 }
 
 /// What is the same for all tasks.
@@ -117,7 +124,10 @@ impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
-    fn empty(law: Box<dyn PointLaw>, kernel: Box<dyn ElementKernel<D>>, input: &BlockInput<'_, D>) -> Self {
+    fn empty(source: LawOf, kernel: Box<dyn ElementKernel<D>>, input: &BlockInput<'_, D>) -> Option<Self> {
+        let law = source(input.material)?;
+        // Every law has a density, and reads it the same way.
+        let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
         let (connectivity, damping) = (input.connectivity, input.damping);
         let Facts { nodes, points, components, hourglass, averages_at_nodes, .. } = *kernel.facts();
         let count = connectivity.len() / nodes;
@@ -141,12 +151,15 @@ where
             kept: scratch(0),
             keeps_forces: false,
             marks: Vec::new(),
+            weights: Vec::new(),
             corner_mass: vec![Batch::default(); batches * nodes],
             volume_initial: vec![Batch::default(); batches],
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
             nodal,
             kernel,
             law,
+            source,
+            density,
             eroded: Eroded::default(),
         };
         block.resistance = vec![Resistance::default(); length(batches, block.resistance_width())];
@@ -156,12 +169,13 @@ where
                 block.law.start(point);
             }
         }
-        block
+        Some(block)
     }
 
-    /// From what [`super::make`] was given.
-    pub(super) fn new(law: Box<dyn PointLaw>, kernel: Box<dyn ElementKernel<D>>, density: f64, input: &BlockInput<'_, D>) -> Self {
-        let mut block = Self::empty(law, kernel, input);
+    /// From what [`super::make`] was given; `None` when the law is unknown.
+    pub(super) fn new(source: LawOf, kernel: Box<dyn ElementKernel<D>>, input: &BlockInput<'_, D>) -> Option<Self> {
+        let mut block = Self::empty(source, kernel, input)?;
+        let density = block.density;
         let (mut corners, mut geometry) = (Vec::new(), ElementGeometry::default());
         for batch in 0..block.elements.len() {
             for lane in 0..BATCH {
@@ -170,7 +184,7 @@ where
                 block.set_up(batch, lane, density, &geometry);
             }
         }
-        block
+        Some(block)
     }
 
     /// The element by numbers.
@@ -248,6 +262,7 @@ where
         let count = chunk.elements.len();
         common.nodes.copy(chunk.index, common.motion, &mut strip.moving);
         strip.pulls.clear(common.nodes.width());
+        strip.motion = Batch::default();
         for from in (0..count).step_by(STRIP) {
             let to = (from + STRIP).min(count);
             let points = (to - from) * of_element;
@@ -266,6 +281,7 @@ where
                 initial: &chunk.initial[from * initial_of_batch..to * initial_of_batch],
                 stress,
                 hourglass: &mut chunk.hourglass[from * hourglass..to * hourglass],
+                weights: chunk.weights.get(from..to).unwrap_or_default(),
                 strip,
             };
             common.kernel.strain(level, strain);
@@ -326,7 +342,7 @@ where
             common.kernel.forces(level, forces);
         }
         strip.pulls.copy_to(chunk.pulls);
-        sums.report()
+        sums.report(strip)
     }
 }
 
@@ -376,7 +392,7 @@ where
             level,
         };
         let (initial, volume_initial, strips) = (&self.initial[..], &self.volume_initial[..], &self.strips[..]);
-        let (eroded, width, marks) = (&self.eroded, self.nodes.width(), &self.marks[..]);
+        let (eroded, width, marks, weights) = (&self.eroded, self.nodes.width(), &self.marks[..], &self.weights[..]);
         let [stress, history, _, hourglass] = widths.map(chunk);
         let parts = (
             Chunks::new(&mut self.stress, stress),
@@ -399,9 +415,21 @@ where
             let last = first + elements.len();
             let mut strip = strips[member].lock().unwrap_or_else(PoisonError::into_inner);
             let (initial, volume_initial) = (&initial[first * widths[2]..last * widths[2]], &volume_initial[first..last]);
-            let marks = marks.get(first..last).unwrap_or_default();
-            let chunk =
-                Chunk { index, stress, damped, history, initial, volume_initial, elements, resistance, hourglass, pulls, kept, marks };
+            let chunk = Chunk {
+                index,
+                stress,
+                damped,
+                history,
+                initial,
+                volume_initial,
+                elements,
+                resistance,
+                hourglass,
+                pulls,
+                kept,
+                marks: marks.get(first..last).unwrap_or_default(),
+                weights: weights.get(first..last).unwrap_or_default(),
+            };
             report.fill(Self::advance_chunk(&common, chunk, &mut strip));
         });
         Report::joined(self.reports.iter().copied().chain([self.eroded.left]))
@@ -422,6 +450,16 @@ where
     fn mark_time_steps(&mut self) {
         self.marks.clear();
         self.marks.extend(self.elements.iter().map(|values| values.time_step_squared));
+    }
+
+    fn elastic(&self) -> Option<&dyn Elastic<D>> {
+        self.law.is_stiffest_at_rest().then_some(self)
+    }
+
+    fn weigh_motion(&mut self, weight: &dyn Fn(usize) -> f64) {
+        let of_lane = |lane: usize| self.live_element_of(lane).map_or(0.0, weight);
+        let of = |batch: usize| Batch(std::array::from_fn(|lane| of_lane(batch * BATCH + lane)));
+        self.weights = (0..self.elements.len()).map(of).collect();
     }
 
     fn mass(&self, element: usize) -> f64 {
@@ -506,16 +544,18 @@ where
         // Of the model, or worked out again in each step.
         #[rustfmt::skip]
         let Self {
-            kernel: _, law: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
+            kernel: _, law: _, source: _, density: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
             reports: _, strips: _, nodal: _,
-            marks, stress, damped, history, elements, resistance, hourglass, eroded,
+            marks, weights, stress, damped, history, elements, resistance, hourglass, eroded,
         } = self;
         for list in [stress, damped, history, hourglass] {
             list[..].persist(archive)?;
         }
         // There, or not, before anything is read.
-        if !marks.is_empty() {
-            marks[..].persist(archive)?;
+        for list in [marks, weights] {
+            if !list.is_empty() {
+                list[..].persist(archive)?;
+            }
         }
         elements[..].persist(archive)?;
         resistance[..].persist(archive)?;

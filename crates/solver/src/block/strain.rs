@@ -141,6 +141,8 @@ pub(super) struct Strain<'a, const D: usize> {
     pub(super) stress: &'a mut [Batch],
     /// What hourglass control keeps, turned in place: [`Element::HOURGLASS`] per element.
     pub(super) hourglass: &'a mut [Batch],
+    /// What the ways of the nodes around their mean count with, 1/m; empty: nothing.
+    pub(super) weights: &'a [Batch],
     pub(super) strip: &'a mut StripBuffers<D>,
 }
 
@@ -168,10 +170,13 @@ where
             for a in 0..N {
                 [x[a], v[a]] = L::gather(&self.input.strip.moving, self.input.places, row + a, at);
             }
+            self.weigh(batch, at, &v);
             (x, v) = (E::natural(&x), E::natural(&v));
         } else {
             x = E::natural(&L::gather_one::<D, N, false>(&self.input.strip.moving, self.input.places, row, at));
-            v = E::natural(&L::gather_one::<D, N, true>(&self.input.strip.moving, self.input.places, row, at));
+            v = L::gather_one::<D, N, true>(&self.input.strip.moving, self.input.places, row, at);
+            self.weigh(batch, at, &v);
+            v = E::natural(&v);
         }
         // One check of the bounds for all parts.
         let parts = &mut self.input.strip.parts[batch * (E::PARTS * D)..][..E::PARTS * D];
@@ -191,6 +196,27 @@ impl<E: Element<D, N, P>, S: FixedState, const D: usize, const N: usize, const P
 where
     Dim<D>: Space<D>,
 {
+    /// Notes the weighted way of the nodes around their mean; of an axisymmetric body all that is radial.
+    #[inline(always)]
+    fn weigh<L: Lane>(&mut self, batch: usize, at: usize, v: &[[L; D]; N]) {
+        let Some(weight) = self.input.weights.get(batch) else { return };
+        let mut squares = L::splat(-0.0);
+        for i in 0..D {
+            let mut mean = L::splat(-0.0);
+            for a in 0..N {
+                mean += v[a][i];
+            }
+            mean = if S::STATE.is_axisymmetric && i == 0 { L::splat(0.0) } else { mean * L::splat(1.0 / N as f64) };
+            for a in 0..N {
+                let own = v[a][i] - mean;
+                squares += own * own;
+            }
+        }
+        let way = squares.sqrt() * L::splat(self.input.time_step) * L::load(weight, at);
+        let largest = &mut self.input.strip.motion;
+        way.max(L::load(largest, at)).store(largest, at);
+    }
+
     /// Strain increment and rotation from the mid-step configuration; turns the stresses.
     #[inline(always)]
     fn rate<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {

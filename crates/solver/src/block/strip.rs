@@ -18,6 +18,8 @@ pub(super) struct StripBuffers<const D: usize> {
     pub(super) moving: Moving<D>,
     /// Forces on them.
     pub(super) pulls: VectorSums<D>,
+    /// Largest weighted way of the nodes of an element around their mean.
+    pub(super) motion: Batch,
     /// Positions of the nodes of each element in natural parts ([`crate::element::Element::natural`]): parts
     /// × dimensions.
     pub(super) parts: Vec<Batch>,
@@ -49,6 +51,7 @@ impl<const D: usize> StripBuffers<D> {
         Self {
             moving: Moving::default(),
             pulls: VectorSums::default(),
+            motion: Batch::default(),
             parts: scratch(parts * D),
             hourglass_rates: scratch(hourglass),
             strain: scratch(points * components),

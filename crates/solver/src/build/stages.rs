@@ -227,7 +227,8 @@ where
             time_step_old: 0.0,
             time_step: 0.0,
             governor: Governor::Schedule,
-            nodal_bound: (model.run.stable_step == StableStep::Nodes).then(NodalBound::default),
+            nodal_bound: (model.run.stable_step != StableStep::Elements).then(NodalBound::default),
+            assembled_bound: None,
             team: if count >= SERIAL { Team::new(threads) } else { Team::alone() },
             mesh,
             blocks,
@@ -251,6 +252,9 @@ where
             rotations: NodalRotations::default(),
         };
         system.find_free_nodes();
+        if model.run.stable_step == StableStep::Assembled {
+            system.bound_by_assembled_mesh();
+        }
         let spins: Vec<f64> = system.mesh.groups.iter().map(|group| model.parts[group.part].spin).collect();
         // The block of springs is beyond those of the mesh, and has no rotations.
         system.find_rotations(|block| [0.0, 0.0, spins.get(block).copied().unwrap_or(0.0)]);

@@ -32,6 +32,7 @@ use super::tied::surfaces::Bound;
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
+use crate::forest;
 use crate::mesh::surface::tributary::Depth;
 use crate::mesh::surface::{NONE, Surface};
 use crate::model::{ContactLaw, Penalty};
@@ -299,7 +300,7 @@ impl Segment {
     /// The region of a pair.
     fn root(&mut self, pair: [u32; 2]) -> u32 {
         let at = self.place(pair, 0, 0);
-        root(&mut self.tree, at)
+        forest::root(&mut self.tree, at)
     }
 
     /// Pressure per depth of a pair, Pa/m.
@@ -370,9 +371,7 @@ impl Segment {
             let first = self.root(pair);
             for (k, end) in [(0, 1), (1, 0), (1, 1)] {
                 let at = self.place(pair, k, end);
-                let other = root(&mut self.tree, at);
-                let (low, high) = (first.min(other), first.max(other));
-                self.tree[high as usize] = low;
+                forest::join(&mut self.tree, first, at);
             }
         }
         for index in 0..self.commons.len() {
@@ -400,14 +399,6 @@ impl Segment {
             }
         }
     }
-}
-
-fn root(tree: &mut [u32], mut at: u32) -> u32 {
-    while tree[at as usize] != at {
-        tree[at as usize] = tree[tree[at as usize] as usize];
-        at = tree[at as usize];
-    }
-    at
 }
 
 impl Segment {

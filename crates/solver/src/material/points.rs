@@ -73,6 +73,11 @@ pub trait PointLaw: Send + Sync {
     fn is_elastic(&self) -> bool {
         false
     }
+    /// Whether it is never stiffer, whatever was before, than the isotropic elastic body of its stiffness at
+    /// rest.
+    fn is_stiffest_at_rest(&self) -> bool {
+        false
+    }
     /// Energy stored at the start per initial volume, J/m³: of an equation of state.
     fn stored(&self) -> f64 {
         0.0
@@ -160,6 +165,9 @@ where
     }
     fn is_elastic(&self) -> bool {
         M::FAMILY == Family::Rate && M::ISOTROPIC
+    }
+    fn is_stiffest_at_rest(&self) -> bool {
+        self.is_elastic() && self.law.stiffness()[1] > 0.0
     }
     fn energy(&self, stress: [f64; 6]) -> f64 {
         self.law.energy(stress)

@@ -159,6 +159,9 @@ impl PointLaw for StressConstrained {
     fn stiffness(&self) -> [f64; 2] {
         self.law.stiffness()
     }
+    fn is_stiffest_at_rest(&self) -> bool {
+        self.law.is_stiffest_at_rest()
+    }
     fn stored(&self) -> f64 {
         self.law.stored()
     }

@@ -1,5 +1,5 @@
 //! Which elements the stable step costs most: those with the shortest one, what the first step would be
-//! without them, and what it would be by nodes.
+//! without them, and what it would be by nodes and by the assembled mesh.
 //!
 //! From the state at time zero; `embate check --time-step` shows it.
 
@@ -30,6 +30,8 @@ pub struct TimeStepCosts {
     pub elements: Vec<CostlyElement>,
     /// The first step by nodes, `safety` included, s, and who sets it; `None`: not longer than by elements.
     pub by_nodes: Option<(f64, String)>,
+    /// The same by the assembled mesh; `None`: not so much longer that it saves what it costs.
+    pub by_assembled_mesh: Option<(f64, String)>,
 }
 
 /// Of the `most` worst elements.
@@ -51,5 +53,9 @@ where
             without,
         }
     };
-    TimeStepCosts { elements: all.iter().zip(next).take(most).map(costly).collect(), by_nodes: system.step_by_nodes() }
+    TimeStepCosts {
+        elements: all.iter().zip(next).take(most).map(costly).collect(),
+        by_nodes: system.step_by_nodes(),
+        by_assembled_mesh: system.step_by_assembled_mesh(),
+    }
 }

@@ -232,6 +232,11 @@ where
         self.find_free_nodes();
     }
 
+    /// Whether all elements of a block are eroded.
+    pub(super) fn is_gone(&self, block: usize) -> bool {
+        self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(block))
+    }
+
     /// Mass of nodes without elements, kg/m.
     pub(crate) fn mass_loose(&self) -> f64 {
         let has_elements = self.has_elements();

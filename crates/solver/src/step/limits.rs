@@ -13,7 +13,7 @@ use crate::reductions;
 use crate::tensor::Dim;
 
 /// How many times as long as the step the stable one must be before the step grows at all.
-const HOLD: f64 = 1.25;
+pub(super) const HOLD: f64 = 1.25;
 /// A step that grows does so by at most this factor from one to the next.
 ///
 /// Central differences with the step dt keep a vibration of the circular frequency ω at A² ω² (1 − ω²
@@ -72,6 +72,8 @@ pub enum Governor {
     Element(f64),
     /// A node, by the elements that meet there.
     Node(u32),
+    /// The assembled mesh, whose fastest motion is largest at this node.
+    Assembled(u32),
     /// The model, by the largest step that it allows.
     Given,
     /// Bodies that come at each other so fast that a longer step would let them overlap before a contact sees

@@ -51,9 +51,13 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// Square of the stable step, s², by elements or by nodes, whatever is longer, and who sets it.
+    /// Square of the stable step, s², by elements, by nodes or by the assembled mesh, whatever is longer, and
+    /// who sets it.
     pub(super) fn stable_step_squared(&mut self, elements: &Report) -> (f64, Governor) {
         let by_elements = (elements.time_step_squared, Governor::Element(elements.time_step_squared));
+        if let Some(by_mesh) = self.squared_by_assembled_mesh(elements).filter(|(squared, _)| *squared > by_elements.0) {
+            return by_mesh;
+        }
         let Some(mut bound) = self.nodal_bound.take() else { return by_elements };
         let change = reductions::min(self.reports.iter().map(|report| report.step_change));
         let mut squared = self.with_springs(bound.squared * change);
@@ -78,12 +82,12 @@ where
 
     /// Square of the stable step by nodes, s², as elements are now, and the node that sets it; infinite
     /// without elements. `sums` is memory to work in.
-    fn squared_by_nodes(&self, sums: &mut Vec<[f64; 2]>) -> (f64, u32) {
+    pub(super) fn squared_by_nodes(&self, sums: &mut Vec<[f64; 2]>) -> (f64, u32) {
         let shortest = reductions::min(self.reports.iter().map(|report| report.time_step_squared)).sqrt();
         sums.clear();
         sums.resize(self.positions.len(), [0.0; 2]);
         for (index, block) in self.blocks.iter().enumerate() {
-            if self.rigid[index] || self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index)) {
+            if self.rigid[index] || self.is_gone(index) {
                 continue;
             }
             block.bound_stiffness(shortest, &mut |node, stiffness, mass| {

@@ -15,6 +15,7 @@ impl Persist for Governor {
             Self::Schedule => (2, 0.0),
             Self::Contact => (3, 0.0),
             Self::Node(node) => (4, f64::from(node)),
+            Self::Assembled(node) => (5, f64::from(node)),
         };
         persist_each!(archive; &mut number, &mut square);
         *self = match number {
@@ -23,6 +24,7 @@ impl Persist for Governor {
             2 => Self::Schedule,
             3 => Self::Contact,
             4 => Self::Node(square as u32),
+            5 => Self::Assembled(square as u32),
             _ => return Err(ArchiveError::new("unknown governor of the time step")),
         };
         Ok(())
@@ -73,12 +75,15 @@ where
             mass_added: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
             springs: _, erosion: _, rotations: _,
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
-            bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound,
+            bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
         } = self;
         persist_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
         persist_each!(archive; ledger, bodies, curves, &mut reports[..]);
         forces.persist_pushes(archive)?;
         if let Some(bound) = nodal_bound {
+            bound.persist(archive)?;
+        }
+        if let Some(bound) = assembled_bound {
             bound.persist(archive)?;
         }
         let mut has_relaxation = relaxation.is_some();
@@ -127,7 +132,7 @@ where
         let (mut first, mut first_moment) = (0, 0);
         for (index, block) in self.blocks.iter().enumerate() {
             let (count, moments) = (block.slots().len(), block.moment_slots().len());
-            if self.erosion.as_ref().is_some_and(|erosion| erosion.is_gone(index)) {
+            if self.is_gone(index) {
                 self.slots[first..first + count].fill([0.0; D]);
                 self.rotations.slots[first_moment..first_moment + moments].fill([0.0; 3]);
             }

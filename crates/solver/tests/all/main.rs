@@ -11,6 +11,7 @@ mod point;
 
 mod adding;
 mod allocations;
+mod assembled_bound;
 mod bars;
 mod blocks;
 mod certificate;

@@ -177,7 +177,7 @@ fn what_elements_report_since_they_were_marked_bounds_the_sums_that_were_not_mad
 }
 
 /// A block whose inner nodes lie anywhere.
-fn crooked(end: f64, stable_step: StableStep) -> Model {
+pub(crate) fn crooked(end: f64, stable_step: StableStep) -> Model {
     let mut model = model(end);
     let mesh = mapped([12, 12], |u, v| {
         let is_inner = |c: f64| c > 1e-9 && c < 1.0 - 1e-9;

@@ -372,6 +372,20 @@ fn runs_with_steps_by_nodes_continue() {
 }
 
 #[test]
+fn runs_with_steps_by_the_assembled_mesh_continue() {
+    for (element, viscosity) in [("quad4", [0.0; 2]), ("quad4_reduced_viscous", [0.06, 1.2]), ("tri3_anp", [0.0; 2])] {
+        let mut model = block(element, elastic_of_patches(), "plane_strain");
+        (model.run.stable_step, model.run.bulk_viscosity) = (StableStep::Assembled, viscosity);
+        continues(element, &model, 400);
+    }
+    let mut model = bullet([6, 60]);
+    model.run.stable_step = StableStep::Assembled;
+    let (whole, _, _) = reported(simulation(&model));
+    assert!(whole.summary().erosion.is_some());
+    continues("bullet", &model, whole.steps());
+}
+
+#[test]
 fn runs_of_ties_that_break_and_contacts_that_begin_later_continue() {
     for formulation in [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }, Formulation::Segment] {
         for (active, strength) in [([0.0, f64::INFINITY], f64::INFINITY), ([0.0, 4e-4], 2e6), ([1e-4, 5e-4], 2e6)] {

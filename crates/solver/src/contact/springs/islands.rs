@@ -5,6 +5,7 @@
 //! nothing moves (held nodes, driven bodies) joins nothing. Islands are in the order of their first springs
 //! and springs within an island in the order of the list: nothing else decides.
 
+use crate::forest;
 use std::ops::Range;
 
 /// Not known.
@@ -41,9 +42,9 @@ impl Islands {
         for spring in 0..springs {
             let mut mobile = places[ends(spring)].iter().copied().filter(|&place| moves(place));
             if let Some(one) = mobile.next() {
-                let mut root = self.root(one);
+                let mut root = forest::root(&mut self.parent, one);
                 for other in mobile {
-                    root = self.join(root, other);
+                    root = forest::join(&mut self.parent, root, other);
                 }
             }
         }
@@ -57,7 +58,7 @@ impl Islands {
         self.of.clear();
         self.ends.clear();
         for spring in 0..springs {
-            let known = place(spring).map(|place| self.root(place) as usize);
+            let known = place(spring).map(|place| forest::root(&mut self.parent, place) as usize);
             let next = self.ends.len() as u32;
             let island = known.map_or(NONE, |root| self.island[root]);
             let island = if island == NONE { next } else { island };
@@ -82,23 +83,6 @@ impl Islands {
             self.order[*end as usize] = spring as u32;
             *end += 1;
         }
-    }
-
-    fn root(&mut self, mut place: u32) -> u32 {
-        while self.parent[place as usize] != place {
-            let above = self.parent[self.parent[place as usize] as usize];
-            self.parent[place as usize] = above;
-            place = above;
-        }
-        place
-    }
-
-    /// Joins the tree of `root` with that of `other`: their common root.
-    fn join(&mut self, root: u32, other: u32) -> u32 {
-        let other = self.root(other);
-        let (low, high) = (root.min(other), root.max(other));
-        self.parent[high as usize] = low;
-        low
     }
 }
 

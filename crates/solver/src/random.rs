@@ -1,4 +1,7 @@
-//! Numbers that look random, the same on every machine: for bodies that benchmarks and tests make up.
+//! Numbers that look random, the same on every machine: for Lanczos' method, and for bodies that benchmarks
+//! and tests make up.
+
+use embate_lanes::math;
 
 /// A generator by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
 #[derive(Clone, Debug)]
@@ -33,5 +36,17 @@ impl Random {
     /// Below `end`; 0 where that is 0.
     pub fn below(&mut self, end: usize) -> usize {
         (self.bits() % end.max(1) as u64) as usize
+    }
+
+    /// Of the normal distribution of mean 0 and variance 1, by the polar method (Marsaglia and Bray, SIAM
+    /// Rev. 6 (1964) 260-264).
+    pub fn normal(&mut self) -> f64 {
+        loop {
+            let [x, y] = [2.0 * self.unit() - 1.0, 2.0 * self.unit() - 1.0];
+            let square = x * x + y * y;
+            if square > 0.0 && square < 1.0 {
+                return x * (-2.0 * math::ln(square) / square).sqrt();
+            }
+        }
     }
 }

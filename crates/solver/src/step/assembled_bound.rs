@@ -109,6 +109,7 @@ impl<const D: usize> Persist for AssembledBound<D> {
         } = self;
         persist_each!(archive; squared, squared_before, node, frequency, slack, used, viscosity, gain, cost);
         persist_each!(archive; served, forms, vain, rest, last_rest);
+        archive.check((*node as usize) < archive.nodes, "a node that there is not")?;
         form[..].persist(archive)?;
         steps.iter_mut().chain(slopes).try_for_each(|list| list[..].persist(archive))
     }
@@ -287,7 +288,8 @@ where
         let goes_on = |found: &Tridiagonal| !found.products().is_multiple_of(LOOK) || square_of(found, 0.0) > needed;
         let found = lanczos(start.clone(), count, |q, product| stiffness.multiply(q, product, team), |_, _| (), goes_on);
         let squared = square_of(&found, MARGIN);
-        if !goes_on(&found) || self.with_springs(squared) <= needed {
+        // What is no number, or no stiffness at all, is no form.
+        if !goes_on(&found) || !squared.is_finite() || self.with_springs(squared) <= needed {
             return None;
         }
         let frequency = 2.0 / (squared.sqrt() * (1.0 + SLACK));

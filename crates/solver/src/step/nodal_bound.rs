@@ -18,7 +18,7 @@
 //! count with what their elements weigh.
 
 use super::{Governor, System};
-use crate::archive::persist_all;
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::block::Report;
 use crate::dimension::Dimension;
 use crate::reductions;
@@ -45,7 +45,13 @@ pub(crate) struct NodalBound {
     sums: Vec<[f64; 2]>,
 }
 
-persist_all!(NodalBound { squared, node, rest } but { sums });
+impl Persist for NodalBound {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Self { squared, node, rest, sums: _ } = self;
+        persist_each!(archive; squared, node, rest);
+        archive.check((*node as usize) < archive.nodes, "a node that there is not")
+    }
+}
 
 impl<const D: usize> System<D>
 where

@@ -18,6 +18,7 @@ impl Persist for Governor {
             Self::Assembled(node) => (5, f64::from(node)),
         };
         persist_each!(archive; &mut number, &mut square);
+        archive.check(number < 4 || square < archive.nodes as f64, "a node that there is not")?;
         *self = match number {
             0 => Self::Element(square),
             1 => Self::Given,

@@ -154,7 +154,7 @@ where
         } else if bound.squared == 0.0 {
             self.take_form(bound, by_elements, viscosity);
         }
-        if bound.squared > 0.0 { f64::min(self.with_springs(bound.squared), self.squared_of_others(bound)) } else { 0.0 }
+        if bound.squared > 0.0 { self.with_springs(f64::min(bound.squared, self.squared_of_others(bound))) } else { 0.0 }
     }
 
     /// Part of ω_r by which the deformation since the form r may have raised the largest frequency.
@@ -323,7 +323,7 @@ where
     pub(crate) fn step_by_assembled_mesh(&self) -> Option<(f64, String)> {
         let bound = AssembledBound::of(self);
         let found = self.find(&bound, self.joined_reports().time_step_squared, 0.0, &mut Team::alone())?;
-        let squared = f64::min(self.with_springs(found.squared), self.squared_of_others(&bound));
+        let squared = self.with_springs(f64::min(found.squared, self.squared_of_others(&bound)));
         Some((self.limits.safety * squared.sqrt(), self.governor_name(Governor::Assembled(found.node?))))
     }
 

@@ -45,25 +45,24 @@ pub trait Elastic<const D: usize> {
     fn deformations(&self, slopes: &[f64], forms: [&[[f64; D]]; 2], see: &mut dyn FnMut(usize, [f64; 2]));
 }
 
+/// Batch and lane of elements of a block, and those that they have in a block made of them alone: lanes that
+/// fill its last batch up too.
+fn sources(elements: &[u32]) -> impl Iterator<Item = ([usize; 2], [usize; 2])> {
+    let lanes = (0..elements.len().div_ceil(BATCH)).flat_map(|batch| (0..BATCH).map(move |lane| [batch, lane]));
+    lanes.map(|[batch, lane]| {
+        let source = elements[element_of(batch, lane, elements.len())] as usize;
+        ([source / BATCH, source % BATCH], [batch, lane])
+    })
+}
+
 impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
-    /// What elements of another block have that these were made of, from batch and lane there to those here:
-    /// lanes that fill the last batch up too.
-    fn sources(&self, elements: &[u32]) -> impl Iterator<Item = ([usize; 2], [usize; 2])> {
-        let lanes = (0..self.elements.len()).flat_map(|batch| (0..BATCH).map(move |lane| [batch, lane]));
-        lanes.map(|[batch, lane]| {
-            let source = elements[element_of(batch, lane, elements.len())] as usize;
-            ([source / BATCH, source % BATCH], [batch, lane])
-        })
-    }
-
     /// Holds the shapes that its points do not feel as those elements of another block do.
     fn take_hourglass(&mut self, other: &Self, elements: &[u32]) {
         let width = self.facts().hourglass;
-        let sources: Vec<_> = self.sources(elements).collect();
-        for ([from, from_lane], [to, to_lane]) in sources {
+        for ([from, from_lane], [to, to_lane]) in sources(elements) {
             for k in 0..width {
                 self.hourglass[to * width + k].0[to_lane] = other.hourglass[from * width + k].0[from_lane];
             }
@@ -74,8 +73,7 @@ where
     fn take_masses(&mut self, other: &Self, elements: &[u32]) {
         let (points, widths) = (self.facts().points, [self.law.state_width(), other.law.state_width()]);
         let thickness = self.law.thickness().zip(other.law.thickness());
-        let sources: Vec<_> = self.sources(elements).collect();
-        for ([from, from_lane], [to, to_lane]) in sources {
+        for ([from, from_lane], [to, to_lane]) in sources(elements) {
             self.elements[to].mass_least.0[to_lane] = other.elements[from].mass_least.0[from_lane];
             if self.resists() {
                 self.resistance[to].mass.0[to_lane] = other.resistance[from].mass.0[from_lane];

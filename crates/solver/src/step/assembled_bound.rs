@@ -48,8 +48,9 @@ use embate_lanes::Team;
 const MARGIN: f64 = 1.0 - 0.97 * 0.97;
 /// δ: probability with which it is still smaller.
 const PROBABILITY: f64 = 1e-9;
-/// Part of ω_r by which the deformation may raise it.
+/// Part of ω_r by which the deformation may raise it, and where the present step stays, at most.
 const SLACK: f64 = 0.04;
+const SLACK_MOST: f64 = 0.1;
 /// Part of it that a new form is worth.
 const USED: f64 = 0.75;
 /// How much of the rate of s belongs to the deformation since r.
@@ -137,13 +138,14 @@ where
 
     fn follow(&mut self, bound: &mut AssembledBound<D>, by_elements: f64) -> f64 {
         bound.used += reductions::max(self.reports.iter().map(|report| report.motion));
-        let viscosity = reductions::max(self.reports.iter().map(|report| report.viscosity));
+        let viscosity = reductions::max(self.blocks_in(bound).map(|block| self.reports[block].viscosity));
         if bound.squared > 0.0 {
             bound.served = bound.served.saturating_add(1);
             let is_damped_more = viscosity > bound.viscosity;
             let is_deformed = bound.used > bound.slack && {
                 bound.used = self.raised(bound);
-                bound.used > USED * bound.slack
+                // What is no number is too much.
+                !(bound.used <= USED * bound.slack)
             };
             if is_damped_more || is_deformed {
                 bound.end();
@@ -154,7 +156,7 @@ where
         } else if bound.squared == 0.0 {
             self.take_form(bound, by_elements, viscosity);
         }
-        if bound.squared > 0.0 { self.with_springs(f64::min(bound.squared, self.squared_of_others(bound))) } else { 0.0 }
+        if bound.squared > 0.0 { self.squared_of_all(bound, bound.squared) } else { 0.0 }
     }
 
     /// Part of ω_r by which the deformation since the form r may have raised the largest frequency.
@@ -167,8 +169,7 @@ where
             elastic.deformations(&bound.slopes[block], [&bound.form, &positions], &mut |element, [change, growth]| {
                 let root = growth.sqrt();
                 let raised = (f64::max(root - 1.0, 0.0) + root * change * spread) * 2.0 / steps[element].sqrt();
-                // What is no number is too much.
-                most = if raised <= most { most } else { raised };
+                most = if raised.is_nan() { f64::INFINITY } else { f64::max(most, raised) };
             });
         }
         most / bound.frequency
@@ -217,6 +218,12 @@ where
         reductions::min(self.blocks_beside(bound).map(|block| self.reports[block].time_step_squared))
     }
 
+    /// Square of the stable step of all elements and springs together, s², from that of the elements that are
+    /// in it: springs add to the stiffness of both.
+    fn squared_of_all(&self, bound: &AssembledBound<D>, squared: f64) -> f64 {
+        self.with_springs(f64::min(squared, self.squared_of_others(bound)))
+    }
+
     /// Masses of the nodes for the elements that are in it, kg/m: all but what the other elements count with;
     /// of rigid bodies what those weigh.
     fn masses_in(&self, bound: &AssembledBound<D>) -> Vec<f64> {
@@ -239,6 +246,9 @@ where
     fn squared_needed(&self, rival: f64, cost: f64) -> f64 {
         let step = self.limits.safety * rival.sqrt();
         let grows = if self.step > 0 && step >= self.time_step_old { HOLD * self.time_step_old } else { 0.0 };
+        if self.limits.largest <= step {
+            return f64::INFINITY;
+        }
         let left = (self.limits.end - self.time) / step;
         let pays = if left > cost { left / (left - cost) } else { f64::INFINITY };
         (f64::max(WORTH.max(pays) * step, grows) / self.limits.safety).powi(2)
@@ -276,7 +286,7 @@ where
         let cost = COST * if damped.time.is_some() { 2.0 } else { 1.0 };
         let count = products(D * self.positions.len(), MARGIN, PROBABILITY);
         let needed = self.squared_needed(rival, cost * count as f64);
-        if blocks.is_empty() || !needed.is_finite() || self.squared_of_others(bound) <= needed {
+        if blocks.is_empty() || !needed.is_finite() || self.squared_of_all(bound, f64::INFINITY) <= needed {
             return None;
         }
         let slopes: Vec<(usize, Vec<f64>)> =
@@ -289,7 +299,7 @@ where
         let found = lanczos(start.clone(), count, |q, product| stiffness.multiply(q, product, team), |_, _| (), goes_on);
         let squared = square_of(&found, MARGIN);
         // What is no number, or no stiffness at all, is no form.
-        if !goes_on(&found) || !squared.is_finite() || self.with_springs(squared) <= needed {
+        if !goes_on(&found) || !squared.is_finite() || self.squared_of_all(bound, squared) <= needed {
             return None;
         }
         let frequency = 2.0 / (squared.sqrt() * (1.0 + SLACK));
@@ -323,7 +333,7 @@ where
     pub(crate) fn step_by_assembled_mesh(&self) -> Option<(f64, String)> {
         let bound = AssembledBound::of(self);
         let found = self.find(&bound, self.joined_reports().time_step_squared, 0.0, &mut Team::alone())?;
-        let squared = self.with_springs(f64::min(found.squared, self.squared_of_others(&bound)));
+        let squared = self.squared_of_all(&bound, found.squared);
         Some((self.limits.safety * squared.sqrt(), self.governor_name(Governor::Assembled(found.node?))))
     }
 
@@ -332,7 +342,7 @@ where
     fn step_to_keep(&self, frequency: f64) -> Option<(f64, f64)> {
         let held = self.time_step_old / self.limits.safety;
         let slack = 2.0 / (held * frequency) - 1.0;
-        let stays = self.step > 0 && self.governor != Governor::Contact && (0.5 * SLACK..=HOLD - 1.0).contains(&slack);
+        let stays = self.step > 0 && self.governor != Governor::Contact && (0.5 * SLACK..=SLACK_MOST).contains(&slack);
         stays.then_some((held * held, slack))
     }
 }
@@ -378,6 +388,14 @@ impl<const D: usize> AssembledBound<D> {
         let groups = system.mesh.groups.iter().zip(&steps).filter(|(_, steps)| !steps.is_empty());
         let bodies = connected(system.positions.len(), groups.flat_map(|(group, _)| group.cells()).map(|cell| cell.nodes));
         Self { form: system.positions.clone(), slopes: steps.clone(), steps, bodies, ..Self::default() }
+    }
+
+    /// Leaves the form r of a block that loses elements: their part in what was reported is gone, and means
+    /// over nodes without them may make their neighbours stiffer.
+    pub(super) fn lose_elements_of(&mut self, block: usize) {
+        if self.squared > 0.0 && !self.steps[block].is_empty() {
+            self.end();
+        }
     }
 
     /// Leaves the form r. Where too many cost more than they saved, there is a rest.

@@ -22,7 +22,7 @@ pub(super) struct AssembledStiffness<const D: usize> {
     blocks: Vec<Box<dyn Block<D>>>,
     assembly: Assembly,
     /// Nodes of the mesh.
-    pub(super) nodes: Vec<u32>,
+    nodes: Vec<u32>,
     /// 1/√m of each, (kg/m)^−½.
     inverse_roots: Vec<f64>,
     form: Vec<[f64; D]>,

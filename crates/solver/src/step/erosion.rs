@@ -205,6 +205,9 @@ where
         for &element in &numbers {
             self.mesh.groups[index].erode(element as usize);
         }
+        if let Some(bound) = &mut self.assembled_bound {
+            bound.lose_elements_of(index);
+        }
         let block = &self.blocks[index];
         self.reports[index] = block.report(&self.positions);
         erosion.gone[index] = !(0..block.elements()).any(|element| block.is_alive(element));

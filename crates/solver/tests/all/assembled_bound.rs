@@ -326,3 +326,36 @@ fn what_elements_report_bounds_how_far_the_frequency_may_have_risen() {
         }
     }
 }
+
+/// Springs on bars, which are not in the assembled mesh whose frequency is found, beside a slow block that
+/// is.
+#[test]
+fn springs_count_on_elements_that_are_beside_it_too() {
+    const AREA: f64 = 0.01;
+    for ratio in [0.2, 0.5, 1.0, 3.0] {
+        let mut model = model(1e6);
+        (model.run.stable_step, model.run.safety) = (StableStep::Assembled, 1.0);
+        add(&mut model, "slow", rectangle([0.0, 10.0], [18.0, 18.0], [6, 6]), [0.0; 2]);
+        for (name, x) in [("one", 0.0), ("two", 1.5)] {
+            let shape = Shape::Truss(Truss { lines: vec![vec![[x, 0.0], [x + 1.0, 0.0]]], elements: 1 });
+            let (element, area, material) = ("bar2".into(), Some(AREA), "soft".into());
+            model.parts.push(Part { name: name.into(), material, element, area, shape, ..Part::default() });
+        }
+        // Young's modulus 1 GPa, 1000 kg/m³: half of each bar's mass at each of its nodes.
+        let (bar, mass) = (1e9 * AREA, 0.5 * 1e3 * AREA);
+        let between = ["one".into(), "two".into()];
+        model.springs.push(Spring { between, stiffness: ratio * bar, ..Spring::default() });
+        // Nodes in a row; both of the first bar have the first of the second for their nearest.
+        let mut stiffness = vec![vec![0.0; 4]; 4];
+        let links = [(0, 1, bar), (2, 3, bar), (1, 2, ratio * bar)];
+        for (a, b, k) in links {
+            (stiffness[a][a], stiffness[b][b]) = (stiffness[a][a] + k, stiffness[b][b] + k);
+            (stiffness[a][b], stiffness[b][a]) = (stiffness[a][b] - k, stiffness[b][a] - k);
+        }
+        // Without the spring from the first node, whichever it goes to: less stiff than what is there.
+        let limit = 2.0 / frequency_squared(&stiffness, &[mass; 4]).sqrt();
+        let step = start(&model).overview().stable_time_step;
+        println!("springs of {ratio}: {:.4} of the limit", step / limit);
+        assert!(step < limit * (1.0 + 1e-9) && step > 0.3 * limit, "{ratio}: {step} {limit}");
+    }
+}

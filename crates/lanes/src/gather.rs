@@ -177,17 +177,23 @@ impl<const D: usize> Moving<D> {
     /// all nodes.
     #[inline]
     pub fn fill(&mut self, nodes: &[u32], first: &[[f64; D]], second: &[[f64; D]]) {
+        self.fill_by(nodes.iter().map(|&node| [first[node as usize], second[node as usize]]));
+    }
+
+    /// Sets both vectors of the first points.
+    #[inline]
+    pub fn fill_by(&mut self, points: impl Iterator<Item = [[f64; D]; 2]>) {
         let rooms = rooms_mut(&mut self.first).iter_mut();
         if D == 2 {
-            for (room, &node) in rooms.zip(nodes) {
-                room[..D].copy_from_slice(&first[node as usize]);
-                room[D..].copy_from_slice(&second[node as usize]);
+            for (room, [first, second]) in rooms.zip(points) {
+                room[..D].copy_from_slice(&first);
+                room[D..].copy_from_slice(&second);
             }
             return;
         }
-        for ((room, other), &node) in rooms.zip(rooms_mut(&mut self.second)).zip(nodes) {
-            room[..D].copy_from_slice(&first[node as usize]);
-            other[..D].copy_from_slice(&second[node as usize]);
+        for ((room, other), [first, second]) in rooms.zip(rooms_mut(&mut self.second)).zip(points) {
+            room[..D].copy_from_slice(&first);
+            other[..D].copy_from_slice(&second);
         }
     }
 

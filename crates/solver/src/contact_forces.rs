@@ -91,6 +91,12 @@ impl<const D: usize> ContactForces<D> {
         &self.values
     }
 
+    /// The groups of [`BATCH`] nodes in which any may have one.
+    #[must_use]
+    pub fn groups(&self) -> &[u32] {
+        &self.marked
+    }
+
     /// Whether any node of a group of [`BATCH`] may have one.
     #[inline]
     #[must_use]

@@ -232,6 +232,8 @@ pub struct Summary {
     pub contact: Certificate,
     /// Mass that was added for longer steps, kg/m.
     pub mass_added: f64,
+    /// With subcycling: elements that were evaluated in all steps; without it, that is all in each.
+    pub element_evaluations: Option<u64>,
     /// What erosion has done; `None`: no element was eroded.
     pub erosion: Option<Erosion>,
     /// Hash of positions and velocities at the end, hexadecimal.

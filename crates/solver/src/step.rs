@@ -14,6 +14,7 @@ mod nodes;
 mod persist;
 pub(crate) mod relaxation;
 pub(crate) mod rotations;
+pub(crate) mod subcycling;
 
 use crate::assembly::Assembly;
 use crate::block::spring::together;
@@ -48,6 +49,7 @@ pub(crate) use nodal_bound::NodalBound;
 use nodes::Nodes;
 use relaxation::Relaxation;
 use rotations::NodalRotations;
+use subcycling::Subcycling;
 
 /// Nodes that one task updates.
 pub(crate) const CHUNK: usize = 1024;
@@ -113,6 +115,8 @@ where
     pub(crate) nodal_bound: Option<NodalBound>,
     /// The stable step by the assembled mesh, where the model wants it.
     pub(crate) assembled_bound: Option<AssembledBound<D>>,
+    /// Elements that are evaluated less often, where the model wants it.
+    pub(crate) subcycling: Option<Subcycling>,
     pub(crate) positions: Vec<[f64; D]>,
     /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to.
     pub(crate) positions_old: Vec<[f64; D]>,
@@ -204,6 +208,7 @@ where
     /// Everything that follows from the positions x^n.
     fn evaluate_forces(&mut self) -> Result<(), Error> {
         let elements = self.strain_and_detect();
+        let elements = self.choose_ratios(elements);
         let time_step = self.stable_step(&elements);
         if time_step.is_err() {
             // The last output shows contacts where the bodies are.
@@ -212,6 +217,7 @@ where
         let time_step = time_step?;
         self.relax();
         let time_step = self.limit_approach(time_step);
+        self.begin_intervals(time_step);
         self.load(time_step);
         self.solve_contact_forces(time_step);
         self.accelerate(time_step);
@@ -271,13 +277,17 @@ where
         self.travel += dt * self.speed;
         self.time += dt;
         self.step += 1;
+        if let Some(subcycling) = &mut self.subcycling {
+            subcycling.pass();
+        }
     }
 
     /// Internal forces, energies and steps of the elements at x^n, and springs of contacts and obstacles
     /// there: at the same time, unless elements may fail, which changes surfaces.
     fn strain_and_detect(&mut self) -> Report {
         let NodalRotations { now: rotations, slots: moments, .. } = &mut self.rotations;
-        let motion = Motion { rotations, ..Motion::new(&self.positions, &self.velocities, self.time_step_old) };
+        let turn = self.subcycling.as_ref().map_or(0, Subcycling::turn);
+        let motion = Motion { rotations, turn, ..Motion::new(&self.positions, &self.velocities, self.time_step_old) };
         let mut strain = || {
             let (mut rest, mut rest_of_moments) = (&mut self.slots[..], &mut moments[..]);
             for (index, ((block, report), rigid)) in self.blocks.iter_mut().zip(&mut self.reports).zip(&self.rigid).enumerate() {
@@ -372,7 +382,10 @@ where
         std::mem::swap(&mut self.velocities, &mut self.velocities_old);
         let nodes = nodes!(self, velocities_old, time_step);
         let parts = (Chunks::new(&mut self.velocities, CHUNK), Chunks::new(&mut self.positions_old, CHUNK), Chunks::new(&mut self.sums, 1));
-        self.team.each(parts, |index, _, (velocities, next, sums)| sums.fill(nodes.update(index * CHUNK, velocities, next)));
+        match &mut self.subcycling {
+            Some(own) => own.accelerate(&nodes, parts, &mut self.team),
+            None => self.team.each(parts, |index, _, (velocities, next, sums)| sums.fill(nodes.update(index * CHUNK, velocities, next))),
+        }
         let groups = nodes.update_groups(&mut self.velocities);
         let steps = [nodes.dt, time_step];
         self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);

@@ -133,6 +133,9 @@ pub struct Report {
     /// Mass that was added for longer steps, kg/m; left out where none was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_added: Option<f64>,
+    /// With subcycling: elements that were evaluated in all steps; left out without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub element_evaluations: Option<u64>,
     /// What erosion has done; left out where nothing was eroded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub erosion: Option<Erosion>,
@@ -191,6 +194,7 @@ impl Report {
                 unverified: summary.contact.unverified,
             },
             mass_added: (summary.mass_added != 0.0).then_some(summary.mass_added),
+            element_evaluations: summary.element_evaluations,
             erosion: summary.erosion.as_ref().map(|it| erosion(it, summary.dimension)),
             state_hash: summary.state_hash.clone(),
             warnings: summary.warnings.clone(),

@@ -64,7 +64,7 @@ impl LocalNodes {
     }
 
     /// Nodes of a chunk.
-    fn of_chunk(&self, chunk: usize) -> &[u32] {
+    pub(super) fn of_chunk(&self, chunk: usize) -> &[u32] {
         &self.slots[chunk * self.width()..][..self.counts[chunk] as usize]
     }
 

@@ -25,12 +25,14 @@ pub(crate) mod spring;
 mod store;
 mod strain;
 mod strip;
+mod subcycles;
 
 pub use elastic::{Elastic, ElasticInput};
 pub use initial::{Initial, Wrong};
 pub use local::LocalNodes;
 pub use make::{BlockInput, Blocks, make};
 pub use store::CHUNK;
+pub use subcycles::{Begin, RATIO_MOST, Regions, Subcycled, largest_divisor};
 
 use crate::archive::{Archive, ArchiveResult, persist_all};
 use crate::failure::Criterion;
@@ -52,6 +54,8 @@ pub struct Motion<'a, const D: usize> {
     pub velocities: &'a [[f64; D]],
     /// Step, s; zero for the first evaluation.
     pub time_step: f64,
+    /// Steps since the cycle of subcycling began: what has the step ratio r is evaluated where r divides it.
+    pub turn: u32,
     /// Rotations of nodes at the end of the step, and the spins that led there.
     pub rotations: &'a Rotations,
 }
@@ -60,7 +64,7 @@ impl<'a, const D: usize> Motion<'a, D> {
     /// Of nodes without rotations.
     #[must_use]
     pub fn new(positions: &'a [[f64; D]], velocities: &'a [[f64; D]], time_step: f64) -> Self {
-        Self { positions, velocities, time_step, rotations: Rotations::NONE }
+        Self { positions, velocities, time_step, turn: 0, rotations: Rotations::NONE }
     }
 }
 
@@ -215,6 +219,16 @@ pub trait Block<const D: usize>: Send + Sync {
     /// From now on reports the largest way of the nodes of an element times its weight, 1/m; of blocks with
     /// [`Block::elastic`].
     fn weigh_motion(&mut self, _weight: &dyn Fn(usize) -> f64) {}
+    /// Its regions, where they may have steps of their own.
+    fn regions(&self) -> Option<&dyn Regions> {
+        None
+    }
+    /// From now on these are evaluated less often than in every step, where [`Subcycled::set_ratios`] says.
+    fn start_subcycling(&mut self) {}
+    /// The block with subcycling, where that was started.
+    fn subcycled(&mut self) -> Option<&mut dyn Subcycled<D>> {
+        None
+    }
     /// Mean state of an element.
     fn state(&self, element: usize) -> ElementState;
     /// Mean states of several elements, in their order: one call for all of them.
@@ -225,11 +239,15 @@ pub trait Block<const D: usize>: Send + Sync {
     fn time_steps_squared(&self) -> Vec<f64> {
         (0..self.elements()).map(|element| self.time_step_squared(element)).collect()
     }
-    /// The first element that has not been eroded and whose stable step has this square, s²; not a number is
-    /// found too.
+    /// Steps from one evaluation of an element to the next.
+    fn step_ratio(&self, _element: usize) -> u32 {
+        1
+    }
+    /// The first element that has not been eroded and whose stable step over its step ratio has this square,
+    /// s²; not a number is found too.
     fn governing_element(&self, squared: f64) -> Option<usize> {
-        let governs = |&element: &usize| self.is_alive(element) && self.time_step_squared(element).total_cmp(&squared).is_eq();
-        (0..self.elements()).find(governs)
+        let allowed = |element: usize| self.time_step_squared(element) / f64::from(self.step_ratio(element)).powi(2);
+        (0..self.elements()).find(|&element| self.is_alive(element) && allowed(element).total_cmp(&squared).is_eq())
     }
     /// The law of its points; springs have none.
     fn law(&self) -> Option<&dyn PointLaw>;

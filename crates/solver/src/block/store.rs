@@ -16,6 +16,7 @@ use super::make::{BlockInput, LawOf};
 use super::nodal::Nodal;
 use super::strain::{Measures, Strain};
 use super::strip::{ForEachBatch, STRIP, StripBuffers};
+use super::subcycles::{Regions, Subcycled, Subcycles};
 use super::{Block, ElementState, Initial, Motion, NodalForces, Report, Wrong};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::failure::Criterion;
@@ -71,6 +72,8 @@ pub(super) struct ElementStore<const D: usize> {
     strips: Vec<Mutex<StripBuffers<D>>>,
     /// Averages over the nodes, for elements that want them.
     nodal: Option<Box<Nodal<D>>>,
+    /// With subcycling.
+    pub(super) subcycles: Option<Box<Subcycles<D>>>,
     pub(super) eroded: Eroded,
 }
 
@@ -106,6 +109,7 @@ struct Common<'a, const D: usize> {
     resists: bool,
     nodes: &'a LocalNodes,
     motion: &'a Motion<'a, D>,
+    subcycles: Option<&'a Subcycles<D>>,
     level: Level,
 }
 
@@ -156,6 +160,7 @@ where
             volume_initial: vec![Batch::default(); batches],
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
             nodal,
+            subcycles: None,
             kernel,
             law,
             source,
@@ -219,6 +224,14 @@ where
         if self.damping > 0.0 { self.widths()[0] } else { 0 }
     }
 
+    /// What all chunks report together.
+    pub(super) fn joined_reports(&self) -> Report {
+        match &self.subcycles {
+            Some(subcycles) => subcycles.joined(&self.reports, self.eroded.left),
+            None => Report::joined(self.reports.iter().copied().chain([self.eroded.left])),
+        }
+    }
+
     /// What the law wants to know, and the damping.
     pub(super) fn measures(&self) -> Measures {
         let law = self.law.as_ref();
@@ -260,7 +273,12 @@ where
         let [stress_width, history_of_batch, initial_of_batch, hourglass] = common.widths;
         let mut sums = Sums::new();
         let count = chunk.elements.len();
-        common.nodes.copy(chunk.index, common.motion, &mut strip.moving);
+        let interval = common.subcycles.and_then(|subcycles| Some((subcycles, subcycles.time(chunk.index)?)));
+        let time_step = interval.map_or(common.motion.time_step, |(_, time)| time);
+        match interval {
+            Some((subcycles, time)) => subcycles.copy((chunk.index, time), common.nodes, common.motion, &mut strip.moving),
+            None => common.nodes.copy(chunk.index, common.motion, &mut strip.moving),
+        }
         strip.pulls.clear(common.nodes.width());
         strip.motion = Batch::default();
         for from in (0..count).step_by(STRIP) {
@@ -271,7 +289,7 @@ where
             let elements = &mut chunk.elements[from..to];
             let resistance = if common.resists { &mut chunk.resistance[from..to] } else { &mut [][..] };
             let strain = Strain {
-                time_step: common.motion.time_step,
+                time_step,
                 measures,
                 first: chunk.index * CHUNK + from,
                 places: &common.nodes.places,
@@ -288,7 +306,7 @@ where
             common.law.respond(
                 level,
                 Points {
-                    time_step: common.motion.time_step,
+                    time_step,
                     strain: &strip.strain[..points * components],
                     rotation: &strip.rotation,
                     volume_ratio: &strip.volume_ratio[..points],
@@ -306,7 +324,7 @@ where
                     points: of_element,
                     state,
                     damping: common.damping,
-                    time_step: common.motion.time_step,
+                    time_step,
                     strip,
                     history,
                     history_width,
@@ -320,7 +338,7 @@ where
                 family: measures.family,
                 is_solid: common.law.stiffness()[1] > 0.0,
                 is_elastic: common.law.is_elastic(),
-                time_step: common.motion.time_step,
+                time_step,
                 viscosity: common.viscosity,
                 damping: common.damping,
                 damped,
@@ -370,6 +388,9 @@ where
             self.nodal = Some(nodal);
             return report;
         }
+        if let Some(subcycles) = &mut self.subcycles {
+            subcycles.pass(motion, &self.nodes, slots, team);
+        }
         while self.strips.len() < team.threads() {
             self.strips.push(Mutex::new(StripBuffers::new(self.kernel.facts(), self.law.as_ref(), self.damping > 0.0, STRIP)));
         }
@@ -389,6 +410,7 @@ where
             resists: self.resists(),
             nodes: &self.nodes,
             motion,
+            subcycles: self.subcycles.as_deref(),
             level,
         };
         let (initial, volume_initial, strips) = (&self.initial[..], &self.volume_initial[..], &self.strips[..]);
@@ -409,6 +431,9 @@ where
             if eroded.is_gone(index) {
                 pulls.fill([0.0; D]);
                 report.fill(Report::NOTHING);
+                return;
+            }
+            if common.subcycles.is_some_and(|subcycles| !subcycles.is_due(index, motion.turn)) {
                 return;
             }
             let first = index * CHUNK;
@@ -432,7 +457,7 @@ where
             };
             report.fill(Self::advance_chunk(&common, chunk, &mut strip));
         });
-        Report::joined(self.reports.iter().copied().chain([self.eroded.left]))
+        self.joined_reports()
     }
 
     fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
@@ -454,6 +479,24 @@ where
 
     fn elastic(&self) -> Option<&dyn Elastic<D>> {
         self.law.is_stiffest_at_rest().then_some(self)
+    }
+
+    fn regions(&self) -> Option<&dyn Regions> {
+        self.nodal.is_none().then_some(self)
+    }
+
+    fn start_subcycling(&mut self) {
+        if self.nodal.is_none() {
+            self.remember_intervals();
+        }
+    }
+
+    fn subcycled(&mut self) -> Option<&mut dyn Subcycled<D>> {
+        self.subcycles.is_some().then_some(self)
+    }
+
+    fn step_ratio(&self, element: usize) -> u32 {
+        self.subcycles.as_ref().map_or(1, |subcycles| subcycles.ratio(element / (CHUNK * BATCH)))
     }
 
     fn weigh_motion(&mut self, weight: &dyn Fn(usize) -> f64) {
@@ -545,8 +588,8 @@ where
         #[rustfmt::skip]
         let Self {
             kernel: _, law: _, source: _, density: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
-            reports: _, strips: _, nodal: _,
-            marks, weights, stress, damped, history, elements, resistance, hourglass, eroded,
+            strips: _, nodal: _,
+            reports, marks, weights, stress, damped, history, elements, resistance, hourglass, subcycles, eroded,
         } = self;
         for list in [stress, damped, history, hourglass] {
             list[..].persist(archive)?;
@@ -559,6 +602,10 @@ where
         }
         elements[..].persist(archive)?;
         resistance[..].persist(archive)?;
+        if let Some(subcycles) = subcycles {
+            subcycles.persist(archive)?;
+            reports[..].persist(archive)?;
+        }
         eroded.persist(archive)?;
         if archive.reads() { self.fill_all_up() } else { Ok(()) }
     }

@@ -229,6 +229,7 @@ where
             governor: Governor::Schedule,
             nodal_bound: (model.run.stable_step != StableStep::Elements).then(NodalBound::default),
             assembled_bound: None,
+            subcycling: None,
             team: if count >= SERIAL { Team::new(threads) } else { Team::alone() },
             mesh,
             blocks,
@@ -252,6 +253,9 @@ where
             rotations: NodalRotations::default(),
         };
         system.find_free_nodes();
+        if model.run.subcycling {
+            system.start_subcycling();
+        }
         if model.run.stable_step == StableStep::Assembled {
             system.bound_by_assembled_mesh();
         }

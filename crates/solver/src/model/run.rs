@@ -3,7 +3,7 @@
 use super::section;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{NotNegative, Positive, UpTo};
-use crate::vocabulary::Kind::{Choice, Integer, Quantity, Table, Vector};
+use crate::vocabulary::Kind::{Choice, Flag, Integer, Quantity, Table, Vector};
 use crate::vocabulary::{Choices, Form, Section};
 
 /// What bounds the stable step.
@@ -65,6 +65,9 @@ section! {
             over a few elements and keeps them from ringing.";
     relaxation: Option<Relaxation> = Table(&RELAXATION), Optional("none"),
         "Damping that brings everything to rest, and an end of the run when it is.";
+    subcycling: bool = Flag, Default("false"),
+        "Evaluates elements that allow a longer step in every second, fourth, ... or 64th step only, and those that \
+            need the shortest in all: for meshes in which sizes or materials differ much.";
     mass_scaling: Option<MassScaling> = Table(&MASS_SCALING), Optional("none"),
         "Makes elements with a small stable step heavier, once at the start.";
 }

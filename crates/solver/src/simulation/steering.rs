@@ -61,6 +61,9 @@ where
             system.speed = system.speed.max(dot(new, new).sqrt());
         }
         system.ledger.throw(half, whole, ahead);
+        if let Some(subcycling) = &mut system.subcycling {
+            subcycling.wake();
+        }
         // What comes from outside changes it.
         self.momentum = None;
         Ok(())

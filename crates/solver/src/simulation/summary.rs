@@ -128,6 +128,7 @@ where
             contact: self.certificate(),
             erosion: self.erosion(),
             mass_added: system.mass_added[0],
+            element_evaluations: system.subcycling.as_ref().map(|own| own.evaluations),
             state_hash: crate::record::state_hash(system),
             threads: self.threads,
             simd: system.level.name().to_string(),

@@ -1,5 +1,5 @@
 //! Which elements the stable step costs most: those with the shortest one, what the first step would be
-//! without them, and what it would be by nodes and by the assembled mesh.
+//! without them, what it would be by nodes and by the assembled mesh, and what subcycling would save.
 //!
 //! From the state at time zero; `embate check --time-step` shows it.
 
@@ -32,6 +32,8 @@ pub struct TimeStepCosts {
     pub by_nodes: Option<(f64, String)>,
     /// The same by the assembled mesh; `None`: not so much longer that it saves what it costs.
     pub by_assembled_mesh: Option<(f64, String)>,
+    /// What of all evaluations of elements remains with subcycling, without contact.
+    pub with_subcycling: f64,
 }
 
 /// Of the `most` worst elements.
@@ -57,5 +59,6 @@ where
         elements: all.iter().zip(next).take(most).map(costly).collect(),
         by_nodes: system.step_by_nodes(),
         by_assembled_mesh: system.step_by_assembled_mesh(),
+        with_subcycling: system.share_with_subcycling(),
     }
 }

@@ -66,6 +66,11 @@ where
         Self { criteria, source, energy: 0.0, gone, springs: None, by_part: Vec::new(), first: None }
     }
 
+    /// Whether elements of a block may fail.
+    pub(crate) fn may_fail(&self, block: usize) -> bool {
+        self.criteria.get(block).is_some_and(|criteria| !criteria.is_empty())
+    }
+
     pub(crate) fn is_gone(&self, block: usize) -> bool {
         self.gone.get(block).is_some_and(|&gone| gone)
     }

@@ -117,6 +117,36 @@ where
     }
 }
 
+/// Free nodes from `first` on that nothing pulls at in this step: their velocities stay as they are.
+pub(super) struct Coast<'a, 'b, const D: usize>
+where
+    Dim<D>: Dimension<D>,
+{
+    pub(super) nodes: &'b Nodes<'a, D>,
+    pub(super) first: usize,
+    pub(super) positions_next: &'b mut [[f64; D]],
+}
+
+impl<const D: usize> Kernel for Coast<'_, '_, D>
+where
+    Dim<D>: Dimension<D>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(self) {
+        let Self { nodes, first, positions_next } = self;
+        let dt = L::splat(nodes.time_step);
+        for (group, next) in positions_next.as_chunks_mut::<BATCH>().0.iter_mut().enumerate() {
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let node = first + group * BATCH + at;
+                let (x, v) = (L::load_points(nodes.positions, node), L::load_points(nodes.velocities_old, node));
+                L::store_points(plus(x, times(dt, v)), next, at);
+            }
+        }
+    }
+}
+
 impl<const D: usize> Nodes<'_, D>
 where
     Dim<D>: Dimension<D>,

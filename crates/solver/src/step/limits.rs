@@ -34,7 +34,7 @@ const APPROACH: f64 = 2.5;
 const LEAST_APPROACH: f64 = 0.125;
 /// Springs are made for what may come in with some times the last motion, and at the start there was none:
 /// where bodies are fast, the first step is short, and the next ones, so many, grow by two.
-const FIRST: u64 = 4;
+pub(super) const FIRST: u64 = 4;
 
 /// How many times as fast as the fastest wave and the fastest node at the start together a node may become.
 /// Gas into empty space reaches 2/(γ − 1) times its speed of sound.
@@ -42,6 +42,8 @@ pub const RUNAWAY: f64 = 20.0;
 
 /// Steps before the end that are made equal.
 const LANDING: f64 = 128.0;
+/// Cycles of subcycling before the end that are made equal.
+const LANDING_CYCLES: f64 = 8.0;
 
 /// Limits and fractions of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,16 +104,24 @@ where
             return Err(self.collapsed(time_step, governor));
         }
         let old = self.time_step_old;
+        // Between the begins of its cycles subcycling has planned with the step as it is.
+        let (turn, cycle) = self.subcycling.as_ref().map_or((0, 1), |own| (own.turn(), own.cycle()));
         if self.step > 0 && time_step > old {
             (time_step, governor) = if self.governor == Governor::Contact && self.step <= FIRST {
                 (time_step.min(2.0 * old), Governor::Contact)
             } else {
-                (if time_step > HOLD * old { GROWTH * old } else { old }, Governor::Schedule)
+                let grows = turn == 0 && time_step > HOLD * old;
+                (if grows { GROWTH.powi(cycle as i32) * old } else { old }, Governor::Schedule)
             };
         }
-        // The end is met exactly, by so many equal steps that none jumps.
+        // The end is met exactly, by so many equal steps that none jumps, and at the end of a cycle.
         let left = self.limits.end - self.time;
-        let steps = (left / time_step * (1.0 - 1e-9)).ceil();
+        let cycle = f64::from(cycle);
+        let mut steps = (left / time_step * (1.0 - 1e-9)).ceil();
+        if left > 0.0 && turn == 0 && cycle > 1.0 && steps <= LANDING.max(LANDING_CYCLES * cycle) {
+            steps = (steps / cycle).ceil() * cycle;
+            time_step = left / steps;
+        }
         if left > 0.0 && steps <= LANDING {
             (time_step, governor) = (left / steps.max(1.0), Governor::Schedule);
         }

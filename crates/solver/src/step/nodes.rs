@@ -16,7 +16,7 @@ use crate::load::join::{Group, Joins};
 use crate::load::non_reflecting::NonReflecting;
 use crate::rigid::Bodies;
 use crate::rotation::{Square, applied, inverse, transposed, unit_matrix};
-use crate::step::free::Free;
+use crate::step::free::{Coast, Free};
 use crate::tensor::{Dim, product};
 use crate::vector::{dot, plus, times};
 use embate_lanes::{BATCH, Level};
@@ -183,6 +183,32 @@ where
             }
         }
         sums
+    }
+
+    /// Whether nodes that no element pulls at keep their velocities: but for contact and what holds them.
+    pub(crate) fn coast_freely(&self) -> bool {
+        self.loads.is_empty() && self.gravity.is_empty() && !self.damping.acts()
+    }
+
+    /// The same as [`Nodes::update`] for nodes that coast, with the sums of their last step; `None` where a
+    /// contact pushes one. `has_coasted`: in the last step too, so that their velocities are in place.
+    pub(crate) fn coast(
+        &self,
+        (first, has_coasted): (usize, bool),
+        velocities: &mut [[f64; D]],
+        positions_next: &mut [[f64; D]],
+        last: &Sums,
+    ) -> Option<Sums> {
+        let groups = first / BATCH..(first + velocities.len()) / BATCH;
+        if self.contact_forces.is_some_and(|forces| groups.clone().any(|group| forces.has(group))) {
+            return None;
+        }
+        if !has_coasted {
+            velocities.copy_from_slice(&self.velocities_old[first..first + velocities.len()]);
+        }
+        self.level.run(Coast { nodes: self, first, positions_next });
+        let Sums { kinetic_half, speed_squared, .. } = *last;
+        Some(Sums { kinetic_half, kinetic: kinetic_half, speed_squared, ..Sums::default() })
     }
 
     /// Updates the velocities of the groups and sums their works.

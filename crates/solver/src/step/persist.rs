@@ -77,6 +77,7 @@ where
             springs: _, erosion: _, rotations: _,
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
             bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
+            subcycling,
         } = self;
         persist_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
         persist_each!(archive; ledger, bodies, curves, &mut reports[..]);
@@ -86,6 +87,9 @@ where
         }
         if let Some(bound) = assembled_bound {
             bound.persist(archive)?;
+        }
+        if let Some(subcycling) = subcycling {
+            subcycling.persist(archive)?;
         }
         let mut has_relaxation = relaxation.is_some();
         has_relaxation.persist(archive)?;

@@ -70,6 +70,7 @@ mod softening;
 mod space;
 mod steering;
 mod stress_states;
+mod subcycling;
 mod symmetry_planes;
 mod swept;
 mod surface_ties;

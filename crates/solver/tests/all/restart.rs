@@ -115,7 +115,7 @@ fn other(number: usize) -> Options {
 
 /// Holds runs that continue against one that was never stopped: `steps` steps of the model, stopped at some
 /// of them.
-fn continues(what: &str, model: &Model, steps: u64) {
+pub(crate) fn continues(what: &str, model: &Model, steps: u64) {
     let mut model = model.clone();
     model.run.max_steps = Some(steps);
     // Neither divides the other, nor the stages of a run.

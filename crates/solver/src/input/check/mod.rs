@@ -23,9 +23,9 @@ use crate::material::messages::{EQUATION_OF_STATE, PARAMETER_MISSING, PARAMETER_
 use crate::material::{self, Parameters};
 use crate::mesh::messages::BARS;
 use crate::message::Message;
-use crate::model::messages::{LIST_LENGTH, NAME, NO_DIRECTION, OUTPUT_TOO_MUCH, PERIOD, RANGE, TWICE, UNKNOWN_NAME};
+use crate::model::messages::{CLASH, LIST_LENGTH, NAME, NO_DIRECTION, OUTPUT_TOO_MUCH, PERIOD, RANGE, TWICE, UNKNOWN_NAME};
 use crate::model::reference::{Reference, Wanted};
-use crate::model::{Axis, Cadence, Camera, Material, Model, Part, Probe, ProbeAt, Shape};
+use crate::model::{Axis, Cadence, Camera, Material, Model, Part, Probe, ProbeAt, Shape, StableStep};
 use crate::output;
 use crate::quantity::{Dimension, Parameter, Range};
 use crate::vocabulary::{Key, excerpt, nearest, out_of_range, suggestion};
@@ -183,6 +183,22 @@ impl Check<'_> {
         if let Some(relaxation) = run.relaxation {
             self.number("run.relaxation.tolerance", relaxation.tolerance);
             self.number("run.relaxation.from", relaxation.from);
+        }
+        if run.subcycling && run.relaxation.is_some() {
+            self.fault(
+                &CLASH,
+                "run.subcycling",
+                "dynamic relaxation finds its damping from the forces of all elements in every step",
+                "leave one of `subcycling` and `relaxation` out",
+            );
+        }
+        if run.subcycling && run.stable_step != StableStep::Elements {
+            self.fault(
+                &CLASH,
+                "run.subcycling",
+                "with `subcycling` the stable step is that by elements",
+                "leave one of `subcycling` and `stable_step` out",
+            );
         }
         if let Some(scaling) = run.mass_scaling {
             self.number("run.mass_scaling.time_step", scaling.time_step);

@@ -310,6 +310,12 @@ impl Ledger {
         self.largest = self.largest.max(self.stores.total().abs());
     }
 
+    /// Adds kinetic energy that mass brings which is added before the update, as work from outside, J/m.
+    pub(crate) fn bring(&mut self, kinetic: f64) {
+        self.works.load += kinetic;
+        self.halves[0] += kinetic;
+    }
+
     /// Largest |change of kinetic energy − sum of works| over the largest total energy.
     #[must_use]
     pub fn residual(&self) -> f64 {

@@ -1,5 +1,7 @@
 //! Masses of parts: in total, and on their nodes.
 
+use crate::archive::persist_all;
+
 /// What parts weigh.
 pub(crate) struct PartMasses {
     /// Mass of the elements of each part, kg/m (kg).
@@ -9,10 +11,20 @@ pub(crate) struct PartMasses {
     shared: Vec<Vec<(u32, f64)>>,
 }
 
+persist_all!(PartMasses { whole, shared });
+
 impl PartMasses {
     /// From the mass of each part, kg/m (kg), and its masses on nodes that weigh more, nodes ascending.
     pub(crate) fn new(whole: Vec<f64>, shared: Vec<Vec<(u32, f64)>>) -> Self {
         Self { whole, shared }
+    }
+
+    /// Adds to the mass of the elements of a part on one of its nodes, kg/m (kg).
+    pub(crate) fn add(&mut self, part: usize, node: u32, mass: f64) {
+        self.whole[part] += mass;
+        if let Ok(at) = self.shared[part].binary_search_by_key(&node, |&(node, _)| node) {
+            self.shared[part][at].1 += mass;
+        }
     }
 
     /// Mass of the elements of a part on one of its nodes, which weighs `mass` in all, kg/m (kg).

@@ -197,6 +197,17 @@ pub struct Erosion {
     pub first: Eroded,
 }
 
+/// Mass that was added in the run for longer steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassInRun {
+    /// The mass, kg/m (kg).
+    pub mass: f64,
+    /// Absolute value of the momentum that it brought, kg/s (kg m/s).
+    pub momentum: f64,
+    /// Kinetic energy that it brought, J/m (J).
+    pub kinetic_energy: f64,
+}
+
 /// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of
 /// each.
 #[derive(Clone, Debug, PartialEq)]
@@ -232,6 +243,8 @@ pub struct Summary {
     pub contact: Certificate,
     /// Mass that was added for longer steps, kg/m.
     pub mass_added: f64,
+    /// That of it which was added in the run; `None`: none was.
+    pub mass_added_in_run: Option<MassInRun>,
     /// With subcycling: elements that were evaluated in all steps; without it, that is all in each.
     pub element_evaluations: Option<u64>,
     /// What erosion has done; `None`: no element was eroded.

@@ -9,6 +9,7 @@ pub(crate) mod free;
 mod assembled_bound;
 mod assembled_stiffness;
 mod limits;
+pub(crate) mod mass_scaling;
 mod nodal_bound;
 mod nodes;
 mod persist;
@@ -45,6 +46,7 @@ use embate_lanes::{Chunks, Level, Team};
 use erosion::Erosion;
 use free::Groups;
 pub use limits::{Governor, Limits, RUNAWAY};
+use mass_scaling::MassScaling;
 pub(crate) use nodal_bound::NodalBound;
 use nodes::Nodes;
 use relaxation::Relaxation;
@@ -151,6 +153,8 @@ where
     pub(crate) rotations: NodalRotations,
     /// Mass that was added for longer steps, and the true mass of what it was added to, kg/m.
     pub(crate) mass_added: [f64; 2],
+    /// Mass that is added in the run, where the model wants it.
+    pub(crate) mass_scaling: Option<MassScaling<D>>,
 }
 
 /// What contacts see of the system, field by field.
@@ -208,6 +212,7 @@ where
     /// Everything that follows from the positions x^n.
     fn evaluate_forces(&mut self) -> Result<(), Error> {
         let elements = self.strain_and_detect();
+        let elements = self.scale_mass(elements);
         let elements = self.choose_ratios(elements);
         let time_step = self.stable_step(&elements);
         if time_step.is_err() {

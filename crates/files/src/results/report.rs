@@ -31,6 +31,17 @@ pub struct MomentumDrift {
     pub angular: Option<f64>,
 }
 
+/// Mass that was added in the run for longer steps.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MassAddedInRun {
+    /// The mass, kg/m (kg).
+    pub mass: f64,
+    /// Absolute value of the momentum that it brought, kg/s (kg m/s).
+    pub momentum: f64,
+    /// Kinetic energy that it brought, J/m (J).
+    pub kinetic_energy: f64,
+}
+
 /// Proof that no contact between surfaces was missed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ContactCheck {
@@ -133,6 +144,10 @@ pub struct Report {
     /// Mass that was added for longer steps, kg/m; left out where none was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_added: Option<f64>,
+    /// What of it was added in the run, with the momentum and the energy that it brought; left out where none
+    /// was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_added_in_run: Option<MassAddedInRun>,
     /// With subcycling: elements that were evaluated in all steps; left out without.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub element_evaluations: Option<u64>,
@@ -194,6 +209,11 @@ impl Report {
                 unverified: summary.contact.unverified,
             },
             mass_added: (summary.mass_added != 0.0).then_some(summary.mass_added),
+            mass_added_in_run: summary.mass_added_in_run.map(|own| MassAddedInRun {
+                mass: own.mass,
+                momentum: own.momentum,
+                kinetic_energy: own.kinetic_energy,
+            }),
             element_evaluations: summary.element_evaluations,
             erosion: summary.erosion.as_ref().map(|it| erosion(it, summary.dimension)),
             state_hash: summary.state_hash.clone(),

@@ -70,6 +70,7 @@ fn summary(steps: u64) -> Summary {
         momentum_drift_angular: None,
         erosion: None,
         mass_added: 0.0,
+        mass_added_in_run: None,
         element_evaluations: None,
         penetration_max: 0.0,
         contact: embate_solver::contact::tracker::Certificate::default(),

@@ -94,18 +94,6 @@ impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
-    pub(super) fn make_heavier(&mut self, element: usize, factor: f64) {
-        let (last, nodes) = (self.count - 1, self.facts().nodes);
-        // The lanes that fill the last batch are copies of the last element.
-        let lanes = if element == last { element..self.elements.len() * BATCH } else { element..element + 1 };
-        for (batch, lane) in lanes.map(|element| (element / BATCH, element % BATCH)) {
-            for a in 0..nodes {
-                self.corner_mass[batch * nodes + a].0[lane] *= factor;
-            }
-            self.elements[batch].mass_least.0[lane] *= factor;
-        }
-    }
-
     pub(super) fn failing(&self, criteria: &[Criterion], parallel: bool) -> Vec<(u32, u32)> {
         let look = |(index, batches): (usize, &[ElementBatch])| -> Vec<(u32, u32)> {
             let mut failed = Vec::new();

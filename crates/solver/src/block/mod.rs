@@ -20,6 +20,7 @@ mod initial;
 mod kernel;
 mod local;
 mod make;
+mod mass_scaling;
 mod nodal;
 pub(crate) mod spring;
 mod store;
@@ -274,6 +275,16 @@ pub trait Block<const D: usize>: Send + Sync {
     /// Makes an element heavier by a factor, for a longer stable step; before the first [`Block::advance`]
     /// that counts.
     fn scale_mass(&mut self, element: usize, factor: f64);
+    /// Mass that elements whose squared stable step, s², is below the first of these need for the second,
+    /// kg/m in 2D, in the state of the last [`Block::advance`].
+    fn mass_for(&self, _squared: [f64; 2]) -> f64 {
+        0.0
+    }
+    /// Gives it to them, the same to each corner, and hands over each node with what it got; returns what the
+    /// block reports with it. `None`: its elements can't be made heavier.
+    fn make_heavier(&mut self, _squared: [f64; 2], _add: &mut dyn FnMut(u32, f64)) -> Option<Report> {
+        None
+    }
     /// Gives the points what they hold at the start; before the first [`Block::advance`].
     ///
     /// # Errors

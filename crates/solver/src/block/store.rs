@@ -546,7 +546,16 @@ where
     }
 
     fn scale_mass(&mut self, element: usize, factor: f64) {
-        self.make_heavier(element, factor);
+        self.scale_corner_masses(element, factor);
+    }
+
+    fn mass_for(&self, squared: [f64; 2]) -> f64 {
+        self.needed_mass(squared)
+    }
+
+    fn make_heavier(&mut self, squared: [f64; 2], add: &mut dyn FnMut(u32, f64)) -> Option<Report> {
+        self.add_mass(squared, add);
+        Some(self.joined_reports())
     }
 
     fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong> {

@@ -38,16 +38,18 @@ struct Interval {
     since: f64,
     /// Time that was to pass from it to the next, s.
     planned: f64,
-    /// w': the last impulse per force after the whole step, s; 0 once its work is known.
+    /// Whether the slots hold an impulse; w', its part after the whole step per force, s, which is negative
+    /// where far too much was planned.
+    pulls: bool,
     pending: f64,
     /// Work that the nodes have got and the elements have not given yet, J/m.
     owed: f64,
 }
 
-persist_all!(Interval { ratio, since, planned, pending, owed });
+persist_all!(Interval { ratio, since, planned, pulls, pending, owed });
 
 impl Interval {
-    const FIRST: Self = Self { ratio: 1, since: 0.0, planned: 0.0, pending: 0.0, owed: 0.0 };
+    const FIRST: Self = Self { ratio: 1, since: 0.0, planned: 0.0, pulls: false, pending: 0.0, owed: 0.0 };
 
     fn is_due(&self, turn: u32) -> bool {
         turn.is_multiple_of(self.ratio)
@@ -117,11 +119,11 @@ where
             let Some(own) = own.first_mut() else { return };
             own.since += motion.time_step;
             if own.is_due(motion.turn) {
-                (own.owed, own.pending) = (0.0, 0.0);
-            } else if own.pending > 0.0 {
+                (own.owed, own.pulls) = (0.0, false);
+            } else if own.pulls {
                 let power = |(&node, force): (&u32, &[f64; D])| dot(*force, motion.velocities[node as usize]);
                 let power: f64 = nodes.of_chunk(index).iter().zip(&forces[index * width..]).map(power).sum();
-                (own.owed, own.pending) = (own.pending * power, 0.0);
+                (own.owed, own.pulls) = (own.pending * power, false);
                 slots.fill([0.0; D]);
             }
         });
@@ -146,7 +148,7 @@ where
                 for (position, &node) in positions.iter_mut().zip(nodes.of_chunk(index)) {
                     *position = begin.positions[node as usize];
                 }
-                own.pending = new / (old + new) * weight;
+                (own.pulls, own.pending) = (true, new / (old + new) * weight);
             }
             let factor = weight / (0.5 * (old + new));
             if factor != 1.0 {

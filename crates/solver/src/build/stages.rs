@@ -35,6 +35,7 @@ use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{self, ContactLaw, Penalty, PenaltySource, StableStep};
 use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
+use crate::step::mass_scaling::MassScaling;
 use crate::step::relaxation::Relaxation;
 use crate::step::rotations::NodalRotations;
 use crate::step::{CHUNK, Governor, NodalBound, System};
@@ -221,6 +222,12 @@ where
             initial_penetrations,
             erosion,
             mass_added,
+            mass_scaling: model
+                .run
+                .mass_scaling
+                .as_ref()
+                .filter(|own| own.in_run)
+                .map(|own| MassScaling::new(own, model.run.safety, mass_added)),
             relaxation: model.run.relaxation.map(|relaxation| Relaxation::new(relaxation, nodes)),
             step: 0,
             time: 0.0,

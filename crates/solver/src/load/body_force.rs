@@ -127,6 +127,14 @@ where
         }
     }
 
+    /// Takes for the true mass of a node this part of what it was so far.
+    pub(crate) fn dilute(&mut self, node: usize, part: f64) {
+        self.loads.iter_mut().for_each(|load| load.shares[node] *= part);
+        if let Some(now) = self.now.get_mut(node) {
+            *now = times(part, *now);
+        }
+    }
+
     /// Acceleration of every node now, m/s²; empty when the model has no such load.
     #[must_use]
     pub fn accelerations(&self) -> &[[f64; D]] {

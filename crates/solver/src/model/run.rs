@@ -66,10 +66,10 @@ section! {
     relaxation: Option<Relaxation> = Table(&RELAXATION), Optional("none"),
         "Damping that brings everything to rest, and an end of the run when it is.";
     subcycling: bool = Flag, Default("false"),
-        "Evaluates elements that allow a longer step in every second, fourth, ... or 64th step only, and those that \
+        "Evaluates elements that allow a longer step in every second, third, ... up to 64th step only, and those that \
             need the shortest in all: for meshes in which sizes or materials differ much.";
     mass_scaling: Option<MassScaling> = Table(&MASS_SCALING), Optional("none"),
-        "Makes elements with a small stable step heavier, once at the start.";
+        "Makes elements with a small stable step heavier, at the start and, if wanted, in the run.";
 }
 
 section! {
@@ -95,11 +95,14 @@ section! {
         name: "mass_scaling",
         doc: "Raises the density of elements whose stable step is too small, so that all allow one step at the start. \
             The added mass resists motion; what gravity pulls at stays the true mass. Later steps may be smaller, as \
-            elements change their shape.",
+            elements change their shape; `in_run` adds mass then, too.",
         ..Section::EMPTY
     };
     time_step: f64 = Quantity(Dimension::TIME, Positive), Required,
         "Step that every element shall allow, `safety` included.";
     limit: f64 = Quantity(Dimension::NONE, Positive), Default("0.05"),
-        "Largest mass that may be added, as a fraction of the mass of the deformable parts; more is a fault.";
+        "Largest mass that may be added, as a fraction of the mass of the deformable parts; more at the start is a fault.";
+    in_run: bool = Flag, Default("false"),
+        "Whether elements whose step falls below `time_step` in the run get mass then, until `limit` is reached; after \
+            that the step falls. The mass comes with the velocity of its node.";
 }

@@ -6,12 +6,12 @@ use super::{ContactSearch, Runs};
 use crate::contact::Contact;
 use crate::contact::messages::{MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
 use crate::contact::tracker::Certificate;
-use crate::error::{ERODED, Notice, RELAXED};
+use crate::error::{ERODED, MASS_ADDED, Notice, RELAXED};
 use crate::mesh::PartMesh;
-use crate::output::{Eroded, Erosion, Summary};
+use crate::output::{Eroded, Erosion, MassInRun, Summary};
 use crate::record::Momentum;
 use crate::tensor::Dim;
-use crate::vector::{first, place};
+use crate::vector::{dot, first, place};
 
 impl<const D: usize> Run<D>
 where
@@ -52,6 +52,22 @@ where
                     ),
                     None => format!("relaxation: not at rest; kinetic over internal energy {:.3e}", relaxation.ratio),
                 },
+            );
+        }
+        if let Some(own) = self.system.mass_scaling.as_ref().filter(|own| own.added > 0.0 || own.exhausted.is_some()) {
+            let share = 100.0 * (self.system.mass_added[0] + own.added) / self.system.mass_added[1];
+            let limit =
+                own.exhausted.map_or(String::new(), |time| format!("; from {time:.6e} s on elements needed more than `limit` allows"));
+            report(
+                &MASS_ADDED,
+                format!(
+                    "mass scaling added {:.6e} kg{per} in the run, with that at the start {share:.3} % of the mass of the deformable \
+                        parts; it came with a momentum of {:.3e} kg{per} m/s and a kinetic energy of {:.3e} J{per}{limit}",
+                    own.added,
+                    dot(own.momentum, own.momentum).sqrt(),
+                    own.kinetic,
+                    per = if D == 2 { "/m" } else { "" },
+                ),
             );
         }
         let unsolved = self.system.springs.unsolved;
@@ -111,6 +127,9 @@ where
     /// Figures of the run so far (valid after a failure too).
     pub(crate) fn summary(&self) -> Summary {
         let system = &self.system;
+        let mass_in_run = system.mass_scaling.as_ref().filter(|own| own.added > 0.0);
+        // Added mass brings momentum.
+        let momentum = self.momentum.as_ref().filter(|_| mass_in_run.is_none());
         Summary {
             dimension: D,
             elements: self.elements(),
@@ -122,12 +141,17 @@ where
             stable_time_step_governor: self.shortest.governor.clone(),
             energy_drift: system.ledger.drift(),
             ledger_residual: system.ledger.residual(),
-            momentum_drift_linear: self.momentum.as_ref().map(Momentum::linear),
-            momentum_drift_angular: self.momentum.as_ref().and_then(Momentum::angular),
+            momentum_drift_linear: momentum.map(Momentum::linear),
+            momentum_drift_angular: momentum.and_then(Momentum::angular),
             penetration_max: system.penetration_max,
             contact: self.certificate(),
             erosion: self.erosion(),
-            mass_added: system.mass_added[0],
+            mass_added: system.mass_added[0] + mass_in_run.map_or(0.0, |own| own.added),
+            mass_added_in_run: mass_in_run.map(|own| MassInRun {
+                mass: own.added,
+                momentum: dot(own.momentum, own.momentum).sqrt(),
+                kinetic_energy: own.kinetic,
+            }),
             element_evaluations: system.subcycling.as_ref().map(|own| own.evaluations),
             state_hash: crate::record::state_hash(system),
             threads: self.threads,

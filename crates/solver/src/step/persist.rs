@@ -45,6 +45,7 @@ where
         self.persist_system(archive)?;
         archive.section("nodes")?;
         self.persist_nodes(archive)?;
+        self.persist_masses(archive)?;
         if !self.rotations.now.is_empty() {
             archive.section("rotations")?;
             self.rotations.persist(archive)?;
@@ -72,12 +73,12 @@ where
         #[rustfmt::skip]
         let Self {
             mesh: _, assembly: _, mass: _, body_parts: _, rigid: _, has_springs: _, shares: _, outlines: _, constraints: _, damping: _, body_forces: _,
-            boundary: _, joins: _, level: _, team: _, of_revolution: _, slots: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
-            mass_added: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
+            boundary: _, joins: _, level: _, team: _, of_revolution: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
+            mass_added: _, mass_scaling: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
             springs: _, erosion: _, rotations: _,
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
             bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
-            subcycling,
+            subcycling, slots,
         } = self;
         persist_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
         persist_each!(archive; ledger, bodies, curves, &mut reports[..]);
@@ -90,6 +91,10 @@ where
         }
         if let Some(subcycling) = subcycling {
             subcycling.persist(archive)?;
+            if archive.reads() {
+                // Elements that are not evaluated next leave them as they are.
+                slots.fill([0.0; D]);
+            }
         }
         let mut has_relaxation = relaxation.is_some();
         has_relaxation.persist(archive)?;

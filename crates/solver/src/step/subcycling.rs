@@ -218,7 +218,7 @@ where
     }
 
     /// Square of the stable step of what needs the shortest, s².
-    fn shortest_squared(&self) -> f64 {
+    pub(super) fn shortest_squared(&self) -> f64 {
         let of = |block: usize| self.blocks[block].regions().map_or(self.reports[block].time_step_squared, Regions::shortest_squared);
         let strained = (0..self.blocks.len()).filter(|&block| !self.rigid[block]);
         self.with_springs(reductions::min(strained.map(of)))

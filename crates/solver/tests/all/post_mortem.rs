@@ -156,7 +156,7 @@ fn the_mass_for_a_step_and_the_longest_step_within_the_limit_are_those_of_the_cl
     add_mesh(&mut model, "bar", mesh, [0.0, 0.0]);
     assert!(MassNeeded::of(&model, &Options::default()).unwrap().is_none());
     let step = simulation(&model).time_step();
-    model.run.mass_scaling = Some(MassScaling { time_step: 2.0 * step, limit: 0.2 });
+    model.run.mass_scaling = Some(MassScaling { time_step: 2.0 * step, limit: 0.2, in_run: false });
     let needed = MassNeeded::of(&model, &Options::default()).unwrap().unwrap();
     assert!((needed.share(2.0 * step) - 3.0 / 11.0).abs() < 1e-9, "{}", needed.share(2.0 * step));
     assert!((needed.longest() / (step * (1.0 + 0.2 * 11.0f64).sqrt()) - 1.0).abs() < 1e-9);
@@ -164,6 +164,6 @@ fn the_mass_for_a_step_and_the_longest_step_within_the_limit_are_those_of_the_cl
     assert!(worst.part == "bar" && worst.at[0] > 0.1 && (worst.added / worst.mass - 3.0).abs() < 1e-9, "{worst:?}");
     assert_eq!((needed.parts[0].elements, needed.parts[0].light), (40, 20));
     // With as much mass the model begins.
-    model.run.mass_scaling = Some(MassScaling { time_step: 0.999 * needed.longest(), limit: 0.2 });
+    model.run.mass_scaling = Some(MassScaling { time_step: 0.999 * needed.longest(), limit: 0.2, in_run: false });
     simulation(&model);
 }

@@ -8,8 +8,8 @@
 //! change of the code that should change no result leaves it so, one that changes results makes it again
 //! (`EMBATE_BLESS=1`, `--count 400`). What is found is reported with the number of the model. In 3D, where
 //! all bodies meet in `double_pass`, elements say whether nodes of one body are deep in another one
-//! (`inside.rs`): a run that does not say so is a finding. With `--subcycling 1` every second material is 36
-//! times as heavy, and all models run with subcycling, of which nothing is known before.
+//! (`inside.rs`): a run that does not say so is a finding. With `--heavy 1` every second material is 36 times
+//! as heavy, and with `--subcycling 1` all models run with subcycling, too: of both nothing is known before.
 //!
 //! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of
 //! springs that are stiff against theirs, or of elements that collapse within a few. Those are counted. The
@@ -56,6 +56,13 @@ fn known(table: &str) -> BTreeMap<u64, String> {
     lines.filter_map(|(seed, what)| Some((seed.parse().ok()?, what.to_string()))).collect()
 }
 
+/// How models are changed.
+#[derive(Clone, Copy, Default)]
+struct Change {
+    heavy: bool,
+    subcycling: bool,
+}
+
 /// How one model ended.
 enum End {
     Refused(&'static Message),
@@ -64,7 +71,7 @@ enum End {
 }
 
 fn main() {
-    let (mut seconds, mut first, mut count, mut dimension, mut subcycling) = (60.0, 1u64, u64::MAX, 0u64, false);
+    let (mut seconds, mut first, mut count, mut dimension, mut change) = (60.0, 1u64, u64::MAX, 0u64, Change::default());
     let words: Vec<String> = std::env::args().skip(1).collect();
     for pair in words.chunks(2) {
         match (pair[0].as_str(), pair.get(1).and_then(|word| word.parse::<f64>().ok())) {
@@ -72,7 +79,8 @@ fn main() {
             ("--first", Some(value)) => first = value as u64,
             ("--count", Some(value)) => count = value as u64,
             ("--dimension", Some(value)) => dimension = value as u64,
-            ("--subcycling", Some(value)) => subcycling = value > 0.0,
+            ("--heavy", Some(value)) => change.heavy = value > 0.0,
+            ("--subcycling", Some(value)) => change = Change { heavy: value > 0.0, subcycling: value > 0.0 },
             // Those of the test runner.
             _ => {}
         }
@@ -81,14 +89,14 @@ fn main() {
     let begin = Instant::now();
     let (mut ends, mut found) = (BTreeMap::<String, u64>::new(), Vec::new());
     let (mut steps, mut longer, mut warm, mut done, mut drifting, mut stepping) = (0, 0, 0, 0, 0u64, 0u64);
-    let (mut hashes, drifts) = if subcycling { Default::default() } else { (known(HASHES), known(DRIFTS)) };
+    let (mut hashes, drifts) = if change.heavy { Default::default() } else { (known(HASHES), known(DRIFTS)) };
     std::panic::set_hook(Box::new(|_| {}));
     let numbers = (first..u64::MAX).filter(|seed| dimension == 0 || dimension == dimension_of(*seed));
     for seed in numbers.take(count.try_into().unwrap_or(usize::MAX)) {
         if begin.elapsed() > Duration::from_secs_f64(seconds) {
             break;
         }
-        match catch_unwind(AssertUnwindSafe(|| run(seed, subcycling, [&mut steps, &mut longer], &mut hashes))) {
+        match catch_unwind(AssertUnwindSafe(|| run(seed, change, [&mut steps, &mut longer], &mut hashes))) {
             Ok((end, drift, mut faults)) => {
                 let by_step = drift.as_ref().is_some_and(|drift| drift.left < LEFT);
                 stepping += u64::from(by_step);
@@ -130,13 +138,13 @@ fn main() {
         begin.elapsed().as_secs_f64(),
         grown >> 10
     );
-    if subcycling {
+    if change.subcycling {
         println!("  {longer} with regions that are evaluated less often");
     }
     for (end, count) in &ends {
         println!("  {count:>6} {end}");
     }
-    if is_blessed() && !subcycling {
+    if is_blessed() && !change.heavy {
         // Those of models that did not run stay.
         let lines: String = hashes.iter().map(|(seed, hash)| format!("{seed} {hash}\n")).collect();
         std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/soak/hashes.txt"), lines).expect("the table can be written");
@@ -168,15 +176,10 @@ struct Drift {
 }
 
 /// Runs a model; its drift where that is large, and what is wrong with it.
-fn run(
-    seed: u64,
-    subcycling: bool,
-    [steps, longer]: [&mut u64; 2],
-    hashes: &mut BTreeMap<u64, String>,
-) -> (End, Option<Drift>, Vec<String>) {
+fn run(seed: u64, change: Change, [steps, longer]: [&mut u64; 2], hashes: &mut BTreeMap<u64, String>) -> (End, Option<Drift>, Vec<String>) {
     let mut model = model(seed);
-    if subcycling {
-        model.run.subcycling = true;
+    model.run.subcycling = change.subcycling;
+    if change.heavy {
         let heavy = model.materials.values_mut().skip(1).step_by(2);
         heavy.filter_map(|material| material.parameters.get_mut("density")).for_each(|density| *density *= 36.0);
     }

@@ -62,11 +62,12 @@ where
                 &MASS_ADDED,
                 format!(
                     "mass scaling added {:.6e} kg{per} in the run, with that at the start {share:.3} % of the mass of the deformable \
-                        parts; it came with a momentum of {:.3e} kg{per} m/s and a kinetic energy of {:.3e} J{per}{limit}",
+                        parts; it came with a momentum of {:.3e} {momentum} and a kinetic energy of {:.3e} J{per}{limit}",
                     own.added,
                     dot(own.momentum, own.momentum).sqrt(),
                     own.kinetic,
                     per = if D == 2 { "/m" } else { "" },
+                    momentum = if D == 2 { "kg/s" } else { "kg m/s" },
                 ),
             );
         }

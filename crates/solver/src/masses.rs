@@ -1,6 +1,6 @@
 //! Masses of parts: in total, and on their nodes.
 
-use crate::archive::persist_all;
+use crate::archive::{Archive, ArchiveResult, Persist};
 
 /// What parts weigh.
 pub(crate) struct PartMasses {
@@ -11,7 +11,13 @@ pub(crate) struct PartMasses {
     shared: Vec<Vec<(u32, f64)>>,
 }
 
-persist_all!(PartMasses { whole, shared });
+impl Persist for PartMasses {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Self { whole, shared } = self;
+        whole[..].persist(archive)?;
+        shared.iter_mut().flatten().try_for_each(|(_, mass)| mass.persist(archive))
+    }
+}
 
 impl PartMasses {
     /// From the mass of each part, kg/m (kg), and its masses on nodes that weigh more, nodes ascending.

@@ -245,7 +245,8 @@ pub struct Summary {
     pub mass_added: f64,
     /// That of it which was added in the run; `None`: none was.
     pub mass_added_in_run: Option<MassInRun>,
-    /// With subcycling: elements that were evaluated in all steps; without it, that is all in each.
+    /// With subcycling: evaluations of elements, summed over the steps; without it, all are evaluated in
+    /// each.
     pub element_evaluations: Option<u64>,
     /// What erosion has done; `None`: no element was eroded.
     pub erosion: Option<Erosion>,

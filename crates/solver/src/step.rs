@@ -324,7 +324,9 @@ where
         }
         let elements = &self.reports[..self.reports.len() - 1];
         let of_elements = reductions::min(elements.iter().map(|report| report.time_step_squared));
-        Report { time_step_squared: self.with_springs(of_elements), ..all }
+        // Where elements are evaluated less often there are no springs.
+        let beside = if self.subcycling.is_some() { self.shortest_of_elements() } else { of_elements };
+        Report { time_step_squared: self.with_springs(beside).min(of_elements), ..all }
     }
 
     /// Square of the step that is stable for springs too, s², from that of the elements.

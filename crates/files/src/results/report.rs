@@ -148,7 +148,7 @@ pub struct Report {
     /// was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_added_in_run: Option<MassAddedInRun>,
-    /// With subcycling: elements that were evaluated in all steps; left out without.
+    /// With subcycling: evaluations of elements, summed over the steps; left out without.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub element_evaluations: Option<u64>,
     /// What erosion has done; left out where nothing was eroded.

@@ -276,13 +276,13 @@ pub trait Block<const D: usize>: Send + Sync {
     /// that counts.
     fn scale_mass(&mut self, element: usize, factor: f64);
     /// Mass that elements whose squared stable step, s², is below the first of these need for the second,
-    /// kg/m in 2D, in the state of the last [`Block::advance`].
-    fn mass_for(&self, _squared: [f64; 2]) -> f64 {
+    /// kg/m in 2D, in the state of the last [`Block::advance`]; of elements all of whose nodes `may` get any.
+    fn mass_for(&self, _squared: [f64; 2], _may: &dyn Fn(u32) -> bool) -> f64 {
         0.0
     }
-    /// Gives it to them, the same to each corner, and hands over each node with what it got; returns what the
-    /// block reports with it. `None`: its elements can't be made heavier.
-    fn make_heavier(&mut self, _squared: [f64; 2], _add: &mut dyn FnMut(u32, f64)) -> Option<Report> {
+    /// Gives it to them, the same to each corner, and hands over each node with what it got; returns the
+    /// squared step that the block reports with it. `None`: none was given.
+    fn make_heavier(&mut self, _squared: [f64; 2], _may: &dyn Fn(u32) -> bool, _add: &mut dyn FnMut(u32, f64)) -> Option<f64> {
         None
     }
     /// Gives the points what they hold at the start; before the first [`Block::advance`].

@@ -549,13 +549,12 @@ where
         self.scale_corner_masses(element, factor);
     }
 
-    fn mass_for(&self, squared: [f64; 2]) -> f64 {
-        self.needed_mass(squared)
+    fn mass_for(&self, squared: [f64; 2], may: &dyn Fn(u32) -> bool) -> f64 {
+        self.needed_mass(squared, may)
     }
 
-    fn make_heavier(&mut self, squared: [f64; 2], add: &mut dyn FnMut(u32, f64)) -> Option<Report> {
-        self.add_mass(squared, add);
-        Some(self.joined_reports())
+    fn make_heavier(&mut self, squared: [f64; 2], may: &dyn Fn(u32) -> bool, add: &mut dyn FnMut(u32, f64)) -> Option<f64> {
+        self.add_mass(squared, may, add).then(|| self.joined_reports().time_step_squared)
     }
 
     fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong> {

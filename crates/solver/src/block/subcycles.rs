@@ -26,8 +26,8 @@ use crate::tensor::{Dim, Space};
 use crate::vector::{dot, minus, times};
 use embate_lanes::{BATCH, Chunks, Moving, Team};
 
-/// Largest step ratio.
-pub const RATIO_MOST: u32 = 64;
+/// Largest step ratio; a number with many divisors.
+pub const RATIO_MOST: u32 = 60;
 
 /// A chunk between two of its evaluations.
 #[derive(Clone, Copy, Debug)]

@@ -15,8 +15,9 @@ where
     Dim<D>: Builds<D>,
 {
     /// Scales the mass of parts (`mass_scale`) and of elements below the wanted step. Returns the mass added
-    /// to deformable parts and their true mass, kg/m; more than the limit is a fault.
-    pub(super) fn scale_mass(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) -> [f64; 2] {
+    /// to deformable parts and their true mass, and what of it was added for the wanted step, kg/m; more of
+    /// this than the limit is a fault.
+    pub(super) fn scale_mass(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) -> ([f64; 2], f64) {
         let masses = |block: &dyn Block<D>| (0..block.elements()).map(|element| block.mass(element)).sum::<f64>();
         let (mut before, mut after) = (0.0, 0.0);
         let mut wanted_adds = 0.0;
@@ -61,7 +62,7 @@ where
                 "take a smaller step, fix the smallest elements, or raise `limit`",
             ));
         }
-        [after - before, before]
+        ([after - before, before], wanted_adds)
     }
 }
 

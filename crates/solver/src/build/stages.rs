@@ -66,6 +66,8 @@ where
     body_forces: BodyForces<D>,
     damping: Damping,
     mass_added: [f64; 2],
+    /// What of it was added for the step that mass scaling wants, kg/m.
+    mass_for_step: f64,
 }
 
 /// What acts on bodies.
@@ -124,7 +126,7 @@ where
         }
         let mut part_mass_true = part_masses(&self.mesh, &blocks);
         self.point_masses(&mut part_mass_true);
-        let mass_added = self.scale_mass(&mut blocks, level);
+        let (mass_added, mass_for_step) = self.scale_mass(&mut blocks, level);
         let is_scaled = model.run.mass_scaling.is_some() || model.parts.iter().any(|part| part.mass_scale != 1.0);
         let part_mass_scaled = is_scaled.then(|| {
             let mut part_mass = part_masses(&self.mesh, &blocks);
@@ -149,7 +151,7 @@ where
         blocks.iter_mut().for_each(|block| block.release_corner_masses());
         drop((part_mass_scaled, part_mass_true));
         self.measure_stiffness(&mut blocks, level);
-        Ok(Elements { blocks, velocities, shares, body_forces, damping, mass_added })
+        Ok(Elements { blocks, velocities, shares, body_forces, damping, mass_added, mass_for_step })
     }
 
     /// Springs, loads, contacts and obstacles, and what fails.
@@ -174,7 +176,7 @@ where
         level: Level,
         threads: usize,
     ) -> System<D> {
-        let Elements { mut blocks, mut velocities, shares, body_forces, damping, mass_added } = elements;
+        let Elements { mut blocks, mut velocities, shares, body_forces, damping, mass_added, mass_for_step } = elements;
         let Conditions { springs, forces, boundary, contacts, criteria } = conditions;
         let Self {
             model, mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, moduli, time_step, ..
@@ -227,7 +229,7 @@ where
                 .mass_scaling
                 .as_ref()
                 .filter(|own| own.in_run)
-                .map(|own| MassScaling::new(own, model.run.safety, mass_added)),
+                .map(|own| MassScaling::new(own, model.run.safety, [mass_for_step, mass_added[1]])),
             relaxation: model.run.relaxation.map(|relaxation| Relaxation::new(relaxation, nodes)),
             step: 0,
             time: 0.0,

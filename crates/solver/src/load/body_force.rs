@@ -9,6 +9,7 @@
 //! ω̇. Each part gives its share of a node's mass. Works are external.
 
 use super::curve::Curves;
+use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
 use crate::model::{Load, Model};
@@ -133,6 +134,12 @@ where
         if let Some(now) = self.now.get_mut(node) {
             *now = times(part, *now);
         }
+    }
+
+    /// Keeps the parts of true masses, and what follows.
+    pub(crate) fn persist_shares(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        self.loads.iter_mut().try_for_each(|load| load.shares[..].persist(archive))?;
+        self.now[..].persist(archive)
     }
 
     /// Acceleration of every node now, m/s²; empty when the model has no such load.

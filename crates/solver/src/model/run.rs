@@ -66,7 +66,7 @@ section! {
     relaxation: Option<Relaxation> = Table(&RELAXATION), Optional("none"),
         "Damping that brings everything to rest, and an end of the run when it is.";
     subcycling: bool = Flag, Default("false"),
-        "Evaluates elements that allow a longer step in every second, third, ... up to 64th step only, and those that \
+        "Evaluates elements that allow a longer step in every second, third, ... up to 60th step only, and those that \
             need the shortest in all: for meshes in which sizes or materials differ much.";
     mass_scaling: Option<MassScaling> = Table(&MASS_SCALING), Optional("none"),
         "Makes elements with a small stable step heavier, at the start and, if wanted, in the run.";
@@ -103,6 +103,6 @@ section! {
     limit: f64 = Quantity(Dimension::NONE, Positive), Default("0.05"),
         "Largest mass that may be added, as a fraction of the mass of the deformable parts; more at the start is a fault.";
     in_run: bool = Flag, Default("false"),
-        "Whether elements whose step falls below `time_step` in the run get mass then, until `limit` is reached; after \
-            that the step falls. The mass comes with the velocity of its node.";
+        "Whether elements whose step falls below `time_step` in the run get mass then, until they would need more than \
+            `limit`; after that the step falls. The mass comes with the velocity of its node.";
 }

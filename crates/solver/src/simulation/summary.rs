@@ -56,8 +56,9 @@ where
         }
         if let Some(own) = self.system.mass_scaling.as_ref().filter(|own| own.added > 0.0 || own.exhausted.is_some()) {
             let share = 100.0 * (self.system.mass_added[0] + own.added) / self.system.mass_added[1];
-            let limit =
-                own.exhausted.map_or(String::new(), |time| format!("; from {time:.6e} s on elements needed more than `limit` allows"));
+            let limit = own.exhausted.map_or(String::new(), |time| {
+                format!("; at {time:.6e} s elements needed more than `limit` allows, and got none from then on")
+            });
             report(
                 &MASS_ADDED,
                 format!(

@@ -118,9 +118,10 @@ where
         let left = self.limits.end - self.time;
         let cycle = f64::from(cycle);
         let mut steps = (left / time_step * (1.0 - 1e-9)).ceil();
-        if left > 0.0 && turn == 0 && cycle > 1.0 && steps <= LANDING.max(LANDING_CYCLES * cycle) {
-            steps = (steps / cycle).ceil() * cycle;
-            time_step = left / steps;
+        let cycles = steps / cycle;
+        if left > 0.0 && turn == 0 && cycle > 1.0 && cycles > LANDING_CYCLES - 1.0 && cycles <= LANDING_CYCLES {
+            steps = LANDING_CYCLES * cycle;
+            (time_step, governor) = (left / steps, Governor::Schedule);
         }
         if left > 0.0 && steps <= LANDING {
             (time_step, governor) = (left / steps.max(1.0), Governor::Schedule);

@@ -4,8 +4,8 @@
 //! Each corner of such an element gets the same mass, Δ = (f − 1) times that of its lightest corner with
 //! f = dt²(wanted)/dt², so that the bound of its frequency falls by f (`block/forces.rs`). The mass comes
 //! with the velocity of its node: it brings the momentum Σ Δ v and the kinetic energy ½ Σ Δ |v|², which the
-//! ledger takes as work from outside. Gravity pulls at the true mass as before. Nodes of rigid bodies get
-//! none.
+//! ledger takes as work from outside. Gravity pulls at the true mass as before. Elements at rigid bodies
+//! get none.
 
 use super::System;
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
@@ -45,10 +45,10 @@ impl<const D: usize> Persist for MassScaling<D> {
 }
 
 impl<const D: usize> MassScaling<D> {
-    /// As the model wants it; `mass_added` and the true mass, kg/m (kg), at the start.
-    pub(crate) fn new(scaling: &model::MassScaling, safety: f64, [mass_added, mass]: [f64; 2]) -> Self {
+    /// As the model wants it; what it `added` at the start, and the true `mass`, kg/m (kg).
+    pub(crate) fn new(scaling: &model::MassScaling, safety: f64, [added, mass]: [f64; 2]) -> Self {
         let wanted = (scaling.time_step / safety).powi(2);
-        Self { wanted, room: scaling.limit * mass - mass_added, added: 0.0, momentum: [0.0; D], kinetic: 0.0, exhausted: None }
+        Self { wanted, room: scaling.limit * mass - added, added: 0.0, momentum: [0.0; D], kinetic: 0.0, exhausted: None }
     }
 }
 
@@ -59,7 +59,7 @@ where
     /// Adds mass to elements that need it; returns what elements report with it.
     pub(super) fn scale_mass(&mut self, elements: Report) -> Report {
         let Some(mut own) = self.mass_scaling.take() else { return elements };
-        let is_short = self.step > 0 && own.exhausted.is_none() && self.shortest_squared() < own.wanted;
+        let is_short = self.step > 0 && own.exhausted.is_none() && self.shortest_of_elements() < own.wanted;
         let elements = if is_short { self.add_mass(&mut own, elements) } else { elements };
         self.mass_scaling = Some(own);
         elements
@@ -68,8 +68,11 @@ where
     fn add_mass(&mut self, own: &mut MassScaling<D>, elements: Report) -> Report {
         let wanted = [own.wanted, MARGIN * own.wanted];
         let mut needed = 0.0;
-        for index in (0..self.blocks.len()).filter(|&index| !self.rigid[index]) {
-            needed += self.blocks[index].mass_for(wanted);
+        let may = |node: u32| self.bodies.of_node(node).is_none();
+        let gains = |&index: &usize| !self.rigid[index] && !self.is_gone(index);
+        let gaining: Vec<usize> = (0..self.blocks.len()).filter(gains).collect();
+        for &index in &gaining {
+            needed += self.blocks[index].mass_for(wanted, &may);
         }
         if needed > own.room {
             own.exhausted = Some(self.time);
@@ -78,17 +81,15 @@ where
             return elements;
         }
         let mut added: Vec<(usize, u32, f64)> = Vec::new();
-        for index in (0..self.blocks.len()).filter(|&index| !self.rigid[index]) {
+        for index in gaining {
+            let may = |node: u32| self.bodies.of_node(node).is_none();
             let add = &mut |node: u32, mass: f64| added.push((index, node, mass));
-            if let Some(report) = self.blocks[index].make_heavier(wanted, add) {
-                self.reports[index] = report;
+            if let Some(squared) = self.blocks[index].make_heavier(wanted, &may, add) {
+                self.reports[index].time_step_squared = squared;
             }
         }
         let mut kinetic = 0.0;
         for (block, node, mass) in added {
-            if self.bodies.of_node(node).is_some() {
-                continue;
-            }
             if let Some(group) = self.mesh.groups.get(block) {
                 self.shares.add(group.part, node, mass);
             }
@@ -113,14 +114,9 @@ where
     pub(super) fn persist_masses(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Some(own) = &mut self.mass_scaling else { return Ok(()) };
         own.persist(archive)?;
-        let before = self.mass.clone();
         self.mass[..].persist(archive)?;
+        archive.check(self.mass.iter().all(|mass| mass.is_finite() && *mass >= 0.0), "a mass that is none")?;
         self.shares.persist(archive)?;
-        if archive.reads() {
-            for (node, (old, new)) in before.iter().zip(&self.mass).enumerate().filter(|(_, (old, new))| old != new) {
-                self.body_forces.dilute(node, old / new);
-            }
-        }
-        Ok(())
+        self.body_forces.persist_shares(archive)
     }
 }

@@ -43,7 +43,7 @@ const LAYERS: usize = 2;
 /// Ratios are chosen again when the step is below this fraction, squared, of what the fastest elements allow,
 /// or nodes are in contact that were not for long; after so many cycles at the earliest.
 const SHORTENED: f64 = 0.81;
-const PAUSE: u32 = 4;
+const PAUSE: u32 = 2;
 /// Otherwise after so many cycles, of so many steps at least. Nodes that were in contact since count as fast.
 const REST: u32 = 32;
 const REST_LEAST: u32 = 64;
@@ -63,7 +63,7 @@ pub(crate) struct Subcycling {
     touches_anew: bool,
     /// Chunks of nodes.
     nodes: Vec<Coasting>,
-    /// Elements that were evaluated in all steps.
+    /// Evaluations of elements, summed over the steps.
     pub(crate) evaluations: u64,
 }
 
@@ -75,20 +75,28 @@ impl Persist for Subcycling {
         if archive.reads() {
             self.wake();
         }
-        archive.check((1..=RATIO_MOST).contains(&self.cycle), "a cycle that there is not")
+        archive.check((1..=RATIO_MOST).contains(&self.cycle) && self.turn < self.cycle, "a cycle that there is not")
     }
 }
 
 /// A chunk of nodes.
 #[derive(Clone, Copy, Debug, Default)]
 struct Coasting {
-    /// Least step ratio of the elements at its nodes; 1 where one is not free, 0 until ratios are chosen.
-    ratio: u32,
+    /// The step ratios r of the elements at its nodes, as bits r − 1; 1 is among them where a node is not
+    /// free. None until ratios are chosen.
+    ratios: u64,
     /// What is known of its last step.
     last: Last,
 }
 
-persist_all!(Coasting { ratio } but { last });
+persist_all!(Coasting { ratios } but { last });
+
+impl Coasting {
+    /// Whether no element is evaluated in this turn of the cycle; not before ratios are known.
+    fn rests(self, turn: u32) -> bool {
+        self.ratios != 0 && (1..=RATIO_MOST).all(|ratio| self.ratios >> (ratio - 1) & 1 == 0 || !turn.is_multiple_of(ratio))
+    }
+}
 
 /// What is known of the last step of a chunk of nodes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -98,7 +106,7 @@ enum Last {
     Unknown,
     /// What was summed.
     Summed,
-    /// That no velocity changed, too.
+    /// What was summed, and that no velocity changed.
     Coasted,
 }
 
@@ -135,7 +143,7 @@ impl Subcycling {
         team.each(parts, |index, _, (velocities, next, sums, own)| {
             let (Some(own), Some(sums)) = (own.first_mut(), sums.first_mut()) else { return };
             let first = index * CHUNK;
-            let coasts = are_free && own.ratio > 1 && !turn.is_multiple_of(own.ratio) && own.last != Last::Unknown;
+            let coasts = are_free && own.last != Last::Unknown && own.rests(turn);
             let coasted = if coasts { nodes.coast((first, own.last == Last::Coasted), velocities, next, sums) } else { None };
             own.last = if coasted.is_some() { Last::Coasted } else { Last::Summed };
             *sums = coasted.unwrap_or_else(|| nodes.update(first, velocities, next));
@@ -170,8 +178,8 @@ impl Subcycling {
     }
 }
 
-/// Evaluations per step of so many `elements` by their largest ratio, in a cycle.
-fn evaluations(elements: &[usize], cycle: u32) -> f64 {
+/// Elements that are evaluated per step of so many `elements` by their largest ratio, in a cycle.
+fn evaluated(elements: &[usize], cycle: u32) -> f64 {
     let of = |(most, &count): (u32, &usize)| if count > 0 { count as f64 / f64::from(largest_divisor(cycle, most)) } else { 0.0 };
     (1..).zip(&elements[1..]).map(of).sum()
 }
@@ -179,8 +187,8 @@ fn evaluations(elements: &[usize], cycle: u32) -> f64 {
 /// The number of steps in a cycle whose divisors need the fewest evaluations; the present one unless another
 /// needs clearly less.
 fn best_cycle(elements: &[usize], present: u32) -> u32 {
-    let best = (1..=RATIO_MOST).map(|cycle| (evaluations(elements, cycle), cycle)).min_by(|a, b| a.0.total_cmp(&b.0));
-    best.map_or(present, |(least, cycle)| if least < WORTH * evaluations(elements, present) { cycle } else { present })
+    let best = (1..=RATIO_MOST).map(|cycle| (evaluated(elements, cycle), cycle)).min_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(present, |(least, cycle)| if least < WORTH * evaluated(elements, present) { cycle } else { present })
 }
 
 impl<const D: usize> System<D>
@@ -217,11 +225,15 @@ where
         elements
     }
 
-    /// Square of the stable step of what needs the shortest, s².
-    pub(super) fn shortest_squared(&self) -> f64 {
-        let of = |block: usize| self.blocks[block].regions().map_or(self.reports[block].time_step_squared, Regions::shortest_squared);
-        let strained = (0..self.blocks.len()).filter(|&block| !self.rigid[block]);
-        self.with_springs(reductions::min(strained.map(of)))
+    /// Square of the stable step of the element that needs the shortest, evaluated often or not, s².
+    pub(super) fn shortest_of_elements(&self) -> f64 {
+        let of = |block: usize| self.regions(block).map_or(self.reports[block].time_step_squared, Regions::shortest_squared);
+        reductions::min((0..self.blocks.len() - usize::from(self.has_springs)).filter(|&block| !self.rigid[block]).map(of))
+    }
+
+    /// The same of elements and springs together.
+    fn shortest_squared(&self) -> f64 {
+        self.with_springs(self.shortest_of_elements())
     }
 
     /// The regions of a block, if they may have steps of their own: no rigid part, and none whose elements
@@ -257,7 +269,7 @@ where
 
     /// The best cycle with so many elements by the ratio that they may have, and what of all evaluations
     /// remains with it.
-    fn best_cycle(&self, least: &[f64], shortest: f64, present: u32) -> (u32, f64) {
+    fn cycle_and_share(&self, least: &[f64], shortest: f64, present: u32) -> (u32, f64) {
         let (mut elements, mut others) = ([0; RATIO_MOST as usize + 1], 0);
         for (index, block) in self.blocks.iter().enumerate().filter(|(index, _)| !self.rigid[*index]) {
             match self.regions(index) {
@@ -267,14 +279,14 @@ where
         }
         let cycle = best_cycle(&elements, present);
         let all = elements.iter().sum::<usize>() + others;
-        (cycle, (evaluations(&elements, cycle) + others as f64) / all.max(1) as f64)
+        (cycle, if all == 0 { 1.0 } else { (evaluated(&elements, cycle) + others as f64) / all as f64 })
     }
 
     /// What of all evaluations of elements remains with subcycling, in the present state and without contact.
     pub(crate) fn share_with_subcycling(&self) -> f64 {
         let shortest = self.shortest_squared();
         let least = self.least_around(shortest, |_| false);
-        self.best_cycle(&least, SLACK * SLACK * shortest, 1).1
+        self.cycle_and_share(&least, SLACK * SLACK * shortest, 1).1
     }
 
     /// Gives all chunks of elements their ratios, and returns the cycle.
@@ -282,7 +294,7 @@ where
         let shortest = self.shortest_squared();
         let least = self.least_around(shortest, |group| own.was_touched(group, self.step));
         let shortest = SLACK * SLACK * shortest;
-        let (cycle, _) = self.best_cycle(&least, shortest, own.cycle);
+        let (cycle, _) = self.cycle_and_share(&least, shortest, own.cycle);
         for (block, report) in self.blocks.iter_mut().zip(&mut self.reports) {
             if let Some(block) = block.subcycled() {
                 block.set_ratios(&least, shortest, cycle);
@@ -312,23 +324,21 @@ where
         }
     }
 
-    /// Finds the least ratio of the elements at each chunk of nodes.
+    /// Finds the ratios of the elements at each chunk of nodes.
     fn find_coasting(&mut self, nodes: &mut [Coasting]) {
-        nodes.iter_mut().for_each(|own| own.ratio = RATIO_MOST);
+        // Where there is no element nothing pulls.
+        nodes.iter_mut().for_each(|own| own.ratios = 1 << (RATIO_MOST - 1));
         for block in &mut self.blocks {
-            let mut lower = |node: u32, ratio: u32| {
-                let own = &mut nodes[node as usize / CHUNK].ratio;
-                *own = ratio.min(*own);
-            };
+            let mut add = |node: u32, ratio: u32| nodes[node as usize / CHUNK].ratios |= 1 << (ratio - 1);
             match block.subcycled() {
-                Some(block) => block.ratios(&mut lower),
-                None => block.slots().iter().filter(|&&node| node != NO_NODE).for_each(|&node| lower(node, 1)),
+                Some(block) => block.ratios(&mut add),
+                None => block.slots().iter().filter(|&&node| node != NO_NODE).for_each(|&node| add(node, 1)),
             }
         }
         for (chunk, own) in nodes.iter_mut().enumerate() {
             let groups = chunk * CHUNK / BATCH..((chunk + 1) * CHUNK).min(self.positions.len()).div_ceil(BATCH);
             if !groups.clone().all(|group| self.groups.free.get(group) == Some(&true)) {
-                own.ratio = 1;
+                own.ratios = 1;
             }
         }
     }

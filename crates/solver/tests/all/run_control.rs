@@ -36,7 +36,7 @@ fn flattened(element: &str, limit: f64, in_run: bool) -> Model {
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [10, 10]), [0.0, -150.0]);
     model.parts[0].element = element.into();
     model.obstacles.push(Obstacle::wall("floor", [0.0, 0.0], [0.0, 1.0]));
-    gravity(&mut model, [0.0, -10.0]);
+    gravity(&mut model, [0.0, -1e5]);
     let step = simulation(&model).time_step();
     model.run.mass_scaling = Some(MassScaling { time_step: 0.99 * step, limit, in_run });
     model
@@ -60,6 +60,12 @@ fn mass_is_added_in_the_run_where_elements_become_short() {
         assert!(third.mass_added <= 1e-3 * 5.0 && shortest[2] < 0.95, "{shortest:?}");
         assert!(third.warnings.iter().any(|line| line.text.contains("more than `limit` allows")), "{:?}", third.warnings);
     }
+    let mut model = flattened("quad4", 1.0, true);
+    // What parts bring at the start is none of the limit's matter.
+    model.parts[0].mass_scale = 2.0;
+    model.run.mass_scaling.as_mut().unwrap().time_step *= 2f64.sqrt();
+    let summary = to_end(&model).summary();
+    assert!(summary.mass_added_in_run.is_some() && summary.mass_added > 5.0, "{summary:?}");
     let model = flattened("quad4", 1.0, true);
     crate::restart::continues("mass in the run", &model, simulation(&model).overview().steps_expected * 2 / 3);
     hash_of_equal_bits(&model, &[1, 2], "mass in the run");

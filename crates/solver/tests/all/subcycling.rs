@@ -2,6 +2,7 @@
 //! equal bits.
 
 use crate::bodies::*;
+use crate::erosion::torn_bar;
 use crate::patches::Spread;
 use embate_solver::model::*;
 use embate_solver::simulation::Simulation;
@@ -139,6 +140,37 @@ fn momentum_is_kept() {
     }
 }
 
+/// Bodies of many chunks of nodes, some of which have the nodes of both: their step ratios do not divide each
+/// other.
+#[test]
+fn momentum_is_kept_where_ratios_do_not_divide_each_other() {
+    for (first, second, cycle) in [(2.0, 3.0, 6), (4.0, 5.0, 20), (3.0, 1.0, 3)] {
+        let mut model = model(1e6);
+        for (name, ratio, place, elements) in [("fine", 1.0, 0.0, 4), ("first", first, 1.0, 40), ("second", second, 9.0, 40)] {
+            // Their steps allow a little more than twice the ratio.
+            let size = if name == "fine" { 0.01 } else { 0.0202 * ratio } * elements as f64;
+            add(&mut model, name, rectangle([place, 0.0], [size, size], [elements, elements]), [1.0, -2.0]);
+            model.parts.last_mut().unwrap().spin = 20.0;
+        }
+        model.run.subcycling = true;
+        let mut run = simulation(&model);
+        run.advance(f64::INFINITY, 600).unwrap();
+        let summary = run.summary();
+        let evaluated = summary.element_evaluations.unwrap() as f64 / summary.steps as f64;
+        let (wanted, drift) = (16.0 + 1600.0 / first + 1600.0 / second, [summary.momentum_drift_linear, summary.momentum_drift_angular]);
+        println!(
+            "{first} {second}, cycle {cycle}: {evaluated:.0} of {wanted:.0} per step, momentum {drift:?}, drift {:.1e}",
+            summary.energy_drift
+        );
+        assert!((evaluated / wanted - 1.0).abs() < 0.03, "{evaluated} {wanted}");
+        assert!(
+            drift.into_iter().flatten().all(|drift| drift < 1e-12) && summary.energy_drift < 1e-3,
+            "{drift:?} {}",
+            summary.energy_drift
+        );
+    }
+}
+
 /// A plate of two chunks and more that a small block with fine elements hits.
 fn impact(subcycling: bool) -> Model {
     let mut model = model(1.5e-3);
@@ -178,6 +210,29 @@ fn runs_with_subcycling_have_equal_bits_and_continue() {
         model.parts[0].velocity = [3.0, 0.0, 0.0];
         crate::restart::continues(element, &model, 333);
     }
+}
+
+/// Springs count once: the step is that without subcycling.
+#[test]
+fn springs_do_not_shorten_the_step_twice() {
+    let steps = [false, true].map(|subcycling| {
+        let mut model = impact(subcycling);
+        let between = ["block.left".into(), "plate.right".into()];
+        model.springs.push(Spring { between, stiffness: 1e8, ..Spring::default() });
+        let mut run = simulation(&model);
+        run.advance(f64::INFINITY, 100).unwrap();
+        (run.time_step(), run.summary().stable_time_step_governor)
+    });
+    println!("{steps:?}");
+    assert!((steps[1].0 / steps[0].0 - 1.0).abs() < 0.02 && steps[0].1.starts_with("springs"), "{steps:?}");
+}
+
+#[test]
+fn runs_with_subcycling_whose_parts_fail_continue() {
+    let mut model = torn_bar(&[("plastic_strain", 0.02)]);
+    model.parts[1].material = "weak".into();
+    model.run.subcycling = true;
+    crate::restart::continues("torn bar", &model, 300);
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! Elements made heavier, for a longer stable step: before nodes have their masses, and in the run.
 
+use super::Report;
 use super::store::{CHUNK, ElementStore};
-use super::{Block, Report};
 use crate::reductions;
 use crate::tensor::{Dim, Space};
 use embate_lanes::BATCH;
+use std::ops::Range;
 
 /// By how much an element with this `squared` stable step, s², is too light for the second of two if it is
 /// below the first; 1: it is not.
@@ -16,7 +17,7 @@ impl<const D: usize> ElementStore<D>
 where
     Dim<D>: Space<D>,
 {
-    /// Before the first [`Block::advance`] that counts.
+    /// Before the first [`super::Block::advance`] that counts.
     pub(super) fn scale_corner_masses(&mut self, element: usize, factor: f64) {
         let (last, nodes) = (self.count - 1, self.facts().nodes);
         // The lanes that fill the last batch are copies of the last element.
@@ -29,31 +30,38 @@ where
         }
     }
 
-    /// Nodes of a lane, which may be a copy of a live element.
-    fn nodes_of(&self, batch: usize, lane: usize) -> impl Iterator<Item = u32> {
-        let nodes = self.facts().nodes;
-        (0..nodes).map(move |a| self.nodes.node(batch * nodes + a, lane, nodes) as u32)
+    /// Batches of the chunks in which an element is too light, chunk by chunk.
+    fn light_chunks(&self, squared: [f64; 2]) -> Vec<(usize, Range<usize>)> {
+        let is_light = |&chunk: &usize| !self.eroded.is_gone(chunk) && self.reports[chunk].time_step_squared < squared[0];
+        let batches = |chunk: usize| chunk * CHUNK..((chunk + 1) * CHUNK).min(self.elements.len());
+        (0..self.reports.len()).filter(is_light).map(|chunk| (chunk, batches(chunk))).collect()
     }
 
-    /// See [`Block::mass_for`].
+    /// By how much the element in a lane is too light, if all of its nodes `may` get mass; the mass that each
+    /// corner lacks, kg/m in 2D.
+    fn lack(&self, batch: usize, lane: usize, squared: [f64; 2], may: &dyn Fn(u32) -> bool) -> Option<[f64; 2]> {
+        let values = &self.elements[batch];
+        let lack = lack(values.time_step_squared.0[lane], squared);
+        let lacks = lack > 1.0 && self.nodes_of(batch, lane).all(|node| may(node as u32));
+        lacks.then(|| [lack, (lack - 1.0) * values.mass_least.0[lane] / self.facts().nodes as f64])
+    }
+
+    /// See [`super::Block::mass_for`].
     pub(super) fn needed_mass(&self, squared: [f64; 2], may: &dyn Fn(u32) -> bool) -> f64 {
-        let of = |element: usize| {
-            let (batch, lane) = (element / BATCH, element % BATCH);
-            let values = &self.elements[batch];
-            let lack = lack(values.time_step_squared.0[lane], squared);
-            if lack > 1.0 && self.nodes_of(batch, lane).all(may) { (lack - 1.0) * values.mass_least.0[lane] } else { 0.0 }
-        };
-        (0..self.count).filter(|&element| self.is_alive(element)).map(of).sum()
+        let lanes = self
+            .light_chunks(squared)
+            .into_iter()
+            .flat_map(|(_, batches)| batches)
+            .flat_map(|batch| (0..BATCH).map(move |lane| (batch, lane)));
+        let live = lanes.filter(|&(batch, lane)| self.elements[batch].live.0[lane] > 0.0);
+        let of_corners: f64 = live.filter_map(|(batch, lane)| self.lack(batch, lane, squared, may)).map(|[_, mass]| mass).sum();
+        of_corners * self.facts().nodes as f64
     }
 
-    /// See [`Block::make_heavier`]; whether any was given.
+    /// See [`super::Block::make_heavier`]; whether any was given.
     pub(super) fn add_mass(&mut self, squared: [f64; 2], may: &dyn Fn(u32) -> bool, add: &mut dyn FnMut(u32, f64)) -> bool {
         let mut is_any = false;
-        for chunk in 0..self.reports.len() {
-            let batches = chunk * CHUNK..((chunk + 1) * CHUNK).min(self.elements.len());
-            if self.eroded.is_gone(chunk) || !(self.reports[chunk].time_step_squared < squared[0]) {
-                continue;
-            }
+        for (chunk, batches) in self.light_chunks(squared) {
             for batch in batches.clone() {
                 for lane in 0..BATCH {
                     is_any |= self.add_mass_to(batch, lane, squared, may, add);
@@ -75,14 +83,9 @@ where
         may: &dyn Fn(u32) -> bool,
         add: &mut dyn FnMut(u32, f64),
     ) -> bool {
-        let (least, own) = (self.elements[batch].mass_least.0[lane], self.elements[batch].time_step_squared.0[lane]);
-        let lack = lack(own, squared);
-        if !(lack > 1.0 && self.nodes_of(batch, lane).all(may)) {
-            return false;
-        }
-        let mass = (lack - 1.0) * least / self.facts().nodes as f64;
+        let Some([lack, mass]) = self.lack(batch, lane, squared, may) else { return false };
         if self.elements[batch].live.0[lane] > 0.0 {
-            self.nodes_of(batch, lane).for_each(|node| add(node, mass));
+            self.nodes_of(batch, lane).for_each(|node| add(node as u32, mass));
         }
         let values = &mut self.elements[batch];
         values.mass_least.0[lane] *= lack;

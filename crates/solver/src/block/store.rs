@@ -238,11 +238,16 @@ where
         Measures { family: law.family(), rotation: law.needs_rotation() || self.damping > 0.0, volume: law.needs_volume() }
     }
 
+    /// The nodes of a lane: of an element, or of the live one that it is a copy of.
+    pub(super) fn nodes_of(&self, batch: usize, lane: usize) -> impl Iterator<Item = usize> + Clone {
+        let nodes = self.facts().nodes;
+        (0..nodes).map(move |a| self.nodes.node(batch * nodes + a, lane, nodes))
+    }
+
     /// The positions of an element's nodes, from those of all.
     pub(super) fn corners(&self, batch: usize, lane: usize, positions: &[[f64; D]], corners: &mut Vec<[f64; D]>) {
-        let nodes = self.facts().nodes;
         corners.clear();
-        corners.extend((0..nodes).map(|a| positions[self.nodes.node(batch * nodes + a, lane, nodes)]));
+        corners.extend(self.nodes_of(batch, lane).map(|node| positions[node]));
     }
 
     /// Initial geometry and masses of one lane.
@@ -468,7 +473,7 @@ where
             let values = &self.elements[batch];
             let (mass, squared) = (values.mass_least.0[lane] / nodes as f64, values.time_step_squared.0[lane]);
             let stiffness = bounding_stiffness(mass, squared, shortest, is_damped);
-            (0..nodes).for_each(|a| add(self.nodes.node(batch * nodes + a, lane, nodes) as u32, stiffness, mass));
+            self.nodes_of(batch, lane).for_each(|node| add(node as u32, stiffness, mass));
         }
     }
 

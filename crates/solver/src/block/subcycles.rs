@@ -237,9 +237,8 @@ where
 
     /// Nodes of each live element with its number.
     fn live_elements(&self) -> impl Iterator<Item = (usize, impl Iterator<Item = usize> + Clone)> {
-        let nodes = self.facts().nodes;
-        let of = move |element: usize| (0..nodes).map(move |a| self.nodes.node(element / BATCH * nodes + a, element % BATCH, nodes));
-        (0..self.count).filter(|&element| self.is_alive(element)).map(move |element| (element, of(element)))
+        let live = (0..self.count).filter(|&element| self.is_alive(element));
+        live.map(|element| (element, self.nodes_of(element / BATCH, element % BATCH)))
     }
 }
 

@@ -10,8 +10,14 @@ use crate::error::{ERODED, MASS_ADDED, Notice, RELAXED};
 use crate::mesh::PartMesh;
 use crate::output::{Eroded, Erosion, MassInRun, Summary};
 use crate::record::Momentum;
+use crate::step::mass_scaling::MassScaling;
 use crate::tensor::Dim;
 use crate::vector::{dot, first, place};
+
+/// What mass scaling has added in the run, and what that brought.
+fn brought<const D: usize>(own: &MassScaling<D>) -> MassInRun {
+    MassInRun { mass: own.added, momentum: dot(own.momentum, own.momentum).sqrt(), kinetic_energy: own.kinetic }
+}
 
 impl<const D: usize> Run<D>
 where
@@ -54,8 +60,9 @@ where
                 },
             );
         }
-        if let Some(own) = self.system.mass_scaling.as_ref().filter(|own| own.added > 0.0 || own.exhausted.is_some()) {
-            let share = 100.0 * (self.system.mass_added[0] + own.added) / self.system.mass_added[1];
+        let of_mass = self.system.mass_scaling.as_ref().map(|own| (brought(own), own));
+        if let Some((brought, own)) = of_mass.filter(|(brought, own)| brought.mass > 0.0 || own.exhausted.is_some()) {
+            let share = 100.0 * (self.system.mass_added[0] + brought.mass) / self.system.mass_added[1];
             let limit = own.exhausted.map_or(String::new(), |time| {
                 format!("; at {time:.6e} s elements needed more than `limit` allows, and got none from then on")
             });
@@ -64,9 +71,9 @@ where
                 format!(
                     "mass scaling added {:.6e} kg{per} in the run, with that at the start {share:.3} % of the mass of the deformable \
                         parts; it came with a momentum of {:.3e} {momentum} and a kinetic energy of {:.3e} J{per}{limit}",
-                    own.added,
-                    dot(own.momentum, own.momentum).sqrt(),
-                    own.kinetic,
+                    brought.mass,
+                    brought.momentum,
+                    brought.kinetic_energy,
                     per = if D == 2 { "/m" } else { "" },
                     momentum = if D == 2 { "kg/s" } else { "kg m/s" },
                 ),
@@ -129,7 +136,7 @@ where
     /// Figures of the run so far (valid after a failure too).
     pub(crate) fn summary(&self) -> Summary {
         let system = &self.system;
-        let mass_in_run = system.mass_scaling.as_ref().filter(|own| own.added > 0.0);
+        let mass_in_run = system.mass_scaling.as_ref().map(brought).filter(|brought| brought.mass > 0.0);
         // Added mass brings momentum.
         let momentum = self.momentum.as_ref().filter(|_| mass_in_run.is_none());
         Summary {
@@ -148,12 +155,8 @@ where
             penetration_max: system.penetration_max,
             contact: self.certificate(),
             erosion: self.erosion(),
-            mass_added: system.mass_added[0] + mass_in_run.map_or(0.0, |own| own.added),
-            mass_added_in_run: mass_in_run.map(|own| MassInRun {
-                mass: own.added,
-                momentum: dot(own.momentum, own.momentum).sqrt(),
-                kinetic_energy: own.kinetic,
-            }),
+            mass_added: system.mass_added[0] + mass_in_run.map_or(0.0, |brought| brought.mass),
+            mass_added_in_run: mass_in_run,
             element_evaluations: system.subcycling.as_ref().map(|own| own.evaluations),
             state_hash: crate::record::state_hash(system),
             threads: self.threads,

@@ -67,13 +67,11 @@ where
 
     fn add_mass(&mut self, own: &mut MassScaling<D>, elements: Report) -> Report {
         let wanted = [own.wanted, MARGIN * own.wanted];
-        let mut needed = 0.0;
-        let may = |node: u32| self.bodies.of_node(node).is_none();
         let gains = |&index: &usize| !self.rigid[index] && !self.is_gone(index);
         let gaining: Vec<usize> = (0..self.blocks.len()).filter(gains).collect();
-        for &index in &gaining {
-            needed += self.blocks[index].mass_for(wanted, &may);
-        }
+        let bodies = &self.bodies;
+        let may = |node: u32| bodies.of_node(node).is_none();
+        let needed: f64 = gaining.iter().map(|&index| self.blocks[index].mass_for(wanted, &may)).sum();
         if needed > own.room {
             own.exhausted = Some(self.time);
         }
@@ -82,7 +80,6 @@ where
         }
         let mut added: Vec<(usize, u32, f64)> = Vec::new();
         for index in gaining {
-            let may = |node: u32| self.bodies.of_node(node).is_none();
             let add = &mut |node: u32, mass: f64| added.push((index, node, mass));
             if let Some(squared) = self.blocks[index].make_heavier(wanted, &may, add) {
                 self.reports[index].time_step_squared = squared;

@@ -21,7 +21,7 @@ use super::limits::FIRST;
 use super::nodes::Nodes;
 use super::{CHUNK, System};
 use crate::archive::{Archive, ArchiveResult, Persist, persist_all, persist_each};
-use crate::block::{Begin, NO_NODE, RATIO_MOST, Regions, Report, largest_divisor};
+use crate::block::{Begin, Block, NO_NODE, RATIO_MOST, Regions, Report, largest_divisor};
 use crate::dimension::Dimension;
 use crate::energy::Sums;
 use crate::reductions;
@@ -91,11 +91,19 @@ struct Coasting {
 
 persist_all!(Coasting { ratios } but { last });
 
-impl Coasting {
-    /// Whether no element is evaluated in this turn of the cycle; not before ratios are known.
-    fn rests(self, turn: u32) -> bool {
-        self.ratios != 0 && (1..=RATIO_MOST).all(|ratio| self.ratios >> (ratio - 1) & 1 == 0 || !turn.is_multiple_of(ratio))
-    }
+/// The ratios whose elements are evaluated in a turn of the cycle, as bits.
+fn due(turn: u32) -> u64 {
+    (1..=RATIO_MOST).filter(|&ratio| turn.is_multiple_of(ratio)).map(bit).sum()
+}
+
+/// A ratio among those of a chunk of nodes.
+fn bit(ratio: u32) -> u64 {
+    1 << (ratio - 1)
+}
+
+/// The node of each slot of a block that has one.
+fn nodes_of_slots<const D: usize>(block: &dyn Block<D>) -> impl Iterator<Item = u32> {
+    block.slots().iter().copied().filter(|&node| node != NO_NODE)
 }
 
 /// What is known of the last step of a chunk of nodes.
@@ -138,12 +146,12 @@ impl Subcycling {
     where
         Dim<D>: Dimension<D>,
     {
-        let (turn, are_free) = (self.turn, nodes.coast_freely());
+        let (due, are_free) = (due(self.turn), nodes.coast_freely());
         let parts = (velocities, next, sums, Chunks::new(&mut self.nodes, 1));
         team.each(parts, |index, _, (velocities, next, sums, own)| {
             let (Some(own), Some(sums)) = (own.first_mut(), sums.first_mut()) else { return };
             let first = index * CHUNK;
-            let coasts = are_free && own.last != Last::Unknown && own.rests(turn);
+            let coasts = are_free && own.last != Last::Unknown && own.ratios != 0 && own.ratios & due == 0;
             let coasted = if coasts { nodes.coast((first, own.last == Last::Coasted), velocities, next, sums) } else { None };
             own.last = if coasted.is_some() { Last::Coasted } else { Last::Summed };
             *sums = coasted.unwrap_or_else(|| nodes.update(first, velocities, next));
@@ -250,7 +258,7 @@ where
         for (index, block) in self.blocks.iter().enumerate().filter(|(index, _)| !self.rigid[*index]) {
             match self.regions(index) {
                 Some(regions) => regions.add_steps(&mut least),
-                None => block.slots().iter().filter(|&&node| node != NO_NODE).for_each(|&node| least[node as usize] = shortest),
+                None => nodes_of_slots(block.as_ref()).for_each(|node| least[node as usize] = shortest),
             }
         }
         for (group, nodes) in least.chunks_mut(BATCH).enumerate() {
@@ -327,18 +335,18 @@ where
     /// Finds the ratios of the elements at each chunk of nodes.
     fn find_coasting(&mut self, nodes: &mut [Coasting]) {
         // Where there is no element nothing pulls.
-        nodes.iter_mut().for_each(|own| own.ratios = 1 << (RATIO_MOST - 1));
+        nodes.iter_mut().for_each(|own| own.ratios = bit(RATIO_MOST));
         for block in &mut self.blocks {
-            let mut add = |node: u32, ratio: u32| nodes[node as usize / CHUNK].ratios |= 1 << (ratio - 1);
+            let mut add = |node: u32, ratio: u32| nodes[node as usize / CHUNK].ratios |= bit(ratio);
             match block.subcycled() {
                 Some(block) => block.ratios(&mut add),
-                None => block.slots().iter().filter(|&&node| node != NO_NODE).for_each(|&node| add(node, 1)),
+                None => nodes_of_slots(block.as_ref()).for_each(|node| add(node, 1)),
             }
         }
         for (chunk, own) in nodes.iter_mut().enumerate() {
             let groups = chunk * CHUNK / BATCH..((chunk + 1) * CHUNK).min(self.positions.len()).div_ceil(BATCH);
             if !groups.clone().all(|group| self.groups.free.get(group) == Some(&true)) {
-                own.ratios = 1;
+                own.ratios = bit(1);
             }
         }
     }

@@ -177,23 +177,26 @@ impl<const D: usize> Moving<D> {
     /// all nodes.
     #[inline]
     pub fn fill(&mut self, nodes: &[u32], first: &[[f64; D]], second: &[[f64; D]]) {
-        self.fill_by(nodes.iter().map(|&node| [first[node as usize], second[node as usize]]));
+        self.fill_by(nodes.iter(), |&node, to, other| {
+            to.copy_from_slice(&first[node as usize]);
+            other.copy_from_slice(&second[node as usize]);
+        });
     }
 
-    /// Sets both vectors of the first points.
+    /// Lets `set` write both vectors of the first points where they are, one after the other: a pair that is
+    /// made elsewhere and copied costs more than all that it holds.
     #[inline]
-    pub fn fill_by(&mut self, points: impl Iterator<Item = [[f64; D]; 2]>) {
+    pub fn fill_by<P>(&mut self, points: impl Iterator<Item = P>, set: impl Fn(P, &mut [f64], &mut [f64])) {
         let rooms = rooms_mut(&mut self.first).iter_mut();
         if D == 2 {
-            for (room, [first, second]) in rooms.zip(points) {
-                room[..D].copy_from_slice(&first);
-                room[D..].copy_from_slice(&second);
+            for (room, point) in rooms.zip(points) {
+                let (first, second) = room.split_at_mut(D);
+                set(point, first, second);
             }
             return;
         }
-        for ((room, other), [first, second]) in rooms.zip(rooms_mut(&mut self.second)).zip(points) {
-            room[..D].copy_from_slice(&first);
-            other[..D].copy_from_slice(&second);
+        for ((room, other), point) in rooms.zip(rooms_mut(&mut self.second)).zip(points) {
+            set(point, &mut room[..D], &mut other[..D]);
         }
     }
 

@@ -33,6 +33,8 @@ const ABOVE_TANGENT: [f64; 11] = [
     2.510_626_255_087_907_8e-8,
     2.091_543_359_807_600_3e-9,
 ];
+/// Where ½ ln 2 is not reached.
+const SMALL: f64 = 0.346;
 /// m^{-1/3} over m, for m from 1 to 2; right to 3e-4.
 const INVERSE_ROOT: [f64; 4] = [1.537_760_266_272_87, -0.801_274_569_663_737_3, 0.311_847_268_173_159_6, -0.048_633_053_342_838_85];
 
@@ -69,13 +71,18 @@ fn reduced<L: Lane>(x: L) -> [L; 4] {
     let magic = L::splat(6_755_399_441_055_744.0); // 1.5 2^52: adding it rounds to a whole number
     let k = (x * L::splat(std::f64::consts::LOG2_E) + magic) - magic;
     let r = (x - k * L::splat(LN2_HIGH)) - k * L::splat(LN2_LOW);
+    [k.power_of_two(), k, r, above_tangent(r)]
+}
+
+/// e^r − 1 − r for |r| ≤ ½ ln 2.
+#[inline(always)]
+fn above_tangent<L: Lane>(r: L) -> L {
     let square = r * r;
     let fourth = square * square;
     let low = pair(&ABOVE_TANGENT, 0, r) + pair(&ABOVE_TANGENT, 2, r) * square;
     let middle = pair(&ABOVE_TANGENT, 4, r) + pair(&ABOVE_TANGENT, 6, r) * square;
     let high = pair(&ABOVE_TANGENT, 8, r) + L::splat(ABOVE_TANGENT[10]) * square;
-    let p = (low + middle * fourth) + high * (fourth * fourth);
-    [k.power_of_two(), k, r, square * p]
+    square * ((low + middle * fourth) + high * (fourth * fourth))
 }
 
 /// Exponential, relative error below 4e-16; arguments are clamped to [-708, 709], where results are normal
@@ -101,9 +108,13 @@ pub fn pow<L: Lane>(x: L, y: L) -> L {
 
 /// e^x − 1 − x without cancellation, relative error below 1e-15; arguments as for [`exp`].
 ///
-/// With x = k ln 2 + r: (2^k − 1 − k ln 2) + (2^k − 1) r + 2^k (e^r − 1 − r).
+/// With x = k ln 2 + r: (2^k − 1 − k ln 2) + (2^k − 1) r + 2^k (e^r − 1 − r); where k is zero in all lanes, the
+/// same digits come from the last term alone.
 #[inline(always)]
 pub fn exp_above_tangent<L: Lane>(x: L) -> L {
+    if !L::any(L::splat(SMALL).less(x.abs())) {
+        return above_tangent(x);
+    }
     let [power, k, r, above] = reduced(x);
     let more = power - L::splat(1.0);
     let whole = (more - k * L::splat(LN2_HIGH)) - k * L::splat(LN2_LOW);

@@ -103,10 +103,11 @@ where
     pub(super) fn copy(&self, (chunk, time): (usize, f64), nodes: &LocalNodes, motion: &Motion<'_, D>, moving: &mut Moving<D>) {
         moving.resize(nodes.width());
         let old = &self.positions[chunk * nodes.width()..];
-        moving.fill_by(nodes.of_chunk(chunk).iter().zip(old).map(|(&node, &old)| {
+        moving.fill_by(nodes.of_chunk(chunk).iter().zip(old), |(&node, &old), to, velocity| {
             let new = motion.positions[node as usize];
-            [new, times(1.0 / time, minus(new, old))]
-        }));
+            to.copy_from_slice(&new);
+            velocity.copy_from_slice(&times(1.0 / time, minus(new, old)));
+        });
     }
 
     /// Lets the time of a step pass: chunks that pulled in the step before and are not due now rest, and owe

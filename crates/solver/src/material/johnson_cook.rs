@@ -212,42 +212,78 @@ fn failure<L: Lane>(constants: &[f64; CONSTANTS], triaxiality: L, logarithm: L, 
     (shape * factors).max(L::splat(FAILURE_LEAST))
 }
 
+/// Of the return: trial stress q, factor of the heat on the flow stress, 1 / (ε̇_0 Δt), and half of ε̇_0 Δt.
+#[derive(Clone, Copy)]
+struct Return<L> {
+    q: L,
+    strength: L,
+    per_unit: L,
+    half_unit: L,
+}
+
 impl JohnsonCook {
     /// Δε_p where it `yields`, and the term B ε_p^n with its slope after it; `unit` is the increment ε̇_0 Δt.
+    ///
+    /// The first guess is a step of Chebyshev's method from `start` with the term B ε_p^n continued from the
+    /// state by its slope and curvature: as good as an evaluation, without its power.
     #[inline(always)]
     fn step<L: Lane>(&self, q: L, start: L, state: &[L; 5], strength: L, unit: L, yields: L::Mask) -> (L, [L; 2]) {
-        let (stiffness, half, one, two, zero) = (L::splat(3.0 * self.shear), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(0.0));
-        let coefficient = L::splat(self.rate_coefficient);
-        let (per_unit, quarter) = (one / unit, L::splat(0.25));
-        let mut newton = Newton::new(start, q * L::splat(1.0 / (3.0 * self.shear)), q, yields);
+        let (half, one, zero) = (L::splat(0.5), L::splat(1.0), L::splat(0.0));
+        let it = Return { q, strength, per_unit: one / unit, half_unit: unit * half };
+        let high = q * L::splat(1.0 / (3.0 * self.shear));
+        let start = start.max(zero).min(high);
+        let curvature = self.power.curvature(state[0], state[4]);
+        let continued = Flow {
+            stress: state[3] + start * (state[4] + half * curvature * start),
+            slope: state[4] + curvature * start,
+            curvature,
+            reach: zero,
+        };
+        let [value, slope, curvature, _] = self.residual(&it, start, &continued);
+        let inverse = one / slope;
+        let first = -(value * inverse);
+        let better = start + first * (one - half * (curvature * first * inverse).max(-one).min(one));
+        let inside = |at: L| L::select(zero.less(at), L::select(at.less(high), at, start), start);
+        let mut newton = Newton::new(inside(better), high, q, yields);
         let mut end = [state[3], state[4]];
         for _ in 0..LIMIT {
-            let step = newton.at;
-            let power = self.power.flow(state[0] + step);
-            let flow = Flow {
-                stress: (L::splat(self.yield_stress) + power.stress) * strength,
-                slope: power.slope * strength,
-                curvature: power.curvature * strength,
-                reach: power.reach,
-            };
-            let ratio = step * per_unit;
-            let fast = one.less(ratio);
-            let rate = one + coefficient * math::ln(ratio.max(one));
-            let inverse = one / step;
-            let rate_slope = L::select(fast, coefficient * inverse, zero);
-            let rate_curvature = L::select(fast, rate_slope * inverse, zero);
-            // Of the logarithm a quarter of the step; it begins with a kink, from which it keeps away.
-            let reach = L::select(two.less(ratio), step * quarter, L::select(ratio.less(half), unit * half, zero));
-            let value = q - stiffness * step - flow.stress * rate;
-            let slope = -(stiffness + flow.slope * rate + flow.stress * rate_slope);
-            let curvature = flow.stress * rate_curvature - (flow.curvature * rate + two * flow.slope * rate_slope);
+            let power = self.power.flow(state[0] + newton.at);
+            let [value, slope, curvature, reach] = self.residual(&it, newton.at, &power);
             let live = newton.live();
-            let continues = newton.next_curved(value, slope, curvature, reach.min(flow.reach));
+            let continues = newton.next_curved(value, slope, curvature, reach);
             end = power.after(newton.moved, live, end);
             if !continues {
                 break;
             }
         }
         (newton.at, end)
+    }
+
+    /// q − 3µ Δε_p − σ_y with the term B ε_p^n as given, its slope and curvature over Δε_p, and within what
+    /// half of they hold.
+    #[inline(always)]
+    fn residual<L: Lane>(&self, it: &Return<L>, step: L, power: &Flow<L>) -> [L; 4] {
+        let (stiffness, half, one, two, zero) = (L::splat(3.0 * self.shear), L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(0.0));
+        let stress = (L::splat(self.yield_stress) + power.stress) * it.strength;
+        let (slope, curvature) = (power.slope * it.strength, power.curvature * it.strength);
+        // The same for every lane.
+        if self.rate_coefficient == 0.0 {
+            return [it.q - stiffness * step - stress, -(stiffness + slope), -curvature, power.reach];
+        }
+        let coefficient = L::splat(self.rate_coefficient);
+        let ratio = step * it.per_unit;
+        let fast = one.less(ratio);
+        let rate = one + coefficient * math::ln(ratio.max(one));
+        let inverse = one / step;
+        let rate_slope = L::select(fast, coefficient * inverse, zero);
+        let rate_curvature = L::select(fast, rate_slope * inverse, zero);
+        // Of the logarithm a quarter of the step; it begins with a kink, from which it keeps away.
+        let reach = L::select(two.less(ratio), step * L::splat(0.25), L::select(ratio.less(half), it.half_unit, zero));
+        [
+            it.q - stiffness * step - stress * rate,
+            -(stiffness + slope * rate + stress * rate_slope),
+            stress * rate_curvature - (curvature * rate + two * slope * rate_slope),
+            reach.min(power.reach),
+        ]
     }
 }

@@ -79,25 +79,19 @@ impl Law for Ogden {
 
     #[inline(always)]
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, _state: &mut [L; 0]) -> Response<L, T> {
-        let (zero, third) = (L::splat(0.0), L::splat(1.0 / 3.0));
+        let (zero, half, third) = (L::splat(0.0), L::splat(0.5), L::splat(1.0 / 3.0));
         let j = kinematics.volume_ratio;
         let inverse = L::splat(1.0) / j;
-        let volume = Volume::new(self.bulk, j, inverse);
+        let logarithm = math::ln(j);
+        let volume = Volume::with_logarithm(self.bulk, j, inverse, logarithm);
         let (squares, axes) = kinematics.left_cauchy_green.principal();
-        let mut logs = [zero; 3];
-        for i in 0..3 {
-            logs[i] = math::ln(squares[i]) * L::splat(0.5);
-        }
-        let mean = (logs[0] + logs[1] + logs[2]) * third;
-        for i in 0..3 {
-            logs[i] = logs[i] - mean; // ln λ̄_i; their sum is zero without asking J
-        }
-        let mut principal = Principal { squares: [zero; 3], stress: [zero; 3], slope: [zero; 3] };
+        // ln λ̄_i: their sum is zero, so that of the third follows, and so does J.
+        let mean = logarithm * third;
+        let first = math::ln(squares[0]) * half - mean;
+        let second = math::ln(squares[1]) * half - mean;
+        let logs = [first, second, -(first + second)];
+        let mut principal = Principal { squares, per_squares: inverse * inverse, stress: [zero; 3], slope: [zero; 3] };
         let mut stored = volume.stored;
-        let scale = math::exp(-(mean + mean));
-        for i in 0..3 {
-            principal.squares[i] = squares[i] * scale;
-        }
         for k in 0..TERMS {
             // The same for every lane: terms that are not there cost nothing.
             if self.moduli[k] != 0.0 {
@@ -129,8 +123,10 @@ impl Law for Ogden {
 
 /// What the bound of waves needs, in principal axes.
 struct Principal<L> {
-    /// u_i = λ̄_i².
+    /// λ_i²: a common factor of them drops out.
     squares: [L; 3],
+    /// One over their product.
+    per_squares: L,
     /// T_i − Σ_k µ_k: only differences count, and these have all their digits near rest.
     stress: [L; 3],
     /// S_i = dT_i / d ln λ̄_i.
@@ -153,8 +149,8 @@ impl<L: Lane> Principal<L> {
             // distance.
             let (apart, product) = (u[i] - u[j], u[i] * u[j]);
             let close = (apart * apart).less(product * L::splat(1e-8));
-            // 1/u_i is the product of the other two.
-            let tangent = (s[i] * u[j] + s[j] * u[i]) * u[(i + 2) % 3] * L::splat(0.25);
+            // 1/u_i is the product of the other two over that of all.
+            let tangent = (s[i] * u[j] + s[j] * u[i]) * (u[(i + 2) % 3] * self.per_squares) * L::splat(0.25);
             let secant = (t[i] - t[j]) / L::select(close, L::splat(1.0), apart);
             let difference = L::select(close, tangent, secant);
             transverse = transverse.max(difference * u[i].max(u[j]));

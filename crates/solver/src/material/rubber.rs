@@ -29,11 +29,17 @@ impl<L: Lane> Volume<L> {
     /// At the volume ratio `j` with its `inverse`, bulk modulus K.
     #[inline(always)]
     pub(super) fn new(bulk: f64, j: L, inverse: L) -> Self {
+        Self::with_logarithm(bulk, j, inverse, math::ln(j))
+    }
+
+    /// The same with ln J.
+    #[inline(always)]
+    pub(super) fn with_logarithm(bulk: f64, j: L, inverse: L, logarithm: L) -> Self {
         let (half, one) = (L::splat(0.5), L::splat(1.0));
         let modulus = L::splat(0.5 * bulk);
         Self {
             pressure: modulus * (j - inverse),
-            stored: modulus * (half * (j - one) * (j + one) - math::ln(j)),
+            stored: modulus * (half * (j - one) * (j + one) - logarithm),
             stiffness: modulus * (j + inverse),
         }
     }

@@ -22,7 +22,7 @@ use crate::mesh::geometry::CellGeometry;
 use crate::reductions;
 use crate::rotation::Rotate;
 use crate::tensor::Dim;
-use crate::vector::{dot, plus};
+use crate::vector::{dot, minus, plus};
 
 pub mod motion;
 pub mod space;
@@ -192,6 +192,13 @@ where
     #[must_use]
     pub fn to_local_old(&self, x: [f64; D]) -> [f64; D] {
         to_local(x, &self.old)
+    }
+
+    /// How far every point of it went in the step, m; `None` where it has turned.
+    #[must_use]
+    pub fn shift(&self) -> Option<f64> {
+        let moved = minus(self.centre, self.old.1);
+        (self.angle == self.old.0).then(|| dot(moved, moved).sqrt())
     }
 
     /// A direction of the body, turned with it.

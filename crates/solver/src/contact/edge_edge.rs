@@ -20,13 +20,15 @@
 //! edges still cross at its end), or at the start. Candidates come from the same global search, of the ends
 //! of edges against edges; order is fixed: edges ascending.
 
+mod near;
+
 use super::Sweep;
 use super::continuity::SpringHistory;
 use super::node_facet::groups::bodies_of;
 use super::node_facet::tracker::ContactHistory;
-use super::projection::edge_edge::{Crossing, Ridge, crossing, distance, point};
+use super::projection::edge_edge::{Crossing, Ridge, crossing, point};
 use super::projection::node_facet::{Placed, Vector, unit};
-use super::search::{Pair, Query, Search};
+use super::search::{Pair, Search};
 use super::springs::{End, Stiffening};
 use crate::archive::{Archive, ArchiveResult, persist_all};
 use crate::contact::springs::TangentSpace;
@@ -34,6 +36,7 @@ use crate::mesh::surface::SpaceSurface;
 use crate::rows::Rows;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{length, minus};
+use near::near;
 use std::mem::take;
 
 /// How well the normal must be between those of the facets: of one edge at least, of the other one where a
@@ -210,61 +213,8 @@ impl EdgeTracker {
 
     /// Candidates again: all pairs of ridges nearer than the radius. What pairs remember continues.
     pub fn find(&mut self, around: &Around<'_>) {
-        let &Around { surfaces, sweep, radius, skin, .. } = around;
-        let [first, second] = self.sides;
-        let is_one = first == second;
-        let listed = [first, second].map(|side| ridges(&surfaces[side], sweep.new));
-        let mut classes: Vec<u64> = listed.iter().flatten().map(|listed| listed.class).collect();
-        classes.sort_unstable();
-        classes.dedup();
-        let mut near: Vec<[u32; 2]> = Vec::new();
-        // The shorter edge of a pair has an end that is no farther than half of its length.
-        for &class in &classes {
-            for of in 0..if is_one { 1 } else { 2 } {
-                let (own, others) = (&listed[of], &listed[1 - of]);
-                let (slave, target) = (&surfaces[self.sides[of]], &surfaces[self.sides[1 - of]]);
-                let same = own.iter().filter(|edge| edge.class == class);
-                let longest = same.clone().map(|edge| edge.length).fold(0.0, f64::max);
-                let mut slaves: Vec<u32> = same.flat_map(|edge| slave.edges[edge.number as usize].nodes).collect();
-                slaves.sort_unstable();
-                slaves.dedup();
-                // Those of the same class meet once.
-                let counts = |edge: &&Listed| edge.class > class || (edge.class == class && of == 0);
-                let targets: Vec<u32> = others.iter().filter(counts).map(|edge| edge.number).collect();
-                let facets: Vec<[u32; 3]> = targets.iter().map(|&edge| target.edges[edge as usize].nodes).map(|[a, b]| [a, b, b]).collect();
-                if slaves.is_empty() || facets.is_empty() {
-                    continue;
-                }
-                let reach = SLACK * (radius + 0.5 * longest);
-                let query = Query { positions_old: sweep.old, positions_new: sweep.new, slaves: &slaves, facets: &facets, reach };
-                let at_nodes = &self.at_nodes[self.sides[of]];
-                let listed = |edge: &u32| own.binary_search_by_key(edge, |listed| listed.number).is_ok_and(|at| own[at].class == class);
-                self.search.by_and_by(&query, &mut self.found, &mut |found| {
-                    for pair in found {
-                        let Ok(rank) = slave.nodes.binary_search(&slaves[pair.slave as usize]) else { continue };
-                        let other = targets[pair.facet as usize];
-                        let edges = at_nodes.of(rank).iter().copied().filter(listed);
-                        near.extend(edges.map(|edge| if of == 0 { [edge, other] } else { [other, edge] }));
-                    }
-                });
-            }
-        }
-        if is_one {
-            near.iter_mut().for_each(|edges| edges.sort_unstable());
-        }
-        near.sort_unstable();
-        near.dedup();
-        let nodes = |edges: [u32; 2]| [0, 1].map(|of| surfaces[self.sides[of]].edges[edges[of] as usize].nodes);
-        let way = |node: u32| length(minus(sweep.new[node as usize], sweep.old[node as usize]));
-        near.retain(|&edges| {
-            let [a, b] = nodes(edges);
-            // A node of two surfaces joins them.
-            let is_joined = |node: &u32, other: usize| !is_one && surfaces[self.sides[other]].nodes.binary_search(node).is_ok();
-            let placed = |edge: [u32; 2]| edge.map(|node| sweep.new[node as usize]);
-            !a.iter().any(|node| b.contains(node) || is_joined(node, 1))
-                && !b.iter().any(|node| is_joined(node, 0))
-                && (distance(placed(a), placed(b)) <= radius || [a, b].iter().flatten().any(|&node| way(node) > skin))
-        });
+        let Self { sides, at_nodes, search, found, .. } = self;
+        let mut near = near(around, *sides, at_nodes, &mut **search, found);
         let old = take(&mut self.pairs);
         let kept = old.iter().filter(|pair| pair.touches);
         near.extend(kept.clone().map(|pair| pair.edges));
@@ -273,7 +223,7 @@ impl EdgeTracker {
         let body = |node: u32| self.bodies.get(node as usize).copied().unwrap_or(u32::MAX);
         let mut kept = kept.peekable();
         for edges in near {
-            let [[a, _], [b, _]] = nodes(edges);
+            let [[a, _], [b, _]] = [0, 1].map(|of| around.surfaces[self.sides[of]].edges[edges[of] as usize].nodes);
             let new = EdgePair { edges, own: body(a) == body(b), ..EdgePair::default() };
             self.pairs.push(kept.next_if(|pair| pair.edges == edges).copied().unwrap_or(new));
         }
@@ -554,30 +504,6 @@ impl Ridge {
     fn narrower(a: &Self, b: &Self) -> f64 {
         a.width.min(b.width)
     }
-}
-
-/// A ridge in the search.
-struct Listed {
-    number: u32,
-    length: f64,
-    /// Of lengths that differ by less than a factor of two.
-    class: u64,
-}
-
-/// The ridges of a surface, ascending, with those edges that may become some until the next search: an edge
-/// that a blow folds would be found when it is inside already.
-fn ridges(surface: &SpaceSurface, positions: &[Vector]) -> Vec<Listed> {
-    let placed = Placed { surface, positions };
-    let listed = |number: u32| {
-        let [a, b] = placed.edge(number);
-        let length = length(minus(b, a));
-        placed.ridge(number).filter(|ridge| ridge.may_be_sharp() && length.is_finite()).map(|_| Listed {
-            number,
-            length,
-            class: length.to_bits() >> 52,
-        })
-    };
-    (0..surface.edges.len() as u32).filter_map(listed).collect()
 }
 
 /// Direction of the first edge: the first tangent along which the slip is.

@@ -429,6 +429,13 @@ impl Tracker {
         normal.map(|n| n / length(normal).max(f64::MIN_POSITIVE))
     }
 
+    /// Whether the surface at a slave looks against a direction as far as all its triangles say, and so its
+    /// normal: without the angles that this takes.
+    fn own_faces(&self, surface: usize, slave: u32, direction: Vector, positions: &[Vector]) -> bool {
+        let (facet, corner) = self.corners[surface][slave as usize];
+        Placed { surface: &self.surfaces[surface], positions }.faces(facet, corner as usize, direction, FACING)
+    }
+
     /// Keeps what is known of the past.
     pub(in crate::contact) fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         for pass in &mut self.passes {

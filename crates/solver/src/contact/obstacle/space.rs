@@ -20,7 +20,9 @@ use super::behind::{Behind, Thick, divisions, may_be_between};
 use super::points::{Point, points};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::contact::springs::TangentSpace;
+use crate::contact::tracker::sleep::{AWAKE, awake, wake_at};
 use crate::mesh::surface::Corners;
+use crate::rigid::Body;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{any_tangent, length, minus, plus, times};
 use std::any::Any;
@@ -166,6 +168,76 @@ struct ContactHistory {
 
 persist_all!(ContactHistory { presses, offset, slip });
 
+/// What is within its reach and so many ways of a step gets a spring.
+const LOOK_AHEAD: f64 = 4.0;
+/// Where the distance of a facet from its obstacle less twice its size shrinks by the way of one step, its
+/// corners have gone a fifth of it at least.
+const SIZES: f64 = 5.0;
+
+/// Points and facets that are far from the obstacle and of which nothing is remembered: nothing comes of
+/// them until both sides have gone so far that they may have come near, see [`crate::contact::tracker::sleep`].
+/// While the obstacle turns all are looked at.
+struct Far {
+    /// Of each node and each facet: its distance when it was measured, and what both sides had gone, m.
+    nodes: Vec<f64>,
+    facets: Vec<f64>,
+    /// Ways of nodes and of the obstacle until now, m.
+    travel: f64,
+    gone: f64,
+    /// Whether something may sleep, and what the above has to exceed then.
+    may_sleep: bool,
+    bounds: [f64; 2],
+}
+
+impl Far {
+    fn new(nodes: usize, facets: usize) -> Self {
+        let (nodes, facets) = (vec![AWAKE; nodes], vec![AWAKE; facets]);
+        Self { nodes, facets, travel: 0.0, gone: 0.0, may_sleep: false, bounds: [f64::INFINITY; 2] }
+    }
+
+    /// A new step begins, at whose end nodes have gone `travel`, m.
+    fn begin(&mut self, body: &Body<3>, travel: f64, reach: f64) {
+        let way = travel - std::mem::replace(&mut self.travel, travel);
+        let shift = body.shift();
+        self.may_sleep = shift.is_some();
+        let Some(shift) = shift else {
+            self.nodes.fill(AWAKE);
+            self.facets.fill(AWAKE);
+            self.bounds = [f64::INFINITY; 2];
+            return;
+        };
+        self.gone += shift;
+        self.bounds = [1.0, SIZES].map(|factor| awake(reach, LOOK_AHEAD, factor * self.both(), 0.5 * (way + shift)));
+    }
+
+    /// Half of what both sides have gone, m.
+    fn both(&self) -> f64 {
+        0.5 * (self.travel + self.gone)
+    }
+
+    fn sleeps(&self, node: usize) -> bool {
+        self.nodes[node] > self.bounds[0]
+    }
+
+    fn facet_sleeps(&self, facet: usize) -> bool {
+        self.facets[facet] > self.bounds[1]
+    }
+
+    /// Notes a node that is so far away.
+    fn note(&mut self, node: usize, distance: f64) {
+        if self.may_sleep {
+            self.nodes[node] = wake_at(distance, self.both());
+        }
+    }
+
+    /// Notes a facet whose corners are so far away, more than twice its size.
+    fn note_facet(&mut self, facet: usize, distance: f64) {
+        if self.may_sleep {
+            self.facets[facet] = wake_at(distance, SIZES * self.both());
+        }
+    }
+}
+
 /// The surface that an obstacle meets.
 #[derive(Clone, Copy)]
 pub struct Outside<'a> {
@@ -197,6 +269,7 @@ pub struct NodeSolid {
     /// Indices of the points with springs in this step.
     found: Vec<u32>,
     behind: Behind<3>,
+    far: Far,
     /// Whether facets may be deep in it between their nodes.
     sees_facets: bool,
 }
@@ -223,8 +296,8 @@ impl NodeSolid {
         let walls = points.iter().map(wall).collect();
         let sees_facets = !ignores_start && divisions.iter().any(|&count| may_be_between(count));
         let (memories, behind, nodes) = (vec![ContactHistory::default(); points.len()], Behind::new(bodies, own), nodes.len());
-        let (has_begun, found) = (false, Vec::new());
-        Self { solid, body, points, nodes, facets, walls, memories, reach, ignores_start, has_begun, found, behind, sees_facets }
+        let (has_begun, found, far) = (false, Vec::new(), Far::new(nodes, facets.len()));
+        Self { solid, body, points, nodes, facets, walls, memories, reach, ignores_start, has_begun, found, behind, far, sees_facets }
     }
 
     /// Meets a point; what is so far away that nothing at it may press in this step has no spring.
@@ -260,8 +333,11 @@ impl NodeSolid {
             self.behind.see(point.nodes[0], -gap, initial, way, scene);
         }
         // Well before it touches: a spring that closes unseen would give back what it never took.
-        if gap > self.reach + 4.0 * way {
+        if gap > self.reach + LOOK_AHEAD * way {
             memory.slip = [0.0; 3];
+            if index < self.nodes && *memory == ContactHistory::default() {
+                self.far.note(index, distance);
+            }
             return;
         }
         let Slave { stiffness, area, .. } = point.slave;
@@ -275,8 +351,9 @@ impl NodeSolid {
         self.found.push(index as u32);
     }
 
-    /// Whether no point of a facet, of which this is one, may press in this step, by its corners.
-    fn is_far(&self, point: &Point, scene: &Scene<'_, 3>) -> bool {
+    /// How much farther than twice its size the corners of a facet are from the obstacle, m, of which this is a
+    /// point, if no point of it may press in this step.
+    fn distance(&self, point: &Point, scene: &Scene<'_, 3>) -> Option<f64> {
         let body = scene.bodies.state(self.body);
         let (mut distance, mut way, mut size) = (f64::INFINITY, 0.0, 0.0);
         let first = scene.sweep.new[point.nodes[0] as usize];
@@ -287,17 +364,22 @@ impl NodeSolid {
             distance = distance.min(self.solid.distance(to).0);
         }
         // No place of it is farther from a corner than the farthest corners are from each other.
-        distance > self.reach + 4.0 * way + 2.0 * size
+        (distance > self.reach + LOOK_AHEAD * way + 2.0 * size).then_some(distance - 2.0 * size)
     }
 
     /// Meets the points of all facets.
     fn meet_facets(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         for number in 0..self.facets.len() {
+            if self.far.facet_sleeps(number) {
+                continue;
+            }
             let range = self.facets[number].clone();
-            if self.is_far(&self.points[range.start], scene) {
+            if let Some(distance) = self.distance(&self.points[range.start], scene) {
                 // What is far has slipped and pressed nowhere.
                 self.memories[range].fill(ContactHistory::default());
+                self.far.note_facet(number, distance);
             } else {
+                self.far.facets[number] = AWAKE;
                 range.for_each(|index| self.meet(index, scene, springs));
             }
         }
@@ -308,7 +390,13 @@ impl Formulation<3> for NodeSolid {
     fn detect(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         self.found.clear();
         self.behind.begin();
-        (0..self.nodes).for_each(|index| self.meet(index, scene, springs));
+        self.far.begin(scene.bodies.state(self.body), scene.sweep.travel, self.reach);
+        for index in 0..self.nodes {
+            if !self.far.sleeps(index) {
+                self.far.nodes[index] = AWAKE;
+                self.meet(index, scene, springs);
+            }
+        }
         self.meet_facets(scene, springs);
         let body = scene.bodies.state(self.body);
         if self.sees_facets {
@@ -332,6 +420,8 @@ impl Formulation<3> for NodeSolid {
         #[rustfmt::skip]
         let Self {
             solid: _, body: _, points: _, nodes: _, facets: _, walls: _, reach: _, ignores_start: _, found: _, sees_facets: _,
+            // All are looked at again: nothing comes of those that slept.
+            far: _,
             memories, has_begun, behind,
         } = self;
         persist_each!(archive; &mut memories[..], has_begun);
@@ -567,5 +657,55 @@ mod tests {
                 assert!((end + reported.lost - begin).abs() < 0.02 * begin, "{solid:?} {friction}: {begin} {end} {}", reported.lost);
             }
         }
+    }
+
+    #[test]
+    fn of_what_sleeps_nothing_would_have_come() {
+        let mut random = crate::bench::Random::new(3);
+        let (mut slept, mut touched) = (0, 0);
+        for (solid, ..) in solids() {
+            for turns in [false, true] {
+                // Triangles, so that round obstacles have points on them as well.
+                let mut x: Vec<Vector> = (0..60).map(|_| std::array::from_fn(|_| 8.0 * random.unit() - 4.0)).collect();
+                let start = x.clone();
+                let facets: Vec<[u32; 4]> = (0..20).map(|k| [3 * k, 3 * k + 1, 3 * k + 2, 3 * k + 2]).collect();
+                let nodes: Vec<_> = (0..60).map(|node| (node, Slave { stiffness: 1.0, area: 1.0, of_mass: 0.0 })).collect();
+                let manner = Manner { reach: 0.05, factor: 0.0, ignores_start: false };
+                let outside = Outside { nodes: &nodes, facets: &facets, positions: &start };
+                let mut both = [0, 1].map(|_| NodeSolid::new(solid, 0, outside, manner, Box::new(Unknown)));
+                let terms = Terms { law: Box::new(Penalty), tangential: Tangential::Free, damping: 0.0 };
+                let mut springs = Springs::<3>::new(60, 1, vec![terms]);
+                let mut bodies = Bodies::<3>::default();
+                let momentum = [0.0, 0.0, if turns { 3.0 } else { 0.0 }];
+                let turning = Turning { inertia: [3.0, 0.2, 0.0, 2.0, 0.1, 4.0], momentum, ..Turning::default() };
+                bodies.add(Body::<3> { turning, velocity: [1.0, -0.7, 0.4, 0.0, 0.0, 0.0], ..Body::default() });
+                let mut travel = 0.0;
+                for _ in 0..300 {
+                    let old = x.clone();
+                    for at in &mut x {
+                        (0..3).for_each(|d| at[d] += 0.05 * (random.unit() - 0.5 - 0.02 * at[d]));
+                    }
+                    let way = |(old, new): (&Vector, &Vector)| length(minus(*new, *old));
+                    travel += old.iter().zip(&x).map(way).fold(0.0, f64::max);
+                    bodies.advance(0.01, &mut []);
+                    let presses = random.unit() < 0.5;
+                    for (formulation, travel) in both.iter_mut().zip([travel, f64::INFINITY]) {
+                        springs.clear();
+                        let sweep = Sweep { travel, ..Sweep::between(&old, &x) };
+                        formulation.detect(&Scene { sweep, bodies: &bodies, time: 0.0 }, &mut springs);
+                        for &index in &formulation.found {
+                            formulation.memories[index as usize].presses = presses;
+                        }
+                    }
+                    let [one, other] = &both;
+                    assert_eq!(one.found, other.found);
+                    assert_eq!(one.memories, other.memories);
+                    touched += one.found.len();
+                    slept += (0..60).filter(|&node| one.far.sleeps(node)).count();
+                    slept += (0..one.facets.len()).filter(|&facet| one.far.facet_sleeps(facet)).count();
+                }
+            }
+        }
+        assert!(slept > 20_000 && touched > 20_000, "{slept} {touched}");
     }
 }

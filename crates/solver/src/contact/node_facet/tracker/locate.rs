@@ -194,7 +194,8 @@ impl Tracker {
         }
         // Who continues with its face needs no second look.
         let continues = |found: &Projection| group.known.touches && dot(group.known.memory.spring.normal, found.normal) > SAME_FACE;
-        if !group.own && !found.as_ref().is_some_and(continues) {
+        let faces_it = |found: &Projection| self.own_faces(pass.slave, group.slave, found.normal, sweep.new);
+        if !group.own && !found.as_ref().is_some_and(|found| continues(found) || faces_it(found)) {
             let own = self.own_normal(pass.slave, group.slave, sweep.new);
             if found.is_none_or(|found| dot(own, found.normal) >= FACING) {
                 let faces = |facet: u32| dot(own, placed.facet_normal(facet)) < FACING;

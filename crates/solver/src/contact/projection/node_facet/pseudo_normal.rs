@@ -111,26 +111,49 @@ impl Placed<'_> {
     /// outside, −1 inside, where all triangles say the same, clearly; so does their angle-weighted normal
     /// then.
     pub(super) fn side_of_node(&self, first: u32, corner: usize, away: Vector) -> Option<f64> {
+        let (least, mut side) = (CLEAR * CLEAR * dot(away, away), 0.0);
+        let agrees = |across: Vector| {
+            let along = dot(away, across);
+            let is_clear = along * along > least * dot(across, across) && along * side >= 0.0;
+            side = along;
+            is_clear
+        };
+        self.all_around(first, corner, agrees).then(|| side.signum())
+    }
+
+    /// Whether the surface around a corner of the facet `first` closes there, and the normals of all its
+    /// triangles have a cosine with the unit vector `direction` that is clearly below `cosine` < 0: then so has
+    /// their angle-weighted normal.
+    #[must_use]
+    pub fn faces(&self, first: u32, corner: usize, direction: Vector, cosine: f64) -> bool {
+        let least = (cosine - CLEAR) * (cosine - CLEAR);
+        self.all_around(first, corner, |across| {
+            let along = dot(direction, across);
+            along < 0.0 && along * along > least * dot(across, across)
+        })
+    }
+
+    /// Whether the surface around a corner of the facet `first` closes there, and something is `true` of all
+    /// triangles by their normals, not of unit length.
+    fn all_around(&self, first: u32, corner: usize, mut is_true: impl FnMut(Vector) -> bool) -> bool {
         let node = self.surface.facets[first as usize][corner];
-        let (least, mut side, mut here) = (CLEAR * CLEAR * dot(away, away), 0.0, (first, corner));
+        let mut here = (first, corner);
         for _ in 0..self.surface.facets_at(node).len() {
             let (facet, corner) = here;
             let (one, other) = self.triangles_at(facet, corner);
             for (k, at) in std::iter::once(one).chain(other) {
                 let [p, q] = self.sides(facet, k, at);
-                let across = cross(p, q);
-                let along = dot(away, across);
-                if !(along * along > least * dot(across, across)) || along * side < 0.0 {
-                    return None;
+                if !is_true(cross(p, q)) {
+                    return false;
                 }
-                side = along;
             }
-            here = self.beyond(facet, corner, node)?;
+            let Some(next) = self.beyond(facet, corner, node) else { return false };
+            here = next;
             if here.0 == first {
-                return Some(side.signum());
+                return true;
             }
         }
-        None
+        false
     }
 }
 

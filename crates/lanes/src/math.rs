@@ -108,8 +108,8 @@ pub fn pow<L: Lane>(x: L, y: L) -> L {
 
 /// e^x − 1 − x without cancellation, relative error below 1e-15; arguments as for [`exp`].
 ///
-/// With x = k ln 2 + r: (2^k − 1 − k ln 2) + (2^k − 1) r + 2^k (e^r − 1 − r); where k is zero in all lanes, the
-/// same digits come from the last term alone.
+/// With x = k ln 2 + r: (2^k − 1 − k ln 2) + (2^k − 1) r + 2^k (e^r − 1 − r); where k is zero in all lanes,
+/// the same digits come from the last term alone.
 #[inline(always)]
 pub fn exp_above_tangent<L: Lane>(x: L) -> L {
     if !L::any(L::splat(SMALL).less(x.abs())) {

@@ -52,9 +52,9 @@ fn packed([a, b]: [u32; 2]) -> u64 {
     u64::from(a) << 32 | u64::from(b)
 }
 
-/// All pairs of ridges of the surfaces `sides` that are nearer than the radius, or go farther than the skin in
-/// this step, ascending; of one surface each with the lower number first. `at_nodes`: edges at each node of
-/// each surface; `found` is room.
+/// All pairs of ridges of the surfaces `sides` that are nearer than the radius, or go farther than the skin
+/// in this step, ascending; of one surface each with the lower number first. `at_nodes`: edges at each node
+/// of each surface; `found` is room.
 pub(super) fn near(
     around: &Around<'_>,
     sides: [usize; 2],

@@ -174,8 +174,8 @@ const LOOK_AHEAD: f64 = 4.0;
 /// corners have gone a fifth of it at least.
 const SIZES: f64 = 5.0;
 
-/// Points and facets that are far from the obstacle and of which nothing is remembered: nothing comes of
-/// them until both sides have gone so far that they may have come near, see [`crate::contact::tracker::sleep`].
+/// Points and facets that are far from the obstacle and of which nothing is remembered: nothing comes of them
+/// until both sides have gone so far that they may have come near, see [`crate::contact::tracker::sleep`].
 /// While the obstacle turns all are looked at.
 struct Far {
     /// Of each node and each facet: its distance when it was measured, and what both sides had gone, m.
@@ -351,8 +351,8 @@ impl NodeSolid {
         self.found.push(index as u32);
     }
 
-    /// How much farther than twice its size the corners of a facet are from the obstacle, m, of which this is a
-    /// point, if no point of it may press in this step.
+    /// How much farther than twice its size the corners of a facet are from the obstacle, m, of which this is
+    /// a point, if no point of it may press in this step.
     fn distance(&self, point: &Point, scene: &Scene<'_, 3>) -> Option<f64> {
         let body = scene.bodies.state(self.body);
         let (mut distance, mut way, mut size) = (f64::INFINITY, 0.0, 0.0);

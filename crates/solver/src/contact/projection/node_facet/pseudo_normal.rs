@@ -122,8 +122,8 @@ impl Placed<'_> {
     }
 
     /// Whether the surface around a corner of the facet `first` closes there, and the normals of all its
-    /// triangles have a cosine with the unit vector `direction` that is clearly below `cosine` < 0: then so has
-    /// their angle-weighted normal.
+    /// triangles have a cosine with the unit vector `direction` that is clearly below `cosine` < 0: then so
+    /// has their angle-weighted normal.
     #[must_use]
     pub fn faces(&self, first: u32, corner: usize, direction: Vector, cosine: f64) -> bool {
         let least = (cosine - CLEAR) * (cosine - CLEAR);

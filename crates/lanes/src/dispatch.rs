@@ -90,6 +90,9 @@ impl Level {
 /// Not inlined, so that a kernel with several callers is compiled once.
 #[inline(never)]
 fn run_scalar<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(feature = "count")]
+    return kernel.run::<crate::counted::Counted>();
+    #[cfg(not(feature = "count"))]
     kernel.run::<f64>()
 }
 

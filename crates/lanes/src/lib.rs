@@ -11,6 +11,8 @@
 //! takes a batch in `BATCH / WIDTH` parts. [`Level`] chooses the instruction set at run time; [`Indices`] and
 //! [`Places`] know their bound so that gathers check it once.
 
+#[cfg(feature = "count")]
+mod counted;
 mod dispatch;
 mod gather;
 mod lane;
@@ -20,6 +22,8 @@ mod team;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+#[cfg(feature = "count")]
+pub use counted::Operations;
 pub use dispatch::{Kernel, Level, prefetch};
 pub use gather::{Indices, Moving, Places, Room, VectorSums};
 pub use lane::{BATCH, Batch, Lane};

@@ -112,7 +112,8 @@ pub fn pow<L: Lane>(x: L, y: L) -> L {
 /// the same digits come from the last term alone.
 #[inline(always)]
 pub fn exp_above_tangent<L: Lane>(x: L) -> L {
-    if !L::any(L::splat(SMALL).less(x.abs())) {
+    // What is no number takes the long way in all lanes.
+    if L::bits(x.abs().less(L::splat(SMALL))).count_ones() as usize == L::WIDTH {
         return above_tangent(x);
     }
     let [power, k, r, above] = reduced(x);

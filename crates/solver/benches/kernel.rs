@@ -2,7 +2,8 @@
 //! beside the scalar lane in the same run.
 //!
 //! `cargo bench -p embate-solver --bench kernel [-- ELEMENT... LAW...]`: all, or some elements with some
-//! laws.
+//! laws. With `--features count` also the operations per element and step: additions, multiplications,
+//! divisions, roots, and others (comparisons, selections, signs); rates mean nothing then.
 
 use embate_solver::bench::{Level, Patch, kernel};
 use embate_solver::block::Blocks;
@@ -29,6 +30,12 @@ where
             scalar = rate;
         }
         line += &format!("  {} {rate:6.1} ({:.2})", level.name(), rate / scalar);
+    }
+    #[cfg(feature = "count")]
+    {
+        let [additions, multiplications, divisions, roots, others] =
+            embate_solver::bench::operations(element, law, patch).expect("registered names");
+        line += &format!("  {additions:.0} + {multiplications:.0} * {divisions:.1} / {roots:.1} roots, {others:.0} others");
     }
     println!("{line}");
 }

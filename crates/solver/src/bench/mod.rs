@@ -13,4 +13,6 @@ pub use crate::random::Random;
 pub use bodies::{Patch, contact, material, slabs, spinning_block, spinning_cube, strips};
 pub use ceilings::{multiply_add, triad};
 pub use embate_lanes::Level;
+#[cfg(feature = "count")]
+pub use rates::operations;
 pub use rates::{best_rate, kernel, shortest, step, step_times, steps_of};

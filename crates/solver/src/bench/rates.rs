@@ -54,6 +54,43 @@ pub fn kernel<const D: usize>(element: &str, law: &str, patch: &Patch<D>, level:
 where
     Dim<D>: Blocks<D>,
 {
+    advanced(element, law, patch, level, |advance| {
+        let once = Instant::now();
+        let elements = advance();
+        let repeats = repeats(once.elapsed().as_secs_f64(), elements, seconds);
+        best_rate(seconds, || (0..repeats).map(|_| advance()).sum::<usize>() as f64)
+    })
+}
+
+/// Operations of the block alone per element and step, counted in the scalar lane.
+///
+/// # Errors
+/// As [`kernel`].
+#[cfg(feature = "count")]
+pub fn operations<const D: usize>(element: &str, law: &str, patch: &Patch<D>) -> Result<[f64; 5], Error>
+where
+    Dim<D>: Blocks<D>,
+{
+    advanced(element, law, patch, Level::SCALAR, |advance| {
+        embate_lanes::Operations::take();
+        let elements = advance();
+        let embate_lanes::Operations { additions, multiplications, divisions, roots, others } = embate_lanes::Operations::take();
+        [additions, multiplications, divisions, roots, others].map(|count| count as f64 / elements as f64)
+    })
+}
+
+/// Hands a block that has flown for some steps to `measure`, as what strains it once more and says how many
+/// elements it has.
+fn advanced<T, const D: usize>(
+    element: &str,
+    law: &str,
+    patch: &Patch<D>,
+    level: Level,
+    measure: impl FnOnce(&mut dyn FnMut() -> usize) -> T,
+) -> Result<T, Error>
+where
+    Dim<D>: Blocks<D>,
+{
     let material = material(law);
     let input = BlockInput::new(element, &material, &patch.connectivity, &patch.positions);
     let unknown = || Error::Model(vec![Fault::new(&UNKNOWN_NAME, "", format!("there is no block of `{element}` with `{law}`"), "")]);
@@ -66,14 +103,9 @@ where
     for _ in 0..WARM {
         black_box(block.advance(&first, level, NodalForces::new(&mut slots), &mut team));
     }
-    let once = Instant::now();
-    black_box(block.advance(&motion, level, NodalForces::new(&mut slots), &mut team));
-    let repeats = repeats(once.elapsed().as_secs_f64(), block.elements(), seconds);
-    Ok(best_rate(seconds, || {
-        for _ in 0..repeats {
-            black_box(block.advance(&motion, level, NodalForces::new(&mut slots), &mut team));
-        }
-        (repeats * block.elements()) as f64
+    Ok(measure(&mut || {
+        black_box(block.advance(&motion, level, NodalForces::new(&mut slots), &mut team));
+        block.elements()
     }))
 }
 

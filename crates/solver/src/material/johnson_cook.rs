@@ -177,8 +177,7 @@ impl Law for JohnsonCook {
             let (inverse, stiffness) = (one / q, L::splat(3.0 * self.shear));
             let unit = (L::splat(self.rate_reference) * kinematics.time_step).max(L::splat(1e-100));
             // At the yield stress of the rate 0; and where it flows already, about as fast as the strain
-            // continues
-            //.
+            // continues.
             let start = one / (stiffness + slope);
             let (slow, along) = ((q - flow) * start, trial.along(kinematics.strain_increment, inverse) * stiffness * start);
             let start = L::select(zero.less(along), slow.min(along), slow);
@@ -225,7 +224,8 @@ impl JohnsonCook {
     /// Δε_p where it `yields`, and the term B ε_p^n with its slope after it; `unit` is the increment ε̇_0 Δt.
     ///
     /// The first guess is a step of Chebyshev's method from `start` with the term B ε_p^n continued from the
-    /// state by its slope and curvature: as good as an evaluation, without its power.
+    /// state by its slope and curvature, without its power; from `start` itself where that is as far as the
+    /// plastic strain, over which no parabola continues a power.
     #[inline(always)]
     fn step<L: Lane>(&self, q: L, start: L, state: &[L; 5], strength: L, unit: L, yields: L::Mask) -> (L, [L; 2]) {
         let (half, one, zero) = (L::splat(0.5), L::splat(1.0), L::splat(0.0));
@@ -243,8 +243,9 @@ impl JohnsonCook {
         let inverse = one / slope;
         let first = -(value * inverse);
         let better = start + first * (one - half * (curvature * first * inverse).max(-one).min(one));
-        let inside = |at: L| L::select(zero.less(at), L::select(at.less(high), at, start), start);
-        let mut newton = Newton::new(inside(better), high, q, yields);
+        let better = L::select(zero.less(better), L::select(better.less(high), better, start), start);
+        let better = L::select(start.less(state[0]), better, start);
+        let mut newton = Newton::new(better, high, q, yields);
         let mut end = [state[3], state[4]];
         for _ in 0..LIMIT {
             let power = self.power.flow(state[0] + newton.at);

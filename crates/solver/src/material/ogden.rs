@@ -9,7 +9,7 @@
 //! With x_i = α ln λ̄_i, Σ x_i = 0 and Σ (β_i − 1) = Σ (e^{x_i} − 1 − x_i): squares of small numbers near
 //! rest, without cancellation.
 //!
-//! Stiffness for the stable step. Along L = a⊗n in principal axes, u_i = λ̄_i², y_i = a_i n_i, S_i = Σ_k µ_k
+//! Stiffness for the stable step. Along L = a⊗n in principal axes, u_i = λ_i², y_i = a_i n_i, S_i = Σ_k µ_k
 //! α_k β_i, means over i with a bar: J ρc² − J² U'' (a·n)² = Σ_ij D_ij y_i y_j + Σ_{i≠j} g_ij u_j a_i² n_j²
 //! with the divided difference g_ij = (T_i − T_j)/(u_i − u_j), D_ii = (S_i + S̄)/3 − T_i + T̄ and D_ij = (S̄
 //! − S_i − S_j)/3 + u_j g_ij − T_j + T̄ (symmetric). Since Σ_{i≠j} a_i² n_j² = 1 − Σ y_i² and Σ |y_i| ≤ 1,
@@ -85,11 +85,12 @@ impl Law for Ogden {
         let logarithm = math::ln(j);
         let volume = Volume::with_logarithm(self.bulk, j, inverse, logarithm);
         let (squares, axes) = kinematics.left_cauchy_green.principal();
-        // ln λ̄_i: their sum is zero, so that of the third follows, and so does J.
+        // ln λ̄_i: their sum is zero. The second one follows from that: in 2D it is the small one, with the
+        // fewest digits.
         let mean = logarithm * third;
         let first = math::ln(squares[0]) * half - mean;
-        let second = math::ln(squares[1]) * half - mean;
-        let logs = [first, second, -(first + second)];
+        let last = math::ln(squares[2]) * half - mean;
+        let logs = [first, -(first + last), last];
         let mut principal = Principal { squares, per_squares: inverse * inverse, stress: [zero; 3], slope: [zero; 3] };
         let mut stored = volume.stored;
         for k in 0..TERMS {

@@ -39,20 +39,20 @@ impl Power {
         let inverse = L::splat(1.0) / plastic;
         let slope = L::select(curved, L::splat(self.exponent) * power * inverse, L::splat(self.chord));
         let known = L::splat(self.free).less(plastic);
-        let curvature = self.curvature_known(slope * inverse, known);
+        let curvature = self.curvature_where(known, slope, inverse);
         let reach = L::select(known, L::splat(0.5) * plastic, L::splat(0.0));
         Flow { stress: L::select(curved, power, chord), slope, curvature, reach }
     }
 
-    /// The curvature of the term from its slope, Pa; zero where the chord is or is near.
+    /// The curvature of the term where its slope is this, Pa; zero where the chord is or is near.
     #[inline(always)]
     pub(crate) fn curvature<L: Lane>(&self, plastic: L, slope: L) -> L {
-        self.curvature_known(slope / plastic, L::splat(self.free).less(plastic))
+        self.curvature_where(L::splat(self.free).less(plastic), slope, L::splat(1.0) / plastic)
     }
 
     #[inline(always)]
-    fn curvature_known<L: Lane>(&self, slope_per_strain: L, known: L::Mask) -> L {
-        L::select(known, L::splat(self.exponent - 1.0) * slope_per_strain, L::splat(0.0))
+    fn curvature_where<L: Lane>(&self, known: L::Mask, slope: L, inverse: L) -> L {
+        L::select(known, L::splat(self.exponent - 1.0) * slope * inverse, L::splat(0.0))
     }
 }
 

@@ -38,6 +38,9 @@ pub trait Elastic<const D: usize> {
     /// Largest square of the stiffness against a displacement gradient over that against waves, K + 4µ/3: 3K
     /// or 2µ, in the plane 2 (λ + µ); nine times that where dilatations are averaged over nodes.
     fn spread(&self) -> f64;
+    /// Whether dilatations are averaged over nodes: what is left of them may be stiffer without some
+    /// elements.
+    fn averages_at_nodes(&self) -> bool;
     /// Largest singular value of the nodal gradients of every element, 1/m; zero of those that are gone.
     fn slopes(&self, positions: &[[f64; D]]) -> Vec<f64>;
     /// Hands over how far each element that is left is from a reference form with its [`Elastic::slopes`]:
@@ -129,6 +132,10 @@ where
         // Weights of means over nodes change with all elements there.
         let averaged = if self.facts().averages_at_nodes { 9.0 } else { 1.0 };
         averaged * f64::max(dilating, 2.0 * shear) / (bulk + shear * (4.0 / 3.0))
+    }
+
+    fn averages_at_nodes(&self) -> bool {
+        self.facts().averages_at_nodes
     }
 
     fn slopes(&self, positions: &[[f64; D]]) -> Vec<f64> {

@@ -22,8 +22,10 @@
 //! √(Σ|du_a|²).
 //!
 //! What is allowed, [`SLACK`] of ω_r, is in the step from the start: it stays the same until it is used up,
-//! and then a new form is taken. Blocks without such a law bound the step with their elements. Where that
-//! costs more steps than it saves, there is a rest in which elements or nodes bound the step.
+//! and then a new form is taken. Elements that fail take stiffness away and leave their mass, so that the
+//! form holds without them; not where dilatations are averaged over nodes, whose weights change. Blocks of
+//! these that may fail, and those without such a law, bound the step with their elements. Where that costs
+//! more steps than it saves, there is a rest in which elements or nodes bound the step.
 //!
 //! Sources: Irons' theorem for K = Σ K_e in [`super::nodal_bound`]; the damping of non-commuting matrices and
 //! the bound of the deformation are derived here; Flanagan and Belytschko, J. Appl. Mech. 51 (1984) 35-40 for
@@ -377,25 +379,20 @@ struct Found {
 
 impl<const D: usize> AssembledBound<D> {
     /// Of the blocks of a system that are strained and have an elastic body which they are never stiffer
-    /// than.
+    /// than, also where elements fail.
     fn of(system: &System<D>) -> Self
     where
         Dim<D>: Dimension<D>,
     {
-        let is_in = |block: &dyn Block<D>, rigid: bool| !rigid && block.elastic().is_some();
-        let blocks = system.blocks.iter().zip(system.rigid.iter().copied());
-        let steps: Vec<_> = blocks.map(|own| if is_in(own.0.as_ref(), own.1) { vec![0.0; own.0.elements()] } else { Vec::new() }).collect();
+        let may_fail = |block| system.erosion.as_ref().is_some_and(|erosion| erosion.may_fail(block));
+        let is_in = |index: usize, block: &dyn Block<D>| {
+            !system.rigid[index] && block.elastic().is_some_and(|elastic| !(elastic.averages_at_nodes() && may_fail(index)))
+        };
+        let blocks = system.blocks.iter().enumerate();
+        let steps: Vec<_> = blocks.map(|(k, own)| if is_in(k, own.as_ref()) { vec![0.0; own.elements()] } else { Vec::new() }).collect();
         let groups = system.mesh.groups.iter().zip(&steps).filter(|(_, steps)| !steps.is_empty());
         let bodies = connected(system.positions.len(), groups.flat_map(|(group, _)| group.cells()).map(|cell| cell.nodes));
         Self { form: system.positions.clone(), slopes: steps.clone(), steps, bodies, ..Self::default() }
-    }
-
-    /// Leaves the form r of a block that loses elements: their part in what was reported is gone, and means
-    /// over nodes without them may make their neighbours stiffer.
-    pub(super) fn lose_elements_of(&mut self, block: usize) {
-        if self.squared > 0.0 && !self.steps[block].is_empty() {
-            self.end();
-        }
     }
 
     /// Leaves the form r. Where too many cost more than they saved, there is a rest.

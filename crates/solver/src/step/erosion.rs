@@ -210,11 +210,10 @@ where
         for &element in &numbers {
             self.mesh.groups[index].erode(element as usize);
         }
-        if let Some(bound) = &mut self.assembled_bound {
-            bound.lose_elements_of(index);
-        }
         let block = &self.blocks[index];
-        self.reports[index] = block.report(&self.positions);
+        // How far those that are left have moved is no more than what all reported.
+        let motion = self.reports[index].motion;
+        self.reports[index] = Report { motion, ..block.report(&self.positions) };
         erosion.gone[index] = !(0..block.elements()).any(|element| block.is_alive(element));
     }
 

@@ -359,3 +359,34 @@ fn springs_count_on_elements_that_are_beside_it_too() {
         assert!(step < limit * (1.0 + 1e-9) && step > 0.3 * limit, "{ratio}: {step} {limit}");
     }
 }
+
+/// Failed elements take stiffness away; where dilatations are averaged over nodes what is left may be
+/// stiffer, and the elements themselves bound the step.
+#[test]
+fn elements_may_fail_with_all_of_the_step_by_the_assembled_mesh() {
+    fn torn<const D: usize>(kind: &ElementKind, patch: Patch<D>, steps: u64)
+    where
+        Dim<D>: Blocks<D>,
+    {
+        let (mut model, patch, velocities) = vibrating(kind, patch, 0.3);
+        model.run.energy_limit = 1e9;
+        model.materials.get_mut("m").unwrap().failure = [("principal_stress".to_string(), 4e5)].into();
+        let mut run = start(&model);
+        let nodes: Vec<u32> = (0..patch.positions.len() as u32).collect();
+        run.set_velocities(&nodes, &velocities).unwrap();
+        run.advance(f64::INFINITY, steps).unwrap();
+        let summary = run.summary();
+        let gone: usize = summary.erosion.as_ref().map_or(0, |erosion| erosion.elements.iter().map(|(_, count)| *count).sum());
+        let governor = &summary.stable_time_step_governor;
+        println!("{}: {gone} of {} elements gone, drift {:e}, {governor}", kind.name, summary.elements, summary.energy_drift);
+        assert!(gone > summary.elements / 20 && gone < summary.elements, "{}: {gone}", kind.name);
+        assert!(summary.energy_drift.abs() < 0.03, "{}: {}", kind.name, summary.energy_drift);
+    }
+    let of = |kinds: &'static [ElementKind], name| kinds.iter().find(|kind| kind.name == name).unwrap();
+    for name in ["quad4", "quad4_reduced", "tri3_anp"] {
+        torn(of(ELEMENTS, name), patch(name, 8, 0.2), 4_000);
+    }
+    for name in ["hex8", "tet4", "tet4_anp"] {
+        torn(of(ELEMENTS_OF_SPACE, name), solids::patch(name, 4, 0.1), 2_000);
+    }
+}

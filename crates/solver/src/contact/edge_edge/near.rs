@@ -28,17 +28,17 @@ impl Ridges {
     /// blow folds would be found when it is inside already.
     fn of(surface: &SpaceSurface, positions: &[[f64; 3]]) -> Self {
         let placed = Placed { surface, positions };
-        let edges = || 0..surface.edges.len() as u32;
         let length_of = |edge: u32| {
             let [a, b] = placed.edge(edge);
             length(minus(b, a))
         };
-        let class = |edge: u32| {
-            let length = length_of(edge);
+        let lengths: Vec<f64> = (0..surface.edges.len() as u32).map(length_of).collect();
+        let class = |(edge, &length): (u32, &f64)| {
             let is_ridge = length.is_finite() && placed.ridge(edge).is_some_and(|ridge| ridge.may_be_sharp());
             if is_ridge { length.to_bits() >> 52 } else { NO_RIDGE }
         };
-        Self { lengths: edges().map(length_of).collect(), classes: edges().map(class).collect() }
+        let classes = (0..).zip(&lengths).map(class).collect();
+        Self { lengths, classes }
     }
 
     /// Those of a class.

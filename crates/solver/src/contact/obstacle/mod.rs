@@ -7,6 +7,7 @@
 
 pub mod behind;
 pub mod circle;
+mod far;
 pub mod plane;
 pub mod points;
 pub mod space;

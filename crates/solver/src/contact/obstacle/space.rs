@@ -17,12 +17,11 @@ use super::super::springs::{Answers, End, Slip, Spring, Springs, Stiffening};
 use super::super::{Formulation, Scene};
 use super::Manner;
 use super::behind::{Behind, Thick, divisions, may_be_between};
+use super::far::{Far, LOOK_AHEAD};
 use super::points::{Point, points};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::contact::springs::TangentSpace;
-use crate::contact::tracker::sleep::{AWAKE, awake, wake_at};
 use crate::mesh::surface::Corners;
-use crate::rigid::Body;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{any_tangent, length, minus, plus, times};
 use std::any::Any;
@@ -168,76 +167,6 @@ struct ContactHistory {
 
 persist_all!(ContactHistory { presses, offset, slip });
 
-/// What is within its reach and so many ways of a step gets a spring.
-const LOOK_AHEAD: f64 = 4.0;
-/// Where the distance of a facet from its obstacle less twice its size shrinks by the way of one step, its
-/// corners have gone a fifth of it at least.
-const SIZES: f64 = 5.0;
-
-/// Points and facets that are far from the obstacle and of which nothing is remembered: nothing comes of them
-/// until both sides have gone so far that they may have come near, see [`crate::contact::tracker::sleep`].
-/// While the obstacle turns all are looked at.
-struct Far {
-    /// Of each node and each facet: its distance when it was measured, and what both sides had gone, m.
-    nodes: Vec<f64>,
-    facets: Vec<f64>,
-    /// Ways of nodes and of the obstacle until now, m.
-    travel: f64,
-    gone: f64,
-    /// Whether something may sleep, and what the above has to exceed then.
-    may_sleep: bool,
-    bounds: [f64; 2],
-}
-
-impl Far {
-    fn new(nodes: usize, facets: usize) -> Self {
-        let (nodes, facets) = (vec![AWAKE; nodes], vec![AWAKE; facets]);
-        Self { nodes, facets, travel: 0.0, gone: 0.0, may_sleep: false, bounds: [f64::INFINITY; 2] }
-    }
-
-    /// A new step begins, at whose end nodes have gone `travel`, m.
-    fn begin(&mut self, body: &Body<3>, travel: f64, reach: f64) {
-        let way = travel - std::mem::replace(&mut self.travel, travel);
-        let shift = body.shift();
-        self.may_sleep = shift.is_some();
-        let Some(shift) = shift else {
-            self.nodes.fill(AWAKE);
-            self.facets.fill(AWAKE);
-            self.bounds = [f64::INFINITY; 2];
-            return;
-        };
-        self.gone += shift;
-        self.bounds = [1.0, SIZES].map(|factor| awake(reach, LOOK_AHEAD, factor * self.both(), 0.5 * (way + shift)));
-    }
-
-    /// Half of what both sides have gone, m.
-    fn both(&self) -> f64 {
-        0.5 * (self.travel + self.gone)
-    }
-
-    fn sleeps(&self, node: usize) -> bool {
-        self.nodes[node] > self.bounds[0]
-    }
-
-    fn facet_sleeps(&self, facet: usize) -> bool {
-        self.facets[facet] > self.bounds[1]
-    }
-
-    /// Notes a node that is so far away.
-    fn note(&mut self, node: usize, distance: f64) {
-        if self.may_sleep {
-            self.nodes[node] = wake_at(distance, self.both());
-        }
-    }
-
-    /// Notes a facet whose corners are so far away, more than twice its size.
-    fn note_facet(&mut self, facet: usize, distance: f64) {
-        if self.may_sleep {
-            self.facets[facet] = wake_at(distance, SIZES * self.both());
-        }
-    }
-}
-
 /// The surface that an obstacle meets.
 #[derive(Clone, Copy)]
 pub struct Outside<'a> {
@@ -370,7 +299,7 @@ impl NodeSolid {
     /// Meets the points of all facets.
     fn meet_facets(&mut self, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         for number in 0..self.facets.len() {
-            if self.far.facet_sleeps(number) {
+            if !self.far.looks_at_facet(number) {
                 continue;
             }
             let range = self.facets[number].clone();
@@ -379,7 +308,6 @@ impl NodeSolid {
                 self.memories[range].fill(ContactHistory::default());
                 self.far.note_facet(number, distance);
             } else {
-                self.far.facets[number] = AWAKE;
                 range.for_each(|index| self.meet(index, scene, springs));
             }
         }
@@ -392,8 +320,7 @@ impl Formulation<3> for NodeSolid {
         self.behind.begin();
         self.far.begin(scene.bodies.state(self.body), scene.sweep.travel, self.reach);
         for index in 0..self.nodes {
-            if !self.far.sleeps(index) {
-                self.far.nodes[index] = AWAKE;
+            if self.far.looks_at(index) {
                 self.meet(index, scene, springs);
             }
         }
@@ -701,8 +628,7 @@ mod tests {
                     assert_eq!(one.found, other.found);
                     assert_eq!(one.memories, other.memories);
                     touched += one.found.len();
-                    slept += (0..60).filter(|&node| one.far.sleeps(node)).count();
-                    slept += (0..one.facets.len()).filter(|&facet| one.far.facet_sleeps(facet)).count();
+                    slept += one.far.sleeping();
                 }
             }
         }

@@ -176,7 +176,13 @@ where
     /// Stiffness of a node by its mass and the first step, of the area that it stands for, Pa/m; zero where
     /// the step was not asked for.
     fn of_mass(&self, node: u32, area: f64) -> f64 {
-        if self.time_step > 0.0 { law::penalty::of_time_step(self.mass[node as usize], self.time_step, area) } else { 0.0 }
+        if self.time_step > 0.0 { law::penalty::of_time_step(self.mass_behind(node), self.time_step, area) } else { 0.0 }
+    }
+
+    /// Mass that moves with a node of a surface, kg/m: of a shell's face half of that of the middle.
+    fn mass_behind(&self, node: u32) -> f64 {
+        let skin = (node as usize).checked_sub(self.mesh.first_skin_node()).and_then(|own| self.mesh.skins.get(own));
+        skin.map_or_else(|| self.mass[node as usize], |skin| 0.5 * self.mass[skin.owner as usize])
     }
 
     /// Reports if nodes are bound already (`tied`: which contact binds a node): two ties would hold against

@@ -32,6 +32,7 @@ pub mod outline;
 pub mod contact_forces;
 pub mod rigid;
 pub mod rotations;
+pub mod skins;
 pub mod block;
 pub mod contact;
 pub mod dimension;

@@ -13,7 +13,7 @@ use crate::hash::Fnv;
 use crate::material::variable::PLASTIC_STRAIN;
 use crate::mesh::ElementGroup;
 use crate::model::messages::UNKNOWN_NAME;
-use crate::model::{Model, ProbeAt};
+use crate::model::{Model, Part, ProbeAt};
 use crate::output::{Cells, FieldKind, Needs, fields_of};
 use crate::rigid::{Body, RigidMotion};
 use crate::rotation::{Rotate, unit_matrix};
@@ -70,6 +70,7 @@ impl Recorded {
                 Needs::Contact => has_contact,
                 Needs::Friction => has_friction,
                 Needs::Failure => has_failure,
+                Needs::Shells => model.parts.iter().any(Part::is_of_shells),
             };
             // Pictures fall back on these two.
             let pictured = model.output.pictures && (kind.name == VON_MISES.name || (kind.name == PLASTIC_STRAIN.name && sensible));
@@ -225,7 +226,7 @@ where
     let elements: usize = system.mesh.groups.iter().map(ElementGroup::elements).sum();
     // A large model has no room to grow into.
     let mut cells = Cells {
-        nodes: Vec::with_capacity(system.mesh.groups.iter().map(|group| group.connectivity.len()).sum()),
+        nodes: Vec::with_capacity(system.mesh.groups.iter().map(|group| group.connectivity.len().max(group.outer.len())).sum()),
         offsets: Vec::with_capacity(elements + 1),
         kinds: Vec::with_capacity(elements),
         parts: Vec::with_capacity(elements),
@@ -241,7 +242,7 @@ where
             (0..).zip(&group.user_elements).for_each(|(element, &user)| places[user as usize] = (of_part, element));
         }
         for (of_part, element) in places {
-            let cell = groups[usize::from(of_part)].cell(element as usize);
+            let cell = groups[usize::from(of_part)].outer_cell(element as usize);
             cells.nodes.extend(cell.nodes.iter().map(|&node| system.mesh.user_nodes[node as usize]));
             cells.offsets.push(cells.nodes.len() as u32);
             cells.kinds.push(cell.kind);

@@ -39,6 +39,7 @@ use crate::masses::PartMasses;
 use crate::mesh::Mesh;
 use crate::reductions;
 use crate::rigid::{Acting, Bodies};
+use crate::skins::Skins;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus, plus, times};
 pub(crate) use assembled_bound::AssembledBound;
@@ -151,6 +152,8 @@ where
     pub(crate) relaxation: Option<Relaxation<D>>,
     /// Nodes that rotate.
     pub(crate) rotations: NodalRotations,
+    /// Nodes on the faces of shells.
+    pub(crate) skins: Skins<D>,
     /// Mass that was added for longer steps, and the true mass of what it was added to, kg/m.
     pub(crate) mass_added: [f64; 2],
     /// Mass that is added in the run, where the model wants it.
@@ -185,6 +188,8 @@ macro_rules! nodes {
             boundary: &$system.boundary,
             joins: &$system.joins,
             bodies: &$system.bodies,
+            skins: &$system.skins,
+            rotations: &$system.rotations,
             velocities_old: &$system.$velocities_old,
             positions: &$system.positions,
             time_step: $time_step,
@@ -251,7 +256,9 @@ where
         let free = |&(node, _): &(u32, _)| self.bodies.of_node(node).is_none();
         let kinetic = |(_, (m, v)): (u32, (&f64, &[f64; D]))| 0.5 * m * dot(*v, *v);
         let nodes = reductions::sum((0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic));
+        self.rotations.prepare(&self.curves, [0.0; 2], [0.0; 2]);
         let rotations = self.rotations.start(&self.bodies);
+        self.skins.lead(&self.rotations.now, 0.0, &self.positions, &mut self.velocities);
         self.ledger = Ledger::new(nodes + self.bodies.kinetic() + rotations, self.energy_of_round_off());
         let nodes = reductions::max(self.velocities.iter().map(|&v| dot(v, v)));
         self.positions_old.clone_from(&self.positions);
@@ -278,6 +285,7 @@ where
         std::mem::swap(&mut self.positions, &mut self.positions_old);
         self.bodies.advance(dt, &mut self.positions);
         self.rotations.advance(dt, &self.bodies);
+        self.skins.place(&self.rotations.now, &mut self.positions);
         self.time_step_old = dt;
         self.travel += dt * self.speed;
         self.time += dt;
@@ -352,6 +360,11 @@ where
             self.bodies.weigh(&self.body_forces, &self.mass);
         }
         self.forces.prepare(&self.curves, update, &self.positions);
+        self.rotations.prepare(&self.curves, update, [from, to]);
+        if !self.skins.is_empty() {
+            let Self { forces, skins, positions, rotations, .. } = self;
+            forces.hand_on(|force, push| skins.hand_on(positions, force, push, rotations.loads_now()));
+        }
         let (assembly, slots) = (&self.assembly, &self.slots);
         let internal = |node: usize| assembly.force(node, slots);
         let moment = |node: u32| self.rotations.moment(node);
@@ -379,6 +392,7 @@ where
             contact.collect(&self.springs, &mut self.contact_forces, &mut self.bodies, &mut self.traces, time_step);
             self.penetration_max = self.penetration_max.max(contact.depth());
         }
+        self.hand_contact_forces_on();
         if let Some(erosion) = &mut self.erosion {
             erosion.close_springs(|| reductions::sum(self.contacts.iter().map(|contact| contact.stored_before(&self.springs))));
         }
@@ -398,6 +412,7 @@ where
         self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
         self.of_bodies += &self.rotations.accelerate(steps[0], |node| self.damping.factor(node), &self.bodies);
+        self.skins.lead(&self.rotations.now, steps[1], &self.positions, &mut self.velocities);
         self.time_step = time_step;
         self.speed = self.largest_speed();
     }
@@ -465,15 +480,39 @@ where
 
     /// Finds the nodes that nothing holds.
     pub(crate) fn find_free_nodes(&mut self) {
-        let Self { constraints, boundary, joins, bodies, .. } = self;
+        let Self { constraints, boundary, joins, bodies, skins, .. } = self;
         let is_free = |node: usize| {
             let number = node as u32;
-            constraints.of(node).is_none()
+            skins.carrier(node).is_none()
+                && constraints.of(node).is_none()
                 && boundary.of(node).is_none()
                 && joins.of_node(number).is_none()
                 && bodies.of_node(number).is_none()
         };
         self.groups = Groups::new(self.mass.len(), is_free);
+    }
+
+    /// Finds the nodes on the faces of shells, which their middles lead.
+    pub(crate) fn find_skins(&mut self) {
+        self.skins = Skins::new(&self.mesh, &self.rotations.now, |node| self.bodies.of_node(node).is_some());
+        if self.skins.is_empty() {
+            return;
+        }
+        self.springs.add_carriers(self.rotations.now.nodes.len());
+        self.find_free_nodes();
+    }
+
+    /// Hands contact forces on the faces of shells on to their middles.
+    fn hand_contact_forces_on(&mut self) {
+        if self.skins.is_empty() {
+            return;
+        }
+        let Self { contact_forces, skins, positions, rotations, .. } = self;
+        let mut pushes = Vec::new();
+        skins.hand_on(positions, |node| contact_forces.of(node), |owner, force, _| pushes.push((owner, force)), rotations.contact_now());
+        for (node, force) in pushes {
+            contact_forces.push(node, force);
+        }
     }
 
     /// Energy of the elements when every node is off by 1e-12 of the model's size, J/m: thousands of

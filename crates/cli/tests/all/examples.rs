@@ -110,6 +110,7 @@ fn every_example_is_listed_here() {
         "tube-plate",
         "tube-plate-3d",
         "tube-plate-gmsh",
+        "tube-plate-shells",
         "two-bars",
     ];
     assert_eq!(names, listed, "give a new example its numbers");
@@ -138,6 +139,20 @@ fn the_tube_turns_back_after_seven_and_a_half_milliseconds_and_the_plate_closes_
     for file in ["animation.gif", "final.png", "energy.svg", "history.svg", "fields.pvd"] {
         assert!(results.folder.join(file).metadata().unwrap().len() > 1000, "{file}");
     }
+}
+
+#[test]
+fn the_tube_and_the_plate_as_shells_are_where_fine_solids_are() {
+    let results = run("tube-plate-shells", "example-tube-plate-shells");
+    results.is_sound(1e-3);
+    // 4 × 320 and 600 × 4 solids: see the README.
+    for (probe, expected) in [("A.y", -0.1206), ("T.y", 0.0704), ("B.y", -0.1225)] {
+        let at = results.rows_where(probe, |_| true).into_iter().find(|(time, _)| *time >= 8e-3).unwrap();
+        assert!((at.1 - expected).abs() < 2e-3, "{probe}: {at:?} for {expected}");
+    }
+    let held = results.rows_where("obstacle.force_x[wall]", |force| force > 0.0);
+    is_near(held[0].0, 8.23e-3, 0.1e-3);
+    assert!(results.figure("penetration_max") <= 1e-4, "{}", results.summary);
 }
 
 #[test]

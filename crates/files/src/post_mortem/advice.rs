@@ -327,12 +327,16 @@ impl<'a> Case<'a> {
             Drive::Constant(_) => None,
         };
         if let Some(it) = number(path, "constraint").and_then(|at| self.model().constraints.get(at)) {
-            let drives = [&it.velocity, &it.displacement, &it.acceleration].into_iter().flatten().flatten();
+            let drives = [&it.velocity, &it.displacement, &it.acceleration, &it.spin].into_iter().flatten().flatten();
             return drives.chain(it.rotation.iter().map(|rotation| &rotation.speed)).filter_map(of).collect();
         }
         match number(path, "load").and_then(|at| self.model().loads.get(at)) {
             Some(
-                Load::Force { curve, .. } | Load::Pressure { curve, .. } | Load::Gravity { curve, .. } | Load::Centrifugal { curve, .. },
+                Load::Force { curve, .. }
+                | Load::Moment { curve, .. }
+                | Load::Pressure { curve, .. }
+                | Load::Gravity { curve, .. }
+                | Load::Centrifugal { curve, .. },
             ) => curve.iter().cloned().collect(),
             _ => Vec::new(),
         }
@@ -346,6 +350,7 @@ impl<'a> Case<'a> {
                 ("velocity", is_moved(&it.velocity)),
                 ("displacement", is_moved(&it.displacement)),
                 ("acceleration", is_moved(&it.acceleration)),
+                ("spin", is_moved(&it.spin)),
                 ("rotation", it.rotation.is_some()),
             ]
             .into_iter()
@@ -353,6 +358,7 @@ impl<'a> Case<'a> {
         } else {
             number(path, "load").and_then(|at| self.model().loads.get(at)).and_then(|load| match load {
                 Load::Force { .. } => Some("force"),
+                Load::Moment { .. } => Some("moment"),
                 Load::Pressure { .. } => Some("pressure"),
                 Load::Gravity { .. } => Some("gravity"),
                 Load::Centrifugal { .. } => Some("centrifugal"),

@@ -3,11 +3,12 @@
 use super::Block;
 use super::bar::Bars;
 use super::kernel::{Compiled, ElementKernel};
+use super::shell::{Line, Shells};
 use super::store::ElementStore;
-use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, Registered, with_element};
+use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, Registered, SHELL2, with_element};
 use crate::material::points;
 use crate::material::points::PointLaw;
-use crate::model::Material;
+use crate::model::{Material, ShellSection};
 use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space};
 
@@ -18,6 +19,10 @@ pub struct BlockInput<'a, const D: usize> {
     pub element: &'a str,
     /// Cross-section of bars, m² (per metre of depth, m).
     pub area: f64,
+    /// Directions of the nodes of each element of a shell; empty: from its neighbours in the block.
+    pub directions: &'a [[f64; D]],
+    /// Section of shells.
+    pub section: Option<&'a ShellSection>,
     /// Its options.
     pub options: ElementOptions,
     /// Name in the registry of stress states in 2D, empty: plane strain; in 3D always empty.
@@ -41,6 +46,8 @@ impl<'a, const D: usize> BlockInput<'a, D> {
         Self {
             element,
             area: 0.0,
+            directions: &[],
+            section: None,
             damping: 0.0,
             options: ElementOptions::default(),
             stress_state: "",
@@ -74,6 +81,10 @@ pub trait Blocks<const D: usize> {
 impl Blocks<2> for Dim<2> {
     fn make(input: &BlockInput<'_, 2>) -> Option<Box<dyn Block<2>>> {
         let state = StressState::named(input.stress_state)?;
+        if input.element == SHELL2.name {
+            let law = points::layer(input.material, state.is_plane_stress)?;
+            return Some(Box::new(Shells::<Line, 2>::new(input, law, [state.is_plane_stress, state.is_axisymmetric])?));
+        }
         let law = if state.is_plane_stress { points::plane_stress } else { points::of::<2> };
         of_elements(input, state, law)
     }

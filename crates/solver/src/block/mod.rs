@@ -22,6 +22,7 @@ mod local;
 mod make;
 mod mass_scaling;
 mod nodal;
+mod shell;
 pub(crate) mod spring;
 mod store;
 mod strain;
@@ -153,13 +154,19 @@ pub struct ElementState {
     /// Cauchy stress xx yy zz xy (yz zx), mean over the points, Pa.
     pub stress: [f64; 6],
     /// The history variables in the order in which the law declares them ([`PointLaw::variables`]), mean over
-    /// the points; zero beyond. By variable: [`Block::variable`].
+    /// the points, of shells the largest; zero beyond. By variable: [`Block::variable`].
     pub variables: [f64; VARIABLES_MOST],
     /// Stored elastic energy per initial volume, J/m³.
     pub energy_density: f64,
+    /// Of shells: membrane forces 11 22 12 (N/m), moments 11 22 12 (N), transverse forces 1 2 (N/m) by width,
+    /// and the thickness, m; zero of others. In 2D 1 is along the shell, 2 out of the plane.
+    pub shell: [f64; SHELL_VALUES],
 }
 
-persist_all!(ElementState { stress, variables, energy_density });
+/// Values of [`ElementState::shell`].
+pub const SHELL_VALUES: usize = 9;
+
+persist_all!(ElementState { stress, variables, energy_density, shell });
 
 /// What a block reports at the start, at rest; its state is that of the first [`Block::advance`].
 pub fn evaluate_at_rest<const D: usize>(block: &mut dyn Block<D>, positions: &[[f64; D]], level: Level) -> Report {

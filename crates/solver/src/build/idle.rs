@@ -46,7 +46,7 @@ fn named(model: &Model) -> impl Iterator<Item = &str> {
     let pairs = model.joins.iter().map(|join| &join.between).chain(model.springs.iter().map(|spring| &spring.between)).flatten();
     let driven = model.constraints.iter().filter(|constraint| drives(constraint)).map(|constraint| &constraint.on);
     let loaded = model.loads.iter().filter_map(|load| match load {
-        Load::Force { on, .. } | Load::Pressure { on, .. } => Some(on),
+        Load::Force { on, .. } | Load::Moment { on, .. } | Load::Pressure { on, .. } => Some(on),
         _ => None,
     });
     contacts.chain(pairs).chain(driven).chain(loaded).map(String::as_str)
@@ -55,8 +55,8 @@ fn named(model: &Model) -> impl Iterator<Item = &str> {
 /// Whether it does more than hold.
 fn drives(constraint: &Constraint) -> bool {
     let moves = |drive: &Drive| *drive != Drive::Constant(0.0);
-    let Constraint { velocity, displacement, acceleration, rotation, .. } = constraint;
-    let components = [velocity, displacement, acceleration];
+    let Constraint { velocity, displacement, acceleration, spin, rotation, .. } = constraint;
+    let components = [velocity, displacement, acceleration, spin];
     components.into_iter().flatten().flatten().chain(rotation.as_ref().map(|it| &it.speed)).any(moves)
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Under {
 pub(crate) struct NodeElements(Rows<u32>);
 
 impl NodeElements {
-    /// Of the continuum elements.
+    /// Of the elements that bound bodies.
     pub(super) fn of<const D: usize>(mesh: &Mesh<D>) -> Self
     where
         Dim<D>: Builds<D>,
@@ -32,8 +32,8 @@ impl NodeElements {
             *next += group.elements() as u32;
             Some(first)
         });
-        let groups = mesh.groups.iter().zip(firsts).filter(|(group, _)| group.is_continuum(D));
-        let cells = groups.flat_map(|(group, first)| (first..).zip(group.cells()));
+        let groups = mesh.groups.iter().zip(firsts).filter(|(group, _)| group.is_body(D));
+        let cells = groups.flat_map(|(group, first)| (first..).zip(group.outer_cells()));
         Self(Rows::new(mesh.positions.len(), cells.flat_map(|(number, cell)| cell.nodes.iter().map(move |&node| (node, number)))))
     }
 
@@ -52,7 +52,7 @@ impl NodeElements {
                 element -= mesh.groups[group].elements();
                 group += 1;
             }
-            let is_own = <Dim<D>>::cell_facets(mesh.groups[group].cell(element)).contains(&facet);
+            let is_own = <Dim<D>>::cell_facets(mesh.groups[group].outer_cell(element)).contains(&facet);
             is_own.then_some((group, element))
         })
     }
@@ -65,7 +65,7 @@ where
     /// The element behind a piece of the outside.
     pub(super) fn under(&self, facet: Facet<D>) -> Option<Under> {
         let (group, element) = self.node_elements.get_or_init(|| NodeElements::of(&self.mesh)).behind(facet, &self.mesh)?;
-        let (cell, positions) = (self.mesh.groups[group].cell(element), &self.mesh.positions);
+        let (cell, positions) = (self.mesh.groups[group].outer_cell(element), &self.mesh.positions);
         Some(Under { flatness: <Dim<D>>::inverse_height(facet, cell, positions), group, element })
     }
 }

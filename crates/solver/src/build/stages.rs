@@ -33,6 +33,7 @@ use crate::mesh::surface::Surface;
 use crate::mesh::surface::tributary::Depth;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{self, ContactLaw, Penalty, PenaltySource, StableStep};
+use crate::skins::Skins;
 use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
 use crate::step::mass_scaling::MassScaling;
@@ -260,6 +261,7 @@ where
             level,
             of_revolution: model.is_axisymmetric(),
             rotations: NodalRotations::default(),
+            skins: Skins::default(),
         };
         system.find_free_nodes();
         if model.run.subcycling {
@@ -271,13 +273,15 @@ where
         let spins: Vec<f64> = system.mesh.groups.iter().map(|group| model.parts[group.part].spin).collect();
         // The block of springs is beyond those of the mesh, and has no rotations.
         system.find_rotations(|block| [0.0, 0.0, spins.get(block).copied().unwrap_or(0.0)]);
+        system.load_rotations(model);
+        system.find_skins();
         system
     }
 
     /// A block for each group of elements.
     fn blocks(&mut self) -> Vec<Box<dyn Block<D>>> {
         let mut blocks = Vec::new();
-        for group in &self.mesh.groups {
+        for (index, group) in self.mesh.groups.iter().enumerate() {
             let (i, part) = (group.part, &self.model.parts[group.part]);
             let Some(material) = self.model.materials.get(&part.material) else {
                 self.faults.push(Fault::new(
@@ -292,6 +296,8 @@ where
             let viscosity = self.model.run.bulk_viscosity;
             let input = BlockInput {
                 area: part.area.unwrap_or(0.0),
+                section: part.section.as_ref(),
+                directions: self.mesh.directions.get(index).map_or(&[], |own| &own[..]),
                 damping: self.model.stiffness_damping(part),
                 options: ElementOptions { hourglass: part.hourglass },
                 stress_state: if D == 2 { &part.stress_state } else { "" },

@@ -5,6 +5,7 @@
 //! line in `elements!`.
 
 mod bar2;
+mod shell2;
 mod of_part;
 mod hex8;
 mod hex8_assumed_strain;
@@ -21,6 +22,7 @@ pub use hex8::Hex8;
 pub use hex8_reduced::{Hex8Reduced, Hex8ReducedAssumedStrain, Hex8ReducedViscous};
 pub use quad4::{Quad4, Quad4Full};
 pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
+pub use shell2::SHELL2;
 pub use tet4::{Tet4, Tet4Anp};
 pub use tri3::{Tri3, Tri3Anp};
 pub use wedge6::Wedge6;
@@ -335,8 +337,8 @@ macro_rules! elements {
             }
         })*
 
-        /// Every element of a dimension, in the order in which it is listed, but for [`BARS`]; none of a
-        /// dimension that there is not.
+        /// Every element of a dimension, in the order in which it is listed, but for [`BARS`] and [`SHELLS`];
+        /// none of a dimension that there is not.
         #[must_use]
         pub fn elements_of(dimension: usize) -> &'static [ElementKind] {
             match dimension {
@@ -378,8 +380,11 @@ pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENT
 /// into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
-/// Every element: those in 2D, bars too, then those in 3D.
+/// Elements of a mid surface, whose points are layers through the thickness: blocks of their own too.
+pub const SHELLS: &[ElementKind] = &[SHELL2];
+
+/// Every element: those in 2D, bars and shells too, then those in 3D.
 #[must_use]
 pub fn registry() -> Vec<ElementKind> {
-    ELEMENTS.iter().chain(BARS).chain(ELEMENTS_OF_SPACE).copied().collect()
+    ELEMENTS.iter().chain(BARS).chain(SHELLS).chain(ELEMENTS_OF_SPACE).copied().collect()
 }

@@ -1,6 +1,6 @@
 //! Which elements a part is made of.
 
-use super::{BARS, ELEMENTS, ElementKind, elements_of};
+use super::{BARS, ELEMENTS, ElementKind, SHELLS, elements_of};
 use crate::mesh::cell::CellKind;
 use crate::model::{Model, Part};
 
@@ -11,13 +11,25 @@ impl Part {
         BARS.iter().any(|kind| kind.name == self.element)
     }
 
+    /// Whether it consists of shells: a mid surface with a thickness.
+    #[must_use]
+    pub fn is_of_shells(&self) -> bool {
+        SHELLS.iter().any(|kind| kind.name == self.element)
+    }
+
+    /// Whether its elements are lines in a model of so many dimensions.
+    #[must_use]
+    pub fn is_of_lines(&self) -> bool {
+        BARS.iter().chain(SHELLS).any(|kind| kind.name == self.element && kind.cell == CellKind::Line)
+    }
+
     /// What its cells of a kind are in a model of so many dimensions: the element that it names, in 3D
     /// also the one that takes its place there ([`ElementKind::extruded`]), else the default one
     /// ([`ElementKind::is_default`]); `None` when there is none of them.
     #[must_use]
     pub fn element_in(&self, dimension: usize, cell: CellKind) -> Option<&'static ElementKind> {
         let is_named = |kind: &&ElementKind| [&self.element, &self.element_triangles].iter().any(|name| *name == kind.name);
-        let kinds = || elements_of(dimension).iter().chain(BARS).filter(|kind| kind.cell == cell);
+        let kinds = || elements_of(dimension).iter().chain(BARS).chain(SHELLS).filter(|kind| kind.cell == cell);
         let stands_in = |kind: &&ElementKind| dimension == 3 && ELEMENTS.iter().filter(is_named).any(|own| own.extruded == Some(kind.name));
         kinds().find(|kind| is_named(kind) || stands_in(kind)).or_else(|| kinds().find(|kind| kind.is_default))
     }
@@ -27,7 +39,7 @@ impl Model {
     /// Dimension of the cells of a mesh file that a part is made of.
     #[must_use]
     pub fn cells_dimension(&self, part: &Part) -> u8 {
-        match (part.is_of_bars(), &part.sweep) {
+        match (part.is_of_lines(), &part.sweep) {
             (true, _) => 1,
             (false, Some(_)) => 2,
             (false, None) => self.dimension_of(part) as u8,

@@ -27,6 +27,8 @@ pub enum Needs {
     Friction,
     /// A material that fails.
     Failure,
+    /// A part of shells.
+    Shells,
 }
 
 /// Description of a field: the same for all its frames.

@@ -91,6 +91,8 @@ pub(crate) enum Components {
     Vector,
     /// A stress: xx yy zz xy (yz zx).
     Stress,
+    /// Of a section of a shell: 11 22 (12).
+    Section,
 }
 
 impl Components {
@@ -100,6 +102,8 @@ impl Components {
             (Self::Scalar, _) => &[],
             (Self::Vector, 3) => &["x", "y", "z"],
             (Self::Vector, _) => &["x", "y"],
+            (Self::Section, 3) => &["11", "22", "12"],
+            (Self::Section, _) => &["11", "22"],
             (Self::Stress, 3) => &["xx", "yy", "zz", "xy", "yz", "zx"],
             (Self::Stress, _) => &["xx", "yy", "zz", "xy"],
         }
@@ -168,6 +172,7 @@ fields! {
     stress;
     laws;
     erosion;
+    shells;
     equations_of_state;
     energy;
 }

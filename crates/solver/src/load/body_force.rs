@@ -82,7 +82,9 @@ where
                 Load::Centrifugal { parts, about, speed, curve } => {
                     (parts, curve, Field::Centrifugal { centre: first(about.centre), axis: axis(about.direction), speed: *speed })
                 }
-                Load::Damping { .. } | Load::StiffnessDamping { .. } | Load::Force { .. } | Load::Pressure { .. } => return None,
+                Load::Damping { .. } | Load::StiffnessDamping { .. } | Load::Force { .. } | Load::Moment { .. } | Load::Pressure { .. } => {
+                    return None;
+                }
             };
             let mut shares = vec![0.0; mesh.positions.len()];
             for (part, masses) in mesh.parts.iter().zip(part_mass) {

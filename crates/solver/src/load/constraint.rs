@@ -14,6 +14,7 @@ use crate::model::{Constraint, Model, Symmetry};
 use crate::rotation::{Rotate, Square, applied, axis, unit_matrix};
 use crate::tensor::Dim;
 use crate::vector::{self, dot, first, minus, unit};
+use std::collections::BTreeMap;
 
 /// Prescribed directions of one node, orthonormal.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,6 +42,18 @@ impl<const D: usize> NodeConstraint<D> {
     pub(crate) fn rest(&mut self, direction: [f64; D]) {
         // Rest contradicts nothing that rests.
         let _ = self.add(direction, &Speed::constant(0.0), 0);
+    }
+
+    /// Prescribes a velocity along a direction, as far as no other one is there.
+    pub(crate) fn prescribe(&mut self, direction: [f64; D], velocity: &Speed) {
+        let _ = self.add(direction, velocity, 0);
+    }
+
+    /// Takes the velocities that change with time, as their mean between two times, s.
+    pub(crate) fn drive(&mut self, curves: &Curves, [from, to]: [f64; 2]) {
+        for ((_, velocity), speed) in self.directions.iter_mut().zip(&self.speeds) {
+            *velocity = curves.mean(speed, from, to);
+        }
     }
 
     /// Whether nothing is prescribed.
@@ -145,6 +158,8 @@ pub struct Constraints<const D: usize> {
     mirrors: Vec<Mirror<D>>,
     /// Rotations about points.
     turns: Vec<Turn<D>>,
+    /// Nodes with prescribed spins: axis and angular velocity, rad/s.
+    spins: BTreeMap<u32, Vec<([f64; 3], Speed)>>,
     /// What the conditions are called in messages.
     conditions: Vec<String>,
 }
@@ -211,7 +226,7 @@ where
         let mut found = Telling::new(format!("symmetry[{i}]"));
         self.conditions.push(format!("symmetry[{i}]"));
         let Some(normal) = unit(first(symmetry.normal)) else { return };
-        let nodes = on_line(symmetry, normal, place.mesh);
+        let nodes = place.mesh.on_symmetry(symmetry);
         if nodes.is_empty() {
             let what = if D == 2 { "line" } else { "plane" };
             let help = format!("move the {what} or the bodies; nodes must lie on it within 1e-9 of the model's extent");
@@ -240,8 +255,16 @@ where
         if let Some(speed) = constraint.rotation.as_ref().and_then(|rotation| curves.speed(&rotation.speed)) {
             let about = constraint.rotation.as_ref().map(|rotation| rotation.about).unwrap_or_default();
             self.turns.push(Turn { centre: first(about.centre), axis: axis(about.direction), speed });
+            let (axis, speed) = self.turns.last().map(|turn| (turn.axis, turn.speed.clone())).unwrap_or_default();
             for &node in &nodes {
                 self.turn(node, place, &mut found);
+                self.spin(node, axis, &speed, place, &mut found);
+            }
+        }
+        let axes = unit_matrix::<3>().into_iter().zip(&constraint.spin).skip(if D == 2 { 2 } else { 0 });
+        for (axis, speed) in axes.filter_map(|(axis, drive)| Some((axis, curves.speed(drive.as_ref()?)?))) {
+            for &node in &nodes {
+                self.spin(node, axis, &speed, place, &mut found);
             }
         }
         for (meaning, drives) in [
@@ -312,6 +335,20 @@ where
         }
     }
 
+    /// Prescribes the spin of a node about an axis.
+    fn spin(&mut self, node: u32, axis: [f64; 3], speed: &Speed, place: Place<'_, D>, found: &mut Telling) {
+        let rests = speed.as_constant() == Some(0.0);
+        let is_other = |(other, before): ([f64; 3], &Speed)| dot(other, axis).abs() > 1e-9 && before != speed;
+        let x = place.mesh.positions[node as usize];
+        if !rests && self.mirror_normals(node).next().is_some() {
+            found.note(x, "shall spin", "a symmetry", "keeps it from rotating");
+        } else if self.spins_of(node).any(is_other) {
+            found.note(x, "shall spin", "another constraint", "already says how it rotates");
+        } else {
+            self.spins.entry(node).or_default().push((axis, speed.clone()));
+        }
+    }
+
     /// Leads a node around by the last of the turns.
     fn turn(&mut self, node: u32, place: Place<'_, D>, found: &mut Telling) {
         let (source, turn) = (self.conditions.len() as u32 - 1, self.turns.len() as u32 - 1);
@@ -368,9 +405,7 @@ where
                 held.directions.iter_mut().zip(velocity).for_each(|(direction, along)| direction.1 = along);
                 continue;
             }
-            for ((_, velocity), speed) in held.directions.iter_mut().zip(&held.speeds) {
-                *velocity = curves.mean(speed, from, to);
-            }
+            held.drive(curves, [from, to]);
         }
     }
 
@@ -447,6 +482,11 @@ impl<const D: usize> Constraints<D> {
         self.mirrors_of(node).map(|mirror| mirror.normal)
     }
 
+    /// Prescribed spins of `node`: axis and angular velocity, rad/s.
+    pub(crate) fn spins_of(&self, node: u32) -> impl Iterator<Item = ([f64; 3], &Speed)> {
+        self.spins.get(&node).into_iter().flatten().map(|(axis, speed)| (*axis, speed))
+    }
+
     fn mirrors_of(&self, node: u32) -> impl Iterator<Item = &Mirror<D>> {
         let start = self.mirrors.partition_point(|mirror| mirror.node < node);
         self.mirrors[start..].iter().take_while(move |mirror| mirror.node == node)
@@ -477,23 +517,6 @@ impl<const D: usize> Constraints<D> {
         let is_common = |a: &&Mirror<D>| others.iter().all(|&node| self.mirrors_of(node).any(|b| a.line == b.line));
         self.mirrors_of(first).filter(is_common).map(|mirror| mirror.normal)
     }
-}
-
-fn on_line<const D: usize>(symmetry: &Symmetry, normal: [f64; D], mesh: &Mesh<D>) -> Vec<u32>
-where
-    Dim<D>: CellGeometry<D> + Rotate<D>,
-{
-    let point = first(symmetry.point);
-    let tolerance = crate::mesh::tolerance(&mesh.positions);
-    let near = |&node: &u32| {
-        let x = mesh.positions[node as usize];
-        dot(minus(x, point), normal).abs() <= tolerance
-    };
-    let parts = mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
-    let mut nodes: Vec<u32> = parts.flat_map(|part| part.nodes.iter().copied()).filter(near).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes
 }
 
 /// A mobility without what yields along a direction.

@@ -70,7 +70,11 @@ where
                 Load::Pressure { on, pressure, curve } => {
                     (mesh.surface(on, &is_mirror).map(|surface| What::Pressure(surface.facets().to_vec(), *pressure)), curve)
                 }
-                Load::Gravity { .. } | Load::Centrifugal { .. } | Load::Damping { .. } | Load::StiffnessDamping { .. } => continue,
+                Load::Gravity { .. }
+                | Load::Centrifugal { .. }
+                | Load::Damping { .. }
+                | Load::StiffnessDamping { .. }
+                | Load::Moment { .. } => continue,
             };
             match what {
                 Ok(what) => loads.push(Acting { what, curve: curve.as_ref().and_then(|name| curves.find(name)) }),
@@ -116,6 +120,20 @@ where
         for &(node, force) in &self.pushes {
             let sum = &mut self.now[node as usize];
             *sum = plus(*sum, force);
+        }
+    }
+
+    /// Lets `by` hand those on some nodes on to others: it reads forces, and pushes. What is handed on is
+    /// gone from where it was.
+    pub(crate) fn hand_on(&mut self, by: impl FnOnce(&dyn Fn(usize) -> [f64; D], &mut dyn FnMut(u32, [f64; D], u32))) {
+        if self.now.is_empty() {
+            return;
+        }
+        let mut pushes = Vec::new();
+        by(&|node| self.now[node], &mut |to, force, from| pushes.push((to, force, from)));
+        for (to, force, from) in pushes {
+            self.now[to as usize] = plus(self.now[to as usize], force);
+            self.now[from as usize] = [0.0; D];
         }
     }
 

@@ -91,6 +91,11 @@ pub trait PointLaw: Send + Sync {
     fn thickness(&self) -> Option<usize> {
         None
     }
+    /// Places in the history of λ across a layer of a shell, or of λ² where it is also that out of the plane,
+    /// and of λ out of the plane where that is another.
+    fn ratios(&self) -> [Option<usize>; 2] {
+        [self.thickness(), None]
+    }
     /// Stresses at the end of the step; the result does not depend on `level`.
     fn respond(&self, level: Level, points: Points<'_>);
 }
@@ -132,6 +137,21 @@ pub fn plane_stress(material: &Material) -> Option<Box<dyn PointLaw>> {
 #[must_use]
 pub fn uniaxial(material: &Material) -> Option<Box<dyn PointLaw>> {
     plane(material).map(|law| Box::new(super::stress_constrained::StressConstrained::uniaxial(law)) as Box<dyn PointLaw>)
+}
+
+/// The law of a material for layers of shells in 2D: x along the layer, y across it, where there is no
+/// stress; nor along z in `plane_stress`.
+#[must_use]
+pub fn layer(material: &Material, plane_stress: bool) -> Option<Box<dyn PointLaw>> {
+    use super::stress_constrained::StressConstrained;
+    let law = plane(material)?;
+    let is_uniaxial = plane_stress && law.family() == Family::Rate && super::bears_uniaxial_stress(&material.law) == Some(true);
+    Some(match (plane_stress, is_uniaxial) {
+        // Both directions across have the same strain.
+        (true, true) => Box::new(StressConstrained::uniaxial(law)),
+        (true, false) => Box::new(StressConstrained::layer(Box::new(StressConstrained::plane_stress(law)))),
+        (false, _) => Box::new(StressConstrained::layer(law)),
+    })
 }
 
 struct DynLaw<M, const D: usize> {

@@ -1,5 +1,6 @@
-//! A law without load across: plane stress (σ_zz = 0) and uniaxial stress (σ_yy = σ_zz = 0) around any law.
-//! The strain across is found such that the stress across vanishes.
+//! A law without load across: plane stress (σ_zz = 0), uniaxial stress (σ_yy = σ_zz = 0) and the layers of
+//! shells in 2D (σ_yy = 0, y across the layer) around any law. The strain across is found such that the
+//! stress across vanishes.
 //!
 //! The law is asked again and again with another Δε across (rate laws) or λ (hyperelastic laws: b = λ²
 //! across, J = det F times what the volume gains across) until the stress |σ_zz| is at most 1e-12 of the
@@ -12,7 +13,9 @@ use super::points::{PLANE, PointLaw, Points, RESPONSE};
 use super::{Family, History};
 use embate_lanes::{BATCH, Batch, Level};
 
-/// Components yy and zz of a tensor in 2D.
+/// Components xx, yy, zz and xy of a tensor in 2D.
+const XX: usize = 0;
+const XY: usize = 3;
 const YY: usize = 1;
 const ZZ: usize = 2;
 /// Largest |σ_zz| over the stiffness K + 4µ/3.
@@ -25,33 +28,50 @@ const PATIENCE: usize = 12;
 /// A law without load across.
 pub(super) struct StressConstrained {
     law: Box<dyn PointLaw>,
-    /// Whether there is none along y either.
-    uniaxial: bool,
+    /// Components without stress, which all have the same strain; the first decides.
+    across: &'static [usize],
+    /// Of hyperelastic laws: whether b across is what shear makes of it and λ², not λ² alone.
+    is_sheared: bool,
 }
 
 impl StressConstrained {
     pub(super) fn plane_stress(law: Box<dyn PointLaw>) -> Self {
-        Self { law, uniaxial: false }
+        Self { law, across: &[ZZ], is_sheared: false }
     }
 
     pub(super) fn uniaxial(law: Box<dyn PointLaw>) -> Self {
-        Self { law, uniaxial: true }
+        Self { law, across: &[ZZ, YY], is_sheared: false }
+    }
+
+    /// Of a layer of a shell, y across it. Its fibres do not stretch for nothing: with F = [λ 0; γ μ] the
+    /// energy is at its minimum over μ, which is σ_yy − σ_xy γ/λ = 0 (hyperelastic laws; the b that comes in
+    /// has λ², γ² and λ γ). In rate form σ_yy = 0.
+    pub(super) fn layer(law: Box<dyn PointLaw>) -> Self {
+        Self { law, across: &[YY], is_sheared: true }
+    }
+
+    fn uniaxial_stress(&self) -> bool {
+        self.across.len() > 1
     }
 
     /// Δε across (or λ) to begin with: what an elastic law needs, to the last digits (or the last λ).
     fn guess(&self, strain: &[Batch], stress: &[Batch], ratio: &Batch) -> Batch {
         if self.law.family() == Family::Hyperelastic {
-            return if self.uniaxial { Batch(ratio.0.map(f64::sqrt)) } else { *ratio };
+            return if self.uniaxial_stress() { Batch(ratio.0.map(f64::sqrt)) } else { *ratio };
         }
         let [bulk, shear] = self.law.stiffness();
         let (slope, lame) = (self.slope(bulk, shear), bulk - 2.0 / 3.0 * shear);
-        let inside = |k: usize| if self.uniaxial { strain[0].0[k] } else { strain[0].0[k] + strain[1].0[k] };
-        Batch(std::array::from_fn(|k| -(lame * inside(k) + stress[ZZ].0[k]) / slope))
+        let inside = |k: usize| match self.across {
+            [ZZ] => strain[0].0[k] + strain[YY].0[k],
+            [YY] => strain[0].0[k] + strain[ZZ].0[k],
+            _ => strain[0].0[k],
+        };
+        Batch(std::array::from_fn(|k| -(lame * inside(k) + stress[self.across[0]].0[k]) / slope))
     }
 
     /// ∂σ_zz over the unknown strain of an elastic body: K + 4µ/3, or with both strains across 2K + 2µ/3.
     fn slope(&self, bulk: f64, shear: f64) -> f64 {
-        if self.uniaxial { 2.0 * bulk + 2.0 / 3.0 * shear } else { bulk + 4.0 / 3.0 * shear }
+        if self.uniaxial_stress() { 2.0 * bulk + 2.0 / 3.0 * shear } else { bulk + 4.0 / 3.0 * shear }
     }
 
     /// The next unknowns of a point's eight searches; whether all are found.
@@ -73,7 +93,7 @@ impl StressConstrained {
 
     /// Thickness or cross-section over that at the start, with the unknown.
     fn ratio_new(&self, old: f64, unknown: f64) -> f64 {
-        match (self.law.family(), self.uniaxial) {
+        match (self.law.family(), self.uniaxial_stress()) {
             // Δε is the change of thickness over the mean thickness.
             (Family::Rate, false) => old * (1.0 + 0.5 * unknown) / (1.0 - 0.5 * unknown),
             (Family::Rate, true) => {
@@ -171,6 +191,9 @@ impl PointLaw for StressConstrained {
     fn thickness(&self) -> Option<usize> {
         Some(self.law.state_width())
     }
+    fn ratios(&self) -> [Option<usize>; 2] {
+        [self.thickness(), self.law.thickness()]
+    }
     fn start(&self, state: &mut [Batch]) {
         let width = self.law.state_width();
         self.law.start(&mut state[..width]);
@@ -200,9 +223,9 @@ impl PointLaw for StressConstrained {
                 for k in 0..BATCH {
                     let u = unknown.0[k];
                     let across = if hyperelastic { u * u } else { u };
-                    trial_strain[p * PLANE + ZZ].0[k] = across;
-                    if self.uniaxial {
-                        trial_strain[p * PLANE + YY].0[k] = across;
+                    for &component in self.across {
+                        let own = &mut trial_strain[p * PLANE + component].0[k];
+                        *own = if hyperelastic && self.is_sheared { *own + across } else { across };
                     }
                     let ratio = volume_ratio.get(p).map_or(1.0, |ratio| ratio.0[k]);
                     trial_ratio[p].0[k] = ratio * self.ratio_new(thickness.0[k], u);
@@ -226,8 +249,15 @@ impl PointLaw for StressConstrained {
             let mut found = true;
             for p in 0..count {
                 let out = &response[p * RESPONSE..];
+                let (trial, given) = (&trial_stress[p * PLANE..][..PLANE], &strain[p * PLANE..][..PLANE]);
+                let mut across = trial[self.across[0]];
+                if hyperelastic && self.is_sheared {
+                    for k in 0..BATCH {
+                        across.0[k] += -(trial[XY].0[k] * (given[XY].0[k] / given[XX].0[k]));
+                    }
+                }
                 let search = &mut searches[p * Search::WIDTH..][..Search::WIDTH];
-                found &= self.improve(search, &trial_stress[p * PLANE + ZZ], [&out[2], &out[3]], call);
+                found &= self.improve(search, &across, [&out[2], &out[3]], call);
             }
             if found {
                 break;

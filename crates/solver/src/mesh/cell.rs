@@ -171,6 +171,16 @@ impl CellKind {
         self.renumber(nodes, self.facts().reflection);
     }
 
+    /// What a cell of a mid surface is with its thickness: of lines quadrilaterals, of surfaces solids.
+    #[must_use]
+    pub const fn thickened(self) -> Self {
+        match (self, self.facts().extruded) {
+            (Self::Line, _) => Self::Quadrilateral,
+            (_, Some(kind)) => kind,
+            (kind, None) => kind,
+        }
+    }
+
     /// Renumbers the nodes of a cell such that it is the same cell: of all its symmetries that with the
     /// lowest numbers first.
     pub fn begin_with_lowest(self, nodes: &mut [u32]) {

@@ -4,11 +4,12 @@
 //! [`Mesh`](super::Mesh) is written once for the plane and for space and asks here where the two differ in
 //! kind.
 
+use super::Mesh;
 use super::cell::{Cell, CellKind};
 use super::shapes::Body;
 use super::surface::{Corners, PlaneSurface, Sided, SpaceSurface};
 use crate::error::Fault;
-use crate::model::Part;
+use crate::model::{Model, Part};
 use crate::tensor::Dim;
 
 /// A dimension in which there are meshes.
@@ -57,6 +58,11 @@ pub trait Meshed<const D: usize> {
     /// What is wrong with the form of a cell whose nodes are in these places, if anything, and what to do
     /// about it.
     fn wrong_form(kind: CellKind, places: &[[f64; D]]) -> Option<[&'static str; 2]>;
+
+    /// Gives shells their faces, and their nodes the directions of the middle.
+    fn add_skins(mesh: &mut Mesh<D>, model: &Model)
+    where
+        Dim<D>: Meshed<D>;
 
     /// Distance along a Hilbert curve of a cell of a grid of 2^[`Meshed::CURVE_BITS`] cells in each
     /// direction.
@@ -122,6 +128,10 @@ impl Meshed<2> for Dim<2> {
         }
     }
 
+    fn add_skins(mesh: &mut Mesh<2>, model: &Model) {
+        mesh.add_skins_of_lines(model);
+    }
+
     fn along_curve(cell: [u32; 2]) -> u64 {
         super::order::hilbert(cell)
     }
@@ -179,6 +189,8 @@ impl Meshed<3> for Dim<3> {
             Some(["is degenerate or folds over at a corner", MEND])
         }
     }
+
+    fn add_skins(_: &mut Mesh<3>, _: &Model) {}
 
     fn along_curve(cell: [u32; 3]) -> u64 {
         super::order::hilbert_in_3d(cell)

@@ -13,6 +13,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NOT_A_SURFACE,
     &OVERLAP,
     &BARS,
+    &SHELLS,
     &NEGATIVE_RADIUS,
     &DIMENSION,
     &TINY_STEP,
@@ -129,6 +130,17 @@ pub(crate) static BARS: Message = Message {
     ),
     cause: "Bars have a cross-section, a stress along their line and no other, and no surface that something could touch.",
     remedy: "Give `area`, an isotropic solid as the law, and name other parts in contacts, obstacles and pressures.",
+};
+
+pub(crate) static SHELLS: Message = Message {
+    code: "E0213",
+    title: "what shells need, and what they can't be",
+    example: Example::Model(
+        "[[part]]\nname = \"sheet\"\nmaterial = \"steel\"\nelement = \"shell2\"\nline = { points = [[0, 0], [\"10 mm\", 0]], elements = 4 }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "Shells have a section with a thickness, and layers through it of a law that can bear a stress along them.",
+    remedy: "Give `section`, a solid as the law, and leave out what the message names.",
 };
 
 pub(crate) static NEGATIVE_RADIUS: Message = Message {

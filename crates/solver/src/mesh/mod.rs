@@ -12,8 +12,10 @@ pub mod surface;
 mod dimension;
 mod order;
 mod persist;
+mod skin;
 
 pub use dimension::{Meshed, signed_volume};
+pub use skin::SkinNode;
 
 use crate::error::Fault;
 use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY};
@@ -75,6 +77,9 @@ pub struct ElementGroup {
     pub connectivity: Vec<u32>,
     /// The user's number of each element: its place in the part as it was made or read, whatever its kind.
     pub user_elements: Vec<u32>,
+    /// Of shells the nodes of each element on its faces: those of the cell between them, which bounds the
+    /// body. Empty of others.
+    pub outer: Vec<u32>,
     /// Whether each element has been eroded: then it is no part of surfaces and bodies. Empty while all are
     /// there.
     pub eroded: Vec<bool>,
@@ -83,7 +88,7 @@ pub struct ElementGroup {
 impl ElementGroup {
     /// No elements yet.
     fn new(part: usize, kind: CellKind) -> Self {
-        Self { part, kind, connectivity: Vec::new(), user_elements: Vec::new(), eroded: Vec::new() }
+        Self { part, kind, connectivity: Vec::new(), user_elements: Vec::new(), outer: Vec::new(), eroded: Vec::new() }
     }
 
     /// Number of elements.
@@ -102,11 +107,34 @@ impl ElementGroup {
         self.cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
     }
 
-    /// Whether its elements are continuum elements in so many dimensions, which together bound a body:
-    /// surfaces in 2D, volumes in 3D; no bars.
+    /// Kind and nodes of its elements as bodies have them: those of shells with their thickness.
+    fn outer_cell_nodes(&self) -> (CellKind, &[u32]) {
+        if self.outer.is_empty() { (self.kind, &self.connectivity) } else { (self.kind.thickened(), &self.outer) }
+    }
+
+    /// Each element as bodies have it: of shells the cell between both faces.
+    pub fn outer_cells(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
+        let (kind, nodes) = self.outer_cell_nodes();
+        kind.cells(nodes)
+    }
+
+    /// Each such cell that has not been eroded.
+    pub fn live_outer_cells(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
+        self.outer_cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
+    }
+
+    /// An element as bodies have it.
     #[must_use]
-    pub fn is_continuum(&self, dimension: usize) -> bool {
-        self.kind.dimension() == dimension
+    pub fn outer_cell(&self, element: usize) -> Cell<'_> {
+        let (kind, nodes) = self.outer_cell_nodes();
+        kind.cell(&nodes[element * kind.nodes()..][..kind.nodes()])
+    }
+
+    /// Whether its elements bound a body in so many dimensions: surfaces in 2D, volumes in 3D, and shells
+    /// with their thickness; no bars.
+    #[must_use]
+    pub fn is_body(&self, dimension: usize) -> bool {
+        self.outer_cell_nodes().0.dimension() == dimension
     }
 
     /// Whether an element has not been eroded.
@@ -154,6 +182,10 @@ where
     pub imported: Vec<Vec<u32>>,
     /// How many times its cells have been replaced by others; 0: they are those of the model.
     pub revision: u32,
+    /// Nodes on the faces of shells: the last ones of all.
+    pub skins: Vec<SkinNode<D>>,
+    /// Of each group of shells the directions of the nodes of each element: tangents in 2D, normals in 3D.
+    pub directions: Vec<Vec<[f64; D]>>,
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are
     /// numbered first.
     outlines: Vec<bool>,
@@ -209,7 +241,8 @@ where
             return Err(faults);
         }
         mesh.imported = imported;
-        mesh.reorder();
+        mesh.reorder(|part| model.parts[part].is_of_shells());
+        Dim::<D>::add_skins(&mut mesh, model);
         Ok(mesh)
     }
 
@@ -259,7 +292,7 @@ where
     fn add_group(&mut self, source: &ImportedMesh, group: &str, part: &Part, numbers: &mut Vec<u32>, faults: &mut Vec<Fault>) {
         numbers.resize(source.positions.len(), u32::MAX);
         let path = format!("part[{}]", self.parts.len());
-        let dimension = if part.is_of_bars() { 1 } else { D as u8 };
+        let dimension = if part.is_of_lines() { 1 } else { D as u8 };
         let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == dimension) else {
             let kind = ["zero", "one", "two", "three"][usize::from(dimension)];
             faults.push(Fault::new(
@@ -325,11 +358,10 @@ where
         self.groups_of(part).map(ElementGroup::elements).sum()
     }
 
-    /// Each continuum element of the parts (all when `parts` is empty) that has not been eroded.
+    /// Each element that bounds a body of the parts (all when `parts` is empty) that has not been eroded.
     fn cells(&self, parts: &[String]) -> impl Iterator<Item = Cell<'_>> + Clone {
-        let is_of =
-            move |group: &&ElementGroup| group.is_continuum(D) && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
-        self.groups.iter().filter(is_of).flat_map(ElementGroup::live_cells)
+        let is_of = move |group: &&ElementGroup| group.is_body(D) && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
+        self.groups.iter().filter(is_of).flat_map(ElementGroup::live_outer_cells)
     }
 
     fn add_named_groups(&mut self, source: &ImportedMesh, numbers: &[u32], faults: &mut Vec<Fault>) {
@@ -418,11 +450,12 @@ where
             }
             node
         }
-        for cell in self.groups.iter().flat_map(ElementGroup::live_cells) {
-            for pair in cell.nodes.windows(2) {
-                let (a, b) = (top(&mut root, pair[0]), top(&mut root, pair[1]));
-                root[a.max(b) as usize] = a.min(b);
-            }
+        let first = self.first_skin_node() as u32;
+        let faces: Vec<[u32; 2]> = (first..).zip(&self.skins).map(|(node, skin)| [node, skin.owner]).collect();
+        let cells = self.groups.iter().flat_map(ElementGroup::live_cells).flat_map(|cell| cell.nodes.windows(2));
+        for pair in cells.chain(faces.iter().map(|pair| &pair[..])) {
+            let (a, b) = (top(&mut root, pair[0]), top(&mut root, pair[1]));
+            root[a.max(b) as usize] = a.min(b);
         }
         let mut count = 0;
         let mut numbers = vec![0; root.len()];

@@ -8,6 +8,7 @@
 //! Nodes on outlines come before all others, each kind in the order of the curve: what contact reads of them
 //! lies side by side and stays in the caches, however large the bodies are.
 
+use super::cell::CellKind;
 use super::surface::Corners;
 use super::{Dim, ElementGroup, Mesh, Meshed};
 use std::cmp::Ordering;
@@ -19,8 +20,9 @@ impl<const D: usize> Mesh<D>
 where
     Dim<D>: Meshed<D>,
 {
-    /// Renumbers nodes, elements and corners; `user_nodes` and `user_elements` lead back.
-    pub(super) fn reorder(&mut self) {
+    /// Renumbers nodes, elements and corners; `user_nodes` and `user_elements` lead back. Lines of parts that
+    /// are `directed` keep their direction: shells have a left and a right.
+    pub(super) fn reorder(&mut self, directed: impl Fn(usize) -> bool) {
         let mut owner = vec![u32::MAX; self.positions.len()];
         for (index, part) in self.parts.iter().enumerate().rev() {
             part.nodes.iter().for_each(|&node| owner[node as usize] = index as u32);
@@ -37,7 +39,7 @@ where
         self.renumber(&order);
         self.user_nodes = order;
         for group in &mut self.groups {
-            group.reorder(&self.positions);
+            group.reorder(&self.positions, directed(group.part));
         }
         self.put_outlines_first();
     }
@@ -88,12 +90,14 @@ where
 
 impl ElementGroup {
     /// Puts the elements in the order of the curve, given the new positions.
-    fn reorder<const D: usize>(&mut self, positions: &[[f64; D]])
+    fn reorder<const D: usize>(&mut self, positions: &[[f64; D]], is_directed: bool)
     where
         Dim<D>: Meshed<D>,
     {
         let n = self.kind.nodes();
-        self.connectivity.chunks_exact_mut(n).for_each(|nodes| self.kind.begin_with_lowest(nodes));
+        if !(is_directed && self.kind == CellKind::Line) {
+            self.connectivity.chunks_exact_mut(n).for_each(|nodes| self.kind.begin_with_lowest(nodes));
+        }
         let centre = |cell: &[u32]| {
             let sum = cell.iter().fold([0.0; D], |sum: [f64; D], &node| {
                 let x = positions[node as usize];

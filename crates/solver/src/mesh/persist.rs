@@ -3,7 +3,7 @@
 
 use super::cell::CellKind;
 use super::surface::Corners;
-use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh};
+use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh, SkinNode};
 use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, Section, persist_all, persist_each};
 
 /// The section of the state that has it.
@@ -23,10 +23,18 @@ persist_all!(PartMesh { name, nodes });
 impl Persist for ElementGroup {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         // The state of erosion has the elements that are gone.
-        let Self { part, kind, connectivity, user_elements, eroded: _ } = self;
-        persist_each!(archive; part, kind, connectivity, user_elements);
+        let Self { part, kind, connectivity, user_elements, outer, eroded: _ } = self;
+        persist_each!(archive; part, kind, connectivity, user_elements, outer);
         Ok(())
     }
+}
+
+/// Places or vectors, number by number.
+fn persist_points<const D: usize>(points: &mut Vec<[f64; D]>, archive: &mut Archive<'_>) -> ArchiveResult {
+    let mut numbers = std::mem::take(points).into_flattened();
+    numbers.persist(archive)?;
+    *points = numbers.as_chunks().0.to_vec();
+    Ok(())
 }
 
 impl<const D: usize> Persist for Mesh<D>
@@ -34,11 +42,20 @@ where
     Dim<D>: Meshed<D>,
 {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { positions, parts, groups, user_nodes, imported, revision, outlines, sides, points } = self;
-        let mut coordinates = std::mem::take(positions).into_flattened();
-        coordinates.persist(archive)?;
-        *positions = coordinates.as_chunks().0.to_vec();
+        let Self { positions, parts, groups, user_nodes, imported, revision, skins, directions, outlines, sides, points } = self;
+        persist_points(positions, archive)?;
         persist_each!(archive; parts, groups, user_nodes, imported, revision, outlines, sides, points);
+        let mut owners: Vec<u32> = skins.iter().map(|skin| skin.owner).collect();
+        let mut arms: Vec<[f64; D]> = skins.iter().map(|skin| skin.arm).collect();
+        owners.persist(archive)?;
+        persist_points(&mut arms, archive)?;
+        *skins = owners.into_iter().zip(arms).map(|(owner, arm)| SkinNode { owner, arm }).collect();
+        let mut count = directions.len();
+        count.persist(archive)?;
+        archive.check(count <= groups.len(), "more groups of shells than groups")?;
+        directions.resize(count, Vec::new());
+        directions.iter_mut().try_for_each(|own| persist_points(own, archive))?;
+
         archive.check(self.is_sound(), "the mesh refers to nodes or parts that are not there")
     }
 }
@@ -75,7 +92,11 @@ where
         let (nodes, parts) = (self.positions.len(), self.parts.len());
         let are_nodes = |all: &[u32]| all.iter().all(|&node| (node as usize) < nodes);
         let of_group = |group: &ElementGroup| {
-            group.part < parts && group.connectivity.len() == group.kind.nodes() * group.elements() && are_nodes(&group.connectivity)
+            group.part < parts
+                && group.connectivity.len() == group.kind.nodes() * group.elements()
+                && are_nodes(&group.connectivity)
+                && [0, group.kind.thickened().nodes() * group.elements()].contains(&group.outer.len())
+                && are_nodes(&group.outer)
         };
         let is_numbered = |part: usize| is_permutation(self.groups_of(part).flat_map(|group| &group.user_elements), self.elements_of(part));
         self.parts.iter().all(|part| are_nodes(&part.nodes))
@@ -83,7 +104,8 @@ where
             && (0..parts).all(is_numbered)
             && is_permutation(&self.user_nodes, nodes)
             && self.imported.iter().flatten().all(|&node| node == u32::MAX || (node as usize) < nodes)
-            && self.outlines.len() == nodes
+            && self.outlines.len() + self.skins.len() == nodes
+            && self.skins.iter().all(|skin| (skin.owner as usize) < self.outlines.len())
             && self.sides.values().flatten().all(|facet| are_nodes(facet.corners()))
             && self.points.values().all(|points| are_nodes(points))
     }

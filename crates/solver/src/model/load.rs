@@ -33,17 +33,18 @@ section! {
         doc: "Prescribed motion of a set of nodes: a part, a side such as `plate.left`, or a group of a mesh file.",
         form: Form::Repeated,
         rules: &[
-            Rule::SomeOf(&["fixed", "velocity", "displacement", "acceleration", "rotation"]),
+            Rule::SomeOf(&["fixed", "velocity", "displacement", "acceleration", "rotation", "spin"]),
             Rule::NotBoth("rotation", "fixed"),
             Rule::NotBoth("rotation", "velocity"),
             Rule::NotBoth("rotation", "displacement"),
             Rule::NotBoth("rotation", "acceleration"),
+            Rule::NotBoth("rotation", "spin"),
         ],
         ..Section::EMPTY
     };
     on: String = Reference, Required, "The set.";
-    "fixed" = Kind::Choices(Choices::Words(&["x", "y", "z"])), Optional("none"),
-        "Components that don't move.";
+    "fixed" = Kind::Choices(Choices::Words(&["x", "y", "z", "rotation"])), Optional("none"),
+        "Components that don't move; `rotation`: nodes of shells don't rotate either, so that they are clamped.";
     velocity: [Option<Drive>; 3] = Kind::Components(Dimension::VELOCITY), Optional("none"),
         "Prescribed velocity of components: a number or a curve, such as `{ x = \"1 m/s\", y = \"ramp\" }`.",
         read velocities;
@@ -53,7 +54,10 @@ section! {
     acceleration: [Option<Drive>; 3] = Kind::Components(Dimension::ACCELERATION), Optional("none"),
         "Prescribed acceleration of components, from the initial velocity on.",
         read |values| components(values, "acceleration");
-    rotation: Option<Rotation> = Table(&TURN_OF_NODES), Optional("none"), "Leads the nodes around a point.";
+    rotation: Option<Rotation> = Table(&TURN_OF_NODES), Optional("none"), "Leads the nodes around a point; those of shells rotate with it.";
+    spin: [Option<Drive>; 3] = Kind::Components(Dimension::RATE), Optional("none"),
+        "Prescribed angular velocity of the nodes of shells, such as `{ z = \"2 rad/s\" }`; in 2D about z.",
+        read spins;
 }
 
 /// Prescribed components of a kind; none where the nodes are driven around a point.
@@ -74,6 +78,16 @@ fn velocities(values: &dyn Values) -> [Option<Drive>; 3] {
         }
     }
     velocity
+}
+
+/// Prescribed angular velocities: those of `spin`, and zero where rotation is fixed and not prescribed.
+fn spins(values: &dyn Values) -> [Option<Drive>; 3] {
+    let mut spins = components(values, "spin");
+    let is_clamped = values.table("rotation").is_none() && values.get::<Vec<String>>("fixed").iter().any(|it| it == "rotation");
+    if is_clamped {
+        spins.iter_mut().for_each(|spin| *spin = spin.take().or(Some(Drive::Constant(0.0))));
+    }
+    spins
 }
 
 section! {
@@ -155,6 +169,15 @@ pub enum Load {
         /// Key of [`super::Model::curves`]: a factor.
         curve: Option<String>,
     },
+    /// A moment on a set of nodes of shells, shared equally.
+    Moment {
+        /// A set of nodes.
+        on: String,
+        /// The whole moment about x, y and z, N (of solids N m); of an axisymmetric model N m.
+        moment: [f64; 3],
+        /// Key of [`super::Model::curves`]: a factor.
+        curve: Option<String>,
+    },
     /// A pressure on a surface, against its current normal and on its current length.
     Pressure {
         /// A part (its whole outside), `part.side`, or a one-dimensional group of a mesh file.
@@ -218,6 +241,13 @@ pub(crate) static LOAD: Section = Section {
                 over other groups.",
         ),
         key(
+            "moment",
+            Spatial(Dimension::FORCE, Finite),
+            Optional("another load"),
+            "Moment on a set of nodes of shells in all, about x, y and z (in 2D `[0, 0, \"5 N\"]`: N m per metre of depth), shared \
+                equally: its axes do not rotate with the nodes.",
+        ),
+        key(
             "pressure",
             Quantity(Dimension::PRESSURE, Finite),
             Optional("another load"),
@@ -240,7 +270,7 @@ pub(crate) static LOAD: Section = Section {
         key(
             "on",
             Reference,
-            Optional("only with `force` and `pressure`"),
+            Optional("only with `force`, `moment` and `pressure`"),
             "Where it acts: a side such as `plate.top`, a group of a mesh file; of a pressure also a part, its whole outside.",
         ),
         key("parts", References(None), Optional("all parts"), "Parts that it acts on."),
@@ -254,16 +284,18 @@ pub(crate) static LOAD: Section = Section {
         key("until", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time at which it ends."),
     ],
     rules: &[
-        Rule::OneOf(&["gravity", "centrifugal", "force", "pressure", "damping", "damping_stiffness"]),
+        Rule::OneOf(&["gravity", "centrifugal", "force", "moment", "pressure", "damping", "damping_stiffness"]),
         Rule::Needs("centre", "centrifugal"),
         Rule::Needs("axis", "centrifugal"),
         Rule::Needs("force", "on"),
+        Rule::Needs("moment", "on"),
         Rule::Needs("pressure", "on"),
         Rule::NotBoth("on", "gravity"),
         Rule::NotBoth("on", "centrifugal"),
         Rule::NotBoth("on", "damping"),
         Rule::NotBoth("on", "damping_stiffness"),
         Rule::NotBoth("parts", "force"),
+        Rule::NotBoth("parts", "moment"),
         Rule::NotBoth("parts", "pressure"),
         Rule::NotBoth("curve", "damping"),
         Rule::NotBoth("curve", "damping_stiffness"),
@@ -282,6 +314,8 @@ impl Load {
             Self::Centrifugal { parts, about: Axis::read(values), speed: values.get("centrifugal"), curve }
         } else if values.has("force") {
             Self::Force { on, force: values.get("force"), curve }
+        } else if values.has("moment") {
+            Self::Moment { on, moment: values.get("moment"), curve }
         } else if values.has("pressure") {
             Self::Pressure { on, pressure: values.get("pressure"), curve }
         } else if values.has("damping") {

@@ -19,6 +19,7 @@ mod part;
 pub(crate) mod placement;
 pub mod reference;
 mod run;
+mod shell;
 mod triangles;
 
 pub use contact::{Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Partners, Penalty, PenaltySource};
@@ -31,14 +32,16 @@ pub use output::{Cadence, Camera, Output, PictureView, Probe, ProbeAt};
 pub use part::Part;
 pub use placement::{Copies, Mirror, Placement};
 pub use run::{MassScaling, Relaxation, Run, StableStep};
+pub(crate) use shell::SHELL_SECTION;
+pub use shell::{GAUSS, LOBATTO, ShellSection};
 pub use triangles::TriangleSurface;
 pub use values::Values;
 
 pub(crate) use crate::mesh::shapes::SHAPES;
 pub(crate) use crate::mesh::shapes::sweep::{EXTRUDE, REVOLVE};
 pub use crate::mesh::shapes::{
-    Cuboid, Cylinder, Disk, Edge, Extrude, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, SpaceTruss, Sphere, Sweep,
-    Trapezoid, Truss, Tube,
+    CircularArc, Cuboid, Cylinder, Disk, Edge, Extrude, Line, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, SpaceTruss,
+    Sphere, Sweep, Trapezoid, Truss, Tube,
 };
 pub(crate) use contact::CONTACT;
 pub(crate) use discrete::{POINT_MASS, SPRING};

@@ -2,7 +2,7 @@
 
 use super::initial::STRESS_INITIAL;
 use super::placement::{COPIES, MIRROR, ROTATION};
-use super::{EXTRUDE, InitialStress, Motion, Placement, REVOLVE, SHAPES, Shape, Sweep, Values, section};
+use super::{EXTRUDE, InitialStress, Motion, Placement, REVOLVE, SHAPES, SHELL_SECTION, Shape, ShellSection, Sweep, Values, section};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
 use crate::stress_state::STRESS_STATES;
@@ -30,13 +30,14 @@ section! {
     name: String = Name, Required, "Unique name.";
     material: String = Reference, Required, "Name of a `[material.NAME]` section.";
     element: String = Choice(Choices::Elements), Default("\"quad4\""),
-        "Kind of element: what quadrilaterals are; `bar2` for bars.";
+        "Kind of element: what quadrilaterals are; `bar2` for bars, `shell2` for shells in 2D.";
     element_triangles: String = Choice(Choices::Triangles), Optional("`tri3`"),
         "What triangles are, where the part has some.",
         read |values| values.or("element_triangles", "tri3".to_string());
     area: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("only with bars"),
         "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre; \
             between solids whole, `\"1e-4 m^2\"`.";
+    section: Option<ShellSection> = Table(&SHELL_SECTION), Optional("only with shells"), "Section of shells: thickness and layers.";
     hourglass: Option<f64> = Quantity(Dimension::NONE, NotNegative), Optional("that of the control's source"),
         "Coefficient of the hourglass control of elements that have one.";
     stress_state: String = Choice(Choices::StressStates), Default("\"plane_strain\""),

@@ -168,6 +168,9 @@ fn default(key: &Key) -> Option<Datum> {
         Need::Required => "",
         Need::Optional(_) | Need::Value(_) => return None,
     };
+    if let Some(degrees) = text.trim_matches('"').strip_suffix(" deg").and_then(|number| number.parse::<f64>().ok()) {
+        return Some(Datum::Number(degrees.to_radians()));
+    }
     let numbers: Vec<f64> = text.trim_matches(['[', ']']).split(',').filter_map(|item| item.trim().parse().ok()).collect();
     let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
     Some(match key.kind {

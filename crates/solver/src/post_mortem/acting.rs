@@ -27,7 +27,7 @@ where
         let reaches = |on: &str| mesh.nodes(on).is_some_and(|nodes| nodes.iter().any(|node| near.binary_search(node).is_ok()));
         let constraints = model.constraints.iter().enumerate().map(|(k, it)| (format!("constraint[{k}]"), it.on.clone()));
         let loads = model.loads.iter().enumerate().filter_map(|(k, load)| match load {
-            Load::Force { on, .. } | Load::Pressure { on, .. } => Some((format!("load[{k}]"), on.clone())),
+            Load::Force { on, .. } | Load::Moment { on, .. } | Load::Pressure { on, .. } => Some((format!("load[{k}]"), on.clone())),
             Load::Gravity { parts, .. } | Load::Centrifugal { parts, .. } => {
                 let on = parts
                     .iter()

@@ -221,7 +221,7 @@ where
     fn rebuild_surfaces(&mut self, erosion: &mut Erosion<D>) {
         if !self.forces.is_empty() {
             let has_elements = self.has_elements();
-            let cells = self.mesh.groups.iter().filter(|group| group.is_continuum(D)).flat_map(|group| group.live_cells());
+            let cells = self.mesh.groups.iter().filter(|group| group.is_body(D)).flat_map(|group| group.live_outer_cells());
             let mut backed: Vec<Facet<D>> = cells.flat_map(<Dim<D>>::cell_facets).collect();
             backed.sort_unstable();
             self.forces.renew(|node| !has_elements[node as usize], |facet| backed.binary_search(&facet.canonical()).is_ok());

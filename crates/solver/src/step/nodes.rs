@@ -6,7 +6,7 @@
 //! (a) and dashpots (C), Δt = ½ (dt^{n−1} + dt^n), an impulse J changes the velocity by m̃⁻¹ J.
 
 use crate::assembly::Assembly;
-use crate::contact::springs::{NodeResponse, NodeResponses, TangentSpace};
+use crate::contact::springs::{Carrier, NodeResponse, NodeResponses, TangentSpace};
 use crate::contact_forces::ContactForces;
 use crate::dimension::Dimension;
 use crate::energy::Sums;
@@ -16,9 +16,11 @@ use crate::load::join::{Group, Joins};
 use crate::load::non_reflecting::NonReflecting;
 use crate::rigid::Bodies;
 use crate::rotation::{Square, applied, inverse, transposed, unit_matrix};
+use crate::skins::Skins;
 use crate::step::free::{Coast, Free};
+use crate::step::rotations::NodalRotations;
 use crate::tensor::{Dim, product};
-use crate::vector::{dot, plus, times};
+use crate::vector::{dot, minus, plus, times};
 use embate_lanes::{BATCH, Level};
 
 /// What the velocity update reads.
@@ -42,6 +44,8 @@ where
     pub(crate) boundary: &'a NonReflecting<D>,
     pub(crate) joins: &'a Joins<D>,
     pub(crate) bodies: &'a Bodies<D>,
+    pub(crate) skins: &'a Skins<D>,
+    pub(crate) rotations: &'a NodalRotations,
     pub(crate) velocities_old: &'a [[f64; D]],
     /// x^n, m, and the step that will lead to x^{n+1}, s.
     pub(crate) positions: &'a [[f64; D]],
@@ -70,9 +74,16 @@ impl<'a, const D: usize> Pull<'a, D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// Of what elements alone pull on.
-    pub(super) fn of_elements(mass: f64, old: [f64; D], internal: [f64; D], slowing: f64, held: Option<&'a NodeConstraint<D>>) -> Self {
-        Self { mass, old, internal, contact: [0.0; D], load: None, gravity: None, slowing, dashpot: None, held }
+    /// Of what elements pull on, and loads.
+    pub(super) fn of_elements(
+        mass: f64,
+        old: [f64; D],
+        [internal, contact, load]: [Option<[f64; D]>; 3],
+        slowing: f64,
+        held: Option<&'a NodeConstraint<D>>,
+    ) -> Self {
+        let [internal, contact] = [internal, contact].map(|force| force.unwrap_or([0.0; D]));
+        Self { mass, old, internal, contact, load, gravity: None, slowing, dashpot: None, held }
     }
 
     /// m̃.
@@ -92,6 +103,19 @@ where
             v = std::array::from_fn(|d| v[d] - change[d]);
         }
         v
+    }
+
+    /// The velocity after Δt without contact.
+    pub(super) fn free_velocity(&self, dt: f64) -> [f64; D] {
+        let load = self.load.unwrap_or([0.0; D]);
+        self.held(self.slowed(plus(self.old, times(dt / self.mass, plus(self.internal, load)))))
+    }
+
+    /// Its change per force of contact.
+    pub(super) fn mobility_over(&self, dt: f64) -> Square<D> {
+        let scale = dt / (self.mass * (1.0 + self.slowing));
+        let free = unit_matrix::<D>().map(|row| row.map(|value| scale * value));
+        self.held.map_or(free, |held| held.mobility(free))
     }
 
     /// The velocity with what is prescribed.
@@ -177,7 +201,10 @@ where
                 continue;
             }
             for (node, v) in (first..).zip(velocities) {
-                if self.bodies.of_node(node as u32).is_none() && self.joins.of_node(node as u32).is_none() {
+                if self.bodies.of_node(node as u32).is_none()
+                    && self.joins.of_node(node as u32).is_none()
+                    && self.skins.carrier(node).is_none()
+                {
                     *v = self.advance(&self.pull(node), &mut sums);
                 }
             }
@@ -300,6 +327,25 @@ where
             row.into_iter().enumerate().skip(i).for_each(|(j, value)| mobility[<Dim<D>>::AT[i][j]] = value);
         }
         NodeResponse { velocity_old: v, velocity: pull.held(pull.slowed(free)), mobility }
+    }
+
+    fn carrier(&self, node: u32) -> Option<u32> {
+        self.skins.carrier(node as usize).map(|(_, place)| self.rotations.leader(place) as u32)
+    }
+
+    fn carried_point(&self, node: u32) -> [f64; D] {
+        let x = self.positions[node as usize];
+        let Some((owner, place)) = self.skins.carrier(node as usize) else { return x };
+        let leader = self.rotations.now.nodes[self.rotations.leader(place)];
+        // Joined nodes move as one, wherever they are.
+        if leader == owner { x } else { plus(minus(x, self.positions[owner as usize]), self.positions[leader as usize]) }
+    }
+
+    fn carried(&self, carrier: usize) -> Carrier<D> {
+        let node = self.rotations.now.nodes[carrier];
+        let (spins, spin_mobility) = self.rotations.response(carrier, self.dt, |node| self.damping.factor(node));
+        let leader = self.joins.leader(node).0;
+        Carrier { node: self.response(leader as usize), spins, spin_mobility, centre: self.positions[node as usize] }
     }
 
     fn moves(&self, leader: usize) -> bool {

@@ -14,9 +14,10 @@ use crate::assembly::Assembly;
 use crate::block::{Block, NO_NODE};
 use crate::dimension::Dimension;
 use crate::energy::Sums;
-use crate::load::constraint::NodeConstraint;
+use crate::load::constraint::{Constraints, NodeConstraint};
+use crate::load::curve::Curves;
 use crate::load::join::{Joins, back, turned};
-use crate::model::in_3d;
+use crate::model::{Load, Model, in_3d};
 use crate::reductions;
 use crate::rigid::{Bodies, RigidMotion};
 use crate::rotation::{Square, transposed, unit_matrix};
@@ -40,6 +41,23 @@ pub(crate) struct NodalRotations {
     bodies: Vec<u32>,
     /// Those that no body leads, alone or joined.
     groups: Vec<Group>,
+    /// Moments of loads on them, and their sum now, N (N m); empty without.
+    loads: Vec<MomentLoad>,
+    now_loads: Vec<[f64; 3]>,
+    /// Moments of contact forces in the coming update, N (N m); empty without.
+    contact: Vec<[f64; 3]>,
+    /// Group of each, and whether it is the first of it; `u32::MAX`: a body leads it.
+    group_of: Vec<u32>,
+}
+
+/// A moment that acts on nodes.
+#[derive(Clone, Debug)]
+struct MomentLoad {
+    /// Their places.
+    places: Vec<usize>,
+    /// On each of them, N (N m).
+    moment: [f64; 3],
+    curve: Option<usize>,
 }
 
 /// Nodes that rotate as one, or one alone.
@@ -55,7 +73,19 @@ struct Group {
 
 impl Persist for NodalRotations {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { now, spins_old, inertia: _, slots: _, assembly: _, bodies: _, groups: _ } = self;
+        let Self {
+            now,
+            spins_old,
+            inertia: _,
+            slots: _,
+            assembly: _,
+            bodies: _,
+            groups: _,
+            loads: _,
+            now_loads: _,
+            contact: _,
+            group_of: _,
+        } = self;
         let Rotations { nodes: _, angles, attitudes, spins } = now;
         persist_each!(archive; &mut angles[..], &mut attitudes[..], &mut spins[..], &mut spins_old[..]);
         Ok(())
@@ -83,11 +113,12 @@ impl Group {
 
 impl NodalRotations {
     /// Of blocks; `spin` says how fast the elements of a block spin at the start, rad/s: a node of several
-    /// blocks has the mean by inertia. `normals` are those of the symmetry planes that a node is on.
+    /// blocks has the mean by inertia. `constraints` say what is held: by symmetry planes, and by prescribed
+    /// spins.
     pub(super) fn new<const D: usize>(
         blocks: &[Box<dyn Block<D>>],
         spin: impl Fn(usize) -> [f64; 3],
-        normals: impl Fn(u32) -> Vec<[f64; D]>,
+        constraints: &Constraints<D>,
         joins: &Joins<D>,
         bodies: &mut Bodies<D>,
     ) -> Self
@@ -128,14 +159,90 @@ impl NodalRotations {
                 members.into_iter().map(|(place, turn)| (place, product(&turn, &back_to_first))).collect();
             let mut held = NodeConstraint::default();
             for (place, turn) in &members {
-                held_by(&normals(now.nodes[*place])).for_each(|direction| held.rest(back(*turn, direction)));
+                let node = now.nodes[*place];
+                // Contradictions are faults of the model.
+                let normals: Vec<[f64; D]> = constraints.mirror_normals(node).collect();
+                held_by(&normals).for_each(|direction| held.rest(back(*turn, direction)));
+                for (axis, speed) in constraints.spins_of(node) {
+                    held.prescribe(back(*turn, axis), speed);
+                }
             }
             let whole = members.iter().map(|&(place, _)| inertia[place]).sum();
             Some(Group { members, inertia: whole, held: Some(held).filter(|held| !held.is_empty()) })
         };
-        let groups = alone.chain(joined).filter_map(group).collect();
+        let groups: Vec<Group> = alone.chain(joined).filter_map(group).collect();
+        let mut group_of = vec![u32::MAX; count];
+        for (number, group) in (0..).zip(&groups) {
+            group.members.iter().for_each(|&(place, _)| group_of[place] = number);
+        }
         let slots = vec![[0.0; 3]; assembly.count];
-        Self { spins_old: now.spins.clone(), now, inertia, slots, assembly, bodies: of_bodies, groups }
+        let (loads, now_loads, contact) = (Vec::new(), Vec::new(), Vec::new());
+        Self { spins_old: now.spins.clone(), now, inertia, slots, assembly, bodies: of_bodies, groups, loads, now_loads, contact, group_of }
+    }
+
+    /// Lets the moments of a model's loads act: of each its nodes, the whole of it (N, N m) and its curve.
+    pub(super) fn load<'a>(&mut self, loads: impl Iterator<Item = (Vec<u32>, [f64; 3], Option<usize>)> + 'a) {
+        for (nodes, moment, curve) in loads {
+            let places: Vec<usize> = nodes.iter().filter_map(|&node| self.now.place(node)).collect();
+            let moment = times(1.0 / places.len().max(1) as f64, moment);
+            self.loads.push(MomentLoad { places, moment, curve });
+        }
+        self.now_loads = vec![[0.0; 3]; if self.loads.is_empty() { 0 } else { self.inertia.len() }];
+    }
+
+    /// Moments of loads now, to add to.
+    pub(super) fn loads_now(&mut self) -> &mut [[f64; 3]] {
+        self.now_loads.resize(self.inertia.len(), [0.0; 3]);
+        &mut self.now_loads
+    }
+
+    /// Moments of contact forces, of which there are none yet.
+    pub(super) fn contact_now(&mut self) -> &mut [[f64; 3]] {
+        self.contact.clear();
+        self.contact.resize(self.inertia.len(), [0.0; 3]);
+        &mut self.contact
+    }
+
+    /// The place that rotates in the stead of one: the first of its group.
+    pub(super) fn leader(&self, place: usize) -> usize {
+        self.groups.get(self.group_of[place] as usize).map_or(place, |group| group.members[0].0)
+    }
+
+    /// ω^{n−½}, ω^{n+½} without contact, and its change per moment of contact, of the first place of a group;
+    /// Δt is `mean_step`, a of damping `slowing` at a node.
+    pub(super) fn response(&self, place: usize, mean_step: f64, slowing: impl Fn(usize) -> f64) -> ([[f64; 3]; 2], Square<3>) {
+        let spin = self.now.spins[place];
+        let Some(group) = self.groups.get(self.group_of[place] as usize) else { return ([spin; 2], [[0.0; 3]; 3]) };
+        let pull = self.pull(group, &self.now.spins, [false, true], slowing);
+        ([spin, pull.free_velocity(mean_step)], pull.mobility_over(mean_step))
+    }
+
+    /// What pulls on a group that has these spins: of contact and loads as wanted.
+    fn pull<'a>(
+        &'a self,
+        group: &'a Group,
+        spins: &[[f64; 3]],
+        [with_contact, with_loads]: [bool; 2],
+        slowing: impl Fn(usize) -> f64,
+    ) -> Pull<'a, 3> {
+        let of = |list: &[[f64; 3]], wanted: bool| (wanted && !list.is_empty()).then(|| group.sum(|place| list[place]));
+        let moment = group.sum(|place| self.assembly.force(place, &self.slots));
+        let slowed = |&(place, _): &(usize, Square<3>)| self.inertia[place] * slowing(self.now.nodes[place] as usize);
+        let slowing = group.members.iter().map(slowed).sum::<f64>() / group.inertia;
+        let pulls = [Some(moment), of(&self.contact, with_contact), of(&self.now_loads, with_loads)];
+        Pull::<3>::of_elements(group.inertia, spins[group.members[0].0], pulls, slowing, group.held.as_ref())
+    }
+
+    /// Takes what acts in the coming update, between two times (s), and what prescribes spins between `step`.
+    pub(super) fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], step: [f64; 2]) {
+        self.groups.iter_mut().filter_map(|group| group.held.as_mut()).for_each(|held| held.drive(curves, step));
+        self.now_loads.fill([0.0; 3]);
+        for load in &self.loads {
+            let factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
+            for &place in &load.places {
+                self.now_loads[place] = plus(self.now_loads[place], times(factor, load.moment));
+            }
+        }
     }
 
     /// Moment of the elements on a node; `None`: it has no rotation.
@@ -189,14 +296,12 @@ impl NodalRotations {
     {
         let mut sums = Sums::default();
         std::mem::swap(&mut self.now.spins, &mut self.spins_old);
+        let mut spins = std::mem::take(&mut self.now.spins);
         for group in &self.groups {
-            let [leader, ..] = group.members[..] else { continue };
-            let moment = group.sum(|place| self.assembly.force(place, &self.slots));
-            let slowed = |&(place, _): &(usize, Square<3>)| self.inertia[place] * slowing(self.now.nodes[place] as usize);
-            let slowing = group.members.iter().map(slowed).sum::<f64>() / group.inertia;
-            let pull = Pull::<3>::of_elements(group.inertia, self.spins_old[leader.0], moment, slowing, group.held.as_ref());
-            group.lead(pull.advance(mean_step, &mut sums), &mut self.now.spins);
+            let pull = self.pull(group, &self.spins_old, [true, true], &slowing);
+            group.lead(pull.advance(mean_step, &mut sums), &mut spins);
         }
+        self.now.spins = spins;
         self.follow(bodies);
         sums
     }
@@ -230,8 +335,23 @@ where
 {
     /// Finds the nodes that rotate; `spin` says how fast the elements of a block spin at the start, rad/s.
     pub(crate) fn find_rotations(&mut self, spin: impl Fn(usize) -> [f64; 3]) {
-        let normals = |node: u32| self.constraints.mirror_normals(node).collect();
-        self.rotations = NodalRotations::new(&self.blocks, spin, normals, &self.joins, &mut self.bodies);
+        self.rotations = NodalRotations::new(&self.blocks, spin, &self.constraints, &self.joins, &mut self.bodies);
+    }
+}
+
+impl<const D: usize> System<D>
+where
+    Dim<D>: Dimension<D>,
+{
+    /// Lets the moments of the model act on the nodes that rotate.
+    pub(crate) fn load_rotations(&mut self, model: &Model) {
+        let of = |load: &Load| match load {
+            Load::Moment { on, moment, curve } => {
+                Some((self.mesh.nodes(on)?, *moment, curve.as_ref().and_then(|name| self.curves.find(name))))
+            }
+            _ => None,
+        };
+        self.rotations.load(model.loads.iter().filter_map(of));
     }
 }
 

@@ -151,7 +151,7 @@ fn held_nodes_keep_what_is_prescribed() {
         velocity: [Some(0.0.into()), None, None],
         displacement: [None, None, None],
         acceleration: [None, None, None],
-        rotation: None,
+        ..embate_solver::model::Constraint::default()
     });
     let mut simulation = simulation(&model);
     throw(&mut simulation, "block", &[9.0, 1.0]);

@@ -395,7 +395,7 @@ fn obstacles_and_moving_parts_that_make_no_sense_are_refused() {
         (
             and("[[load]]\nparts = \"ball\""),
             "load[1]",
-            "needs one of `gravity`, `centrifugal`, `force`, `pressure`, `damping` and `damping_stiffness`",
+            "needs one of `gravity`, `centrifugal`, `force`, `moment`, `pressure`, `damping` and `damping_stiffness`",
         ),
     ]);
 }

@@ -107,13 +107,13 @@ const CASES: &[Case] = &[
         "to = \"90 deg\"",
         "to = \"-90 deg\"",
         &[
-            "13:87 the ring ends at -90 deg, not after its beginning at -90 deg | it runs counter-clockwise: add \"360 deg\" to `to`, or swap the two",
+            "13:87 it ends at -90 deg, not after its beginning at -90 deg | it runs counter-clockwise: add \"360 deg\" to `to`, or swap the two",
         ],
     ),
     (
         "to = \"90 deg\"",
         "to = \"271 deg\"",
-        &["13:87 the ring runs over 361 deg, more than a full turn | let `to` exceed `from` by at most 360 deg"],
+        &["13:87 it runs over 361 deg, more than a full turn | let `to` exceed `from` by at most 360 deg"],
     ),
     (
         "disk = ",
@@ -124,7 +124,7 @@ const CASES: &[Case] = &[
         "disk = { centre = [0, 0.1], radius = \"9 mm\", elements = 4 }\n",
         "",
         &[
-            "18:1 [[part]] needs one of `rectangle`, `ring`, `disk`, `trapezoid`, `quadrilateral`, `polygon`, `path`, `truss`, `box`, `cylinder`, `tube`, `sphere`, `space_truss` and `mesh` | add one of them",
+            "18:1 [[part]] needs one of `rectangle`, `ring`, `disk`, `trapezoid`, `quadrilateral`, `polygon`, `path`, `truss`, `line`, `arc`, `box`, `cylinder`, `tube`, `sphere`, `space_truss` and `mesh` | add one of them",
         ],
     ),
     (
@@ -171,7 +171,7 @@ const CASES: &[Case] = &[
     (
         "fixed = \"x\"",
         "",
-        &["29:1 [[constraint]] needs `fixed`, `velocity`, `displacement`, `acceleration` or `rotation` | add one of them"],
+        &["29:1 [[constraint]] needs `fixed`, `velocity`, `displacement`, `acceleration`, `rotation` or `spin` | add one of them"],
     ),
     (
         "fixed = \"x\"",

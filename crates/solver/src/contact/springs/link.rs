@@ -8,7 +8,7 @@
 use super::couple::{Couplings, Forces};
 use super::ends::Ends;
 use super::islands::NONE;
-use super::{Along, KeptEnd, NodeResponse, NodeResponses, Slip, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
+use super::{Along, Carrier, KeptEnd, NodeResponse, NodeResponses, Slip, Spring, TangentSpace, Tangential, Terms, Update, sum_along};
 use crate::contact::law::Law;
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
@@ -47,9 +47,18 @@ impl<const D: usize> Movable<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// The node or (from `nodes` on) rigid body `at` at the beginning of the solution.
+    /// The node or (from `nodes` on) rigid body, or (beyond those) carrier `at` at the beginning of the
+    /// solution.
     pub(super) fn new<M: NodeResponses<D>>(at: u32, nodes: usize, update: &Update<'_, M, D>) -> Self {
         let node = at as usize;
+        if let Some(carrier) = node.checked_sub(nodes + update.bodies.len()) {
+            let Carrier { node: NodeResponse { velocity_old, velocity, mobility }, spins, spin_mobility, centre } =
+                update.nodes.carried(carrier);
+            let [velocity_old, velocity_free] =
+                [(velocity_old, spins[0]), (velocity, spins[1])].map(|(v, spin)| Dim::<D>::generalized_with(v, Dim::<D>::moment_of(spin)));
+            let mobility = Dim::<D>::mobility_with_spin(Dim::<D>::mobility_of_node(&mobility), &spin_mobility);
+            return Self { velocity_old, velocity_free, mobility, centre: Some(centre) };
+        }
         if node >= nodes {
             let mean_step = 0.5 * (update.time_steps[0] + update.time_steps[1]);
             let body = update.bodies.state(node - nodes);

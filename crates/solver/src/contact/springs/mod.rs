@@ -66,6 +66,7 @@ use super::law::{self, Law};
 use crate::archive::persist_all;
 use crate::energy::Lost;
 use crate::rigid::Bodies;
+use crate::rotation::Square;
 use crate::tensor::Dim;
 use embate_lanes::Level;
 use ends::Ends;
@@ -395,6 +396,18 @@ where
     fn leader(&self, node: u32) -> (u32, Option<<Dim<D> as TangentSpace<D>>::ImageRotation>);
     /// Motion of a node that leads itself.
     fn response(&self, leader: usize) -> NodeResponse<D>;
+    /// What carries a node of a shell's face: a number; `None`: it is none such.
+    fn carrier(&self, _node: u32) -> Option<u32> {
+        None
+    }
+    /// Where forces on such a node act, as its carrier feels them, m.
+    fn carried_point(&self, _node: u32) -> [f64; D] {
+        [0.0; D]
+    }
+    /// What carries nodes, by its number.
+    fn carried(&self, _carrier: usize) -> Carrier<D> {
+        Carrier::default()
+    }
     /// Whether forces move it at all.
     fn moves(&self, leader: usize) -> bool {
         self.response(leader).mobility != Default::default()
@@ -413,6 +426,32 @@ where
     pub velocity: [f64; D],
     /// Change of v^{n+½} per force: xx, xy, yy; in 3D xx, xy, xz, yy, yz, zz.
     pub mobility: <Dim<D> as TangentSpace<D>>::Symmetric,
+}
+
+/// A node that rotates and carries nodes at arms, without springs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carrier<const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// Its translation.
+    pub node: NodeResponse<D>,
+    /// ω^{n−½}, and ω^{n+½} without springs, about x, y and z, rad/s.
+    pub spins: [[f64; 3]; 2],
+    /// Change of ω^{n+½} per moment.
+    pub spin_mobility: Square<3>,
+    /// Where it is, m.
+    pub centre: [f64; D],
+}
+
+impl<const D: usize> Default for Carrier<D>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    fn default() -> Self {
+        let node = NodeResponse { velocity_old: [0.0; D], velocity: [0.0; D], mobility: Default::default() };
+        Self { node, spins: [[0.0; 3]; 2], spin_mobility: [[0.0; 3]; 3], centre: [0.0; D] }
+    }
 }
 
 /// A spring as laws of the normal force see it.
@@ -459,6 +498,11 @@ where
     #[must_use]
     pub fn new(nodes: usize, bodies: usize, terms: Vec<Terms>) -> Self {
         Self { work: solve::Workspace::new(nodes + bodies), terms, ..Self::default() }
+    }
+
+    /// Makes room for so many carriers of nodes besides.
+    pub fn add_carriers(&mut self, carriers: usize) {
+        self.work.add_places(carriers);
     }
 
     /// Forgets the springs of the last step.

@@ -115,6 +115,11 @@ where
         Self { topology: Topology::new(places), ..Self::default() }
     }
 
+    /// So many places more.
+    pub(super) fn add_places(&mut self, places: usize) {
+        self.topology.add_places(places);
+    }
+
     /// Where a spring is among the solved ones.
     #[inline]
     pub(super) fn rank(&self, spring: usize) -> usize {

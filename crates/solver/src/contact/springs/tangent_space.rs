@@ -66,6 +66,8 @@ pub trait TangentSpace<const D: usize>: Tributary<D> + RigidMotion<D> {
     fn mobility_of_body(body: &Body<D>, mean_step: f64) -> Self::Mobility
     where
         Dim<D>: TangentSpace<D>;
+    /// That of a node which rotates by a moment as `spin` says, about x, y and z.
+    fn mobility_with_spin(mobility: Self::Mobility, spin: &Square<3>) -> Self::Mobility;
     /// Change of velocities by a row of forces.
     fn response(mobility: &Self::Mobility, row: &<Self as RigidMotion<D>>::Generalized<f64>) -> <Self as RigidMotion<D>>::Generalized<f64>;
     /// The same of a node by a force.
@@ -136,6 +138,9 @@ impl TangentSpace<2> for Dim<2> {
     fn mobility_of_body(body: &Body<2>, mean_step: f64) -> [f64; 4] {
         let [x, y, spin] = body.inverse_mass.map(|inverse| mean_step * inverse);
         [x, 0.0, y, spin]
+    }
+    fn mobility_with_spin([xx, xy, yy, _]: [f64; 4], spin: &Square<3>) -> [f64; 4] {
+        [xx, xy, yy, spin[2][2]]
     }
     #[inline(always)]
     fn response(&[xx, xy, yy, spin]: &[f64; 4], row: &[f64; 3]) -> [f64; 3] {
@@ -217,6 +222,11 @@ impl TangentSpace<3> for Dim<3> {
     fn mobility_of_body(body: &Body<3>, mean_step: f64) -> [[f64; 6]; 2] {
         let [x, y, z, ..] = body.inverse_mass.map(|inverse| mean_step * inverse);
         [[x, 0.0, 0.0, y, 0.0, z], body.turning.response.map(|inverse| mean_step * inverse)]
+    }
+    fn mobility_with_spin([straight, _]: [[f64; 6]; 2], spin: &Square<3>) -> [[f64; 6]; 2] {
+        let mut round = [0.0; 6];
+        (0..3).for_each(|i| (i..3).for_each(|j| round[Self::AT[i][j]] = spin[i][j]));
+        [straight, round]
     }
     #[inline(always)]
     fn response([straight, round]: &[[f64; 6]; 2], &[x, y, z, a, b, c]: &[f64; 6]) -> [f64; 6] {

@@ -31,7 +31,7 @@ pub(super) struct Topology {
     is_stale: bool,
     /// Ends on rigid bodies, and of nodes that move as others.
     led: Vec<u32>,
-    /// Place of each node (then of each rigid body) in `at`; [`NONE`]: not touched.
+    /// Place of each node (then of each rigid body, then of each carrier) in `at`; [`NONE`]: not touched.
     place: Vec<u32>,
     /// Node or rigid body of each place.
     pub(super) at: Vec<u32>,
@@ -53,6 +53,11 @@ impl Topology {
     /// Of springs on so many nodes and rigid bodies.
     pub(super) fn new(places: usize) -> Self {
         Self { place: vec![NONE; places], ..Self::default() }
+    }
+
+    /// So many places more.
+    pub(super) fn add_places(&mut self, places: usize) {
+        self.place.resize(self.place.len() + places, NONE);
     }
 
     /// Takes the springs of a step; `false`: nothing changed. Islands of `large` springs or more are chunks
@@ -114,6 +119,9 @@ impl Topology {
             if let Some(body) = update.bodies.of_node(at) {
                 led.push(k as u32);
                 at = (nodes + body) as u32;
+            } else if let Some(carrier) = Some(at).filter(|at| (*at as usize) < nodes).and_then(|at| update.nodes.carrier(at)) {
+                led.push(k as u32);
+                at = (nodes + update.bodies.len()) as u32 + carrier;
             } else if (at as usize) < nodes {
                 let (leader, image) = update.nodes.leader(at);
                 at = leader;
@@ -140,6 +148,8 @@ impl Topology {
             let at = ends.at(k);
             if update.bodies.of_node(at).is_some() {
                 ends.set_point(k, update.positions[at as usize]);
+            } else if update.nodes.carrier(at).is_some() {
+                ends.set_point(k, update.nodes.carried_point(at));
             } else if let (_, Some(image)) = update.nodes.leader(at) {
                 ends.set_image(k, image);
             }

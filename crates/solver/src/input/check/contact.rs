@@ -3,9 +3,10 @@
 use super::{Check, motion};
 use crate::contact::messages::{COMBINATION, FRICTION, JOINED_TWICE, NOTHING_GIVES_WAY, PRESSURES, SHARED_SURFACE};
 use crate::contact::search;
+use crate::mesh::messages::SHELLS;
 use crate::model::messages::{LIST_LENGTH, OF_REVOLUTION, UNKNOWN_NAME};
 use crate::model::reference::{Reference, Wanted};
-use crate::model::{Contact, ContactLaw, Formulation, Friction, Interface, Partners, Penalty};
+use crate::model::{Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Partners, Penalty};
 use crate::quantity::{Dimension, Range};
 use crate::vocabulary::excerpt;
 use std::collections::BTreeMap;
@@ -186,6 +187,12 @@ impl Check<'_> {
             self.friction(path, friction);
         }
         self.window(path, ["birth", "death"], interface.active);
+        if interface.initial_penetration == InitialPenetration::PushOut
+            && let Some(part) = self.model.parts.iter().find(|part| part.is_of_shells())
+        {
+            let message = format!("nodes on the faces of `{}` go with its middle, and can't be pushed out one by one", excerpt(&part.name));
+            self.fault(&SHELLS, format!("{path}.initial_penetration"), message, "move the parts apart, or let it be \"ignore\"");
+        }
     }
 
     fn penalty(&mut self, path: &str, penalty: Penalty) {

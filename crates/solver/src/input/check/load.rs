@@ -53,6 +53,12 @@ impl Check<'_> {
                     self.vector(&format!("{path}.force"), *force);
                     self.factor(&path, curve);
                 }
+                Load::Moment { on, moment, curve } => {
+                    let found = self.reference(&format!("{path}.on"), on, Wanted::Nodes);
+                    self.rotates(&format!("{path}.on"), found.as_ref());
+                    self.vector(&format!("{path}.moment"), *moment);
+                    self.factor(&path, curve);
+                }
                 Load::Pressure { on, pressure, curve } => {
                     self.reference(&format!("{path}.on"), on, Wanted::Surface);
                     self.number(&format!("{path}.pressure"), *pressure);

@@ -6,6 +6,7 @@ use crate::contact::messages::OBSTACLE;
 use crate::load::curve::Curve;
 use crate::load::curve::expression::Expression;
 use crate::load::messages::{BEGINNING, CURVE, CURVE_DIMENSION, EXPRESSION, INERTIA, JUMP, NO_EFFECT, PRESCRIBED_TWICE, RIGID};
+use crate::mesh::messages::SHELLS;
 use crate::model::Sine;
 use crate::model::messages::{LIST_LENGTH, LIST_ORDER, OF_REVOLUTION, PERIOD, UNKNOWN_NAME};
 use crate::model::reference::{Reference, Wanted};
@@ -306,7 +307,21 @@ impl Check<'_> {
                     "prescribe its motion: `rigid = { x = 0, y = 0, rotation = 0 }` holds it",
                 );
             }
+            // What is clamped may be a set of other parts too.
+            if constraint.spin.iter().flatten().any(|spin| *spin != Drive::Constant(0.0)) {
+                self.rotates(&format!("{path}.on"), on.as_ref());
+            }
             self.prescribed(&path, constraint);
+        }
+    }
+
+    /// A set whose nodes shall have rotations.
+    pub(super) fn rotates(&mut self, path: &str, on: Option<&Reference>) {
+        if let Some(Reference::Part(part) | Reference::Side { part, .. }) = on
+            && !self.model.parts[*part].is_of_shells()
+        {
+            let message = format!("nodes of part `{}` have no rotations", excerpt(&self.model.parts[*part].name));
+            self.fault(&SHELLS, path, message, "name a set of a part of shells; on others couples are pairs of forces");
         }
     }
 
@@ -336,15 +351,21 @@ impl Check<'_> {
                 self.fault(&PRESCRIBED_TWICE, format!("{path}.{second}.{}", STRAIGHT[axis]), message, "leave it out of one of the two");
             }
         }
+        for (axis, drive) in STRAIGHT.iter().zip(&constraint.spin) {
+            if let Some(drive) = drive {
+                self.drive(&format!("{path}.spin.{axis}"), drive, Dimension::RATE);
+            }
+        }
+        let spins = constraint.spin.iter().any(Option::is_some);
         let straight = kinds.iter().any(|(_, drives, _)| drives.iter().any(Option::is_some));
         if let Some(rotation) = &constraint.rotation {
             self.axis(&format!("{path}.rotation"), &rotation.about);
             self.drive(&format!("{path}.rotation.speed"), &rotation.speed, Dimension::RATE);
-            if straight {
-                let message = "nodes with a prescribed rotation can't have a prescribed motion along x or y as well";
+            if straight || spins {
+                let message = "nodes with a prescribed rotation can't have another prescribed motion as well";
                 self.fault(&PRESCRIBED_TWICE, format!("{path}.rotation"), message, "leave one of the two out");
             }
-        } else if !straight {
+        } else if !straight && !spins {
             self.fault(
                 &NO_EFFECT,
                 path,

@@ -8,11 +8,11 @@ use crate::input::sections::ELEMENTS_MAX;
 use crate::material;
 use crate::material::messages::{INITIAL_STATE, SOFTENS_TOO_STEEPLY};
 use crate::mesh::cell::CellKind;
-use crate::mesh::messages::{BARS, DIMENSION, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, TOO_MANY};
+use crate::mesh::messages::{BARS, DIMENSION, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, SHELLS, TOO_MANY};
 use crate::mesh::shapes::{Count, ShapeCheck};
 use crate::model::messages::{CLASH, NOTHING, OF_REVOLUTION, UNKNOWN_NAME};
 use crate::model::reference::dimension_word;
-use crate::model::{Extrude, Model, Part, Placement, Revolve, Shape, Sweep};
+use crate::model::{Extrude, GAUSS, LOBATTO, Model, Part, Placement, Revolve, Shape, StableStep, Sweep};
 use crate::stress_state::{PLANE_STRESS, STRESS_STATES};
 use crate::vocabulary::{excerpt, suggestion};
 use std::collections::BTreeSet;
@@ -39,6 +39,7 @@ impl Check<'_> {
             self.sweep(&path, part);
             self.initial(&path, part);
             self.bars(&path, part);
+            self.shells(&path, part);
             self.falling(&path, part);
             let count = model.element_count(part);
             if total <= ELEMENTS_MAX && total.saturating_add(count) > ELEMENTS_MAX {
@@ -110,6 +111,7 @@ impl Check<'_> {
         let Some(softening) = parameters(it).and_then(|parameters| material::softening(&it.law, &parameters)) else { return };
         let (stiffness, of) = match part {
             part if part.is_of_bars() => (softening.bar, "a bar"),
+            part if part.is_of_shells() => (softening.plate, "a shell"),
             part if part.stress_state == PLANE_STRESS.name => (softening.plate, "plane stress"),
             _ => return,
         };
@@ -168,6 +170,49 @@ impl Check<'_> {
         }
     }
 
+    /// What shells need, and what they can't have.
+    fn shells(&mut self, path: &str, part: &Part) {
+        let at = format!("{path}.section");
+        if !part.is_of_shells() {
+            if part.section.is_some() {
+                self.fault(
+                    &SHELLS,
+                    at,
+                    "`section` is that of shells, but the part has none",
+                    "leave it out, or take `element = \"shell2\"`",
+                );
+            }
+            return;
+        }
+        let Some(section) = &part.section else {
+            self.fault(&SHELLS, at, "shells need their thickness", "add `section = { thickness = \"2 mm\" }`");
+            return;
+        };
+        for (key, value) in [("thickness", section.thickness), ("failed_points", section.failed_points), ("fold_angle", section.fold_angle)]
+        {
+            self.number(&format!("{at}.{key}"), value);
+        }
+        self.known(&format!("{at}.rule"), "rule", &section.rule, &[GAUSS, LOBATTO]);
+        let least = if section.rule == LOBATTO { 3 } else { 1 };
+        if !(least..=10).contains(&section.points) {
+            let message = format!("`{}` has {least} to 10 points, not {}", section.rule, section.points);
+            self.fault(&SHELLS, format!("{at}.points"), message, "take as many as that: 5 do in most cases");
+        }
+        let Some(material) = self.model.materials.get(&part.material) else { return };
+        if !material.eos.is_empty() || material::equation_of_state(&material.law) == Some([true, true]) {
+            let message = format!("`{}` has an equation of state, but there is no pressure across a shell", excerpt(&part.material));
+            self.fault(&SHELLS, format!("{path}.material"), message, "take a solid without one, such as `elastic` or `j2`");
+        }
+        if part.stress_initial.is_some() {
+            let help = "leave it out; bring it about by loads in the first part of the run";
+            self.fault(&SHELLS, format!("{path}.stress_initial"), "shells begin without stress", help);
+        }
+        if self.model.run.stable_step != StableStep::Elements {
+            let message = "this bound of the stable step knows no rotations, but the model has shells";
+            self.fault(&SHELLS, "run.stable_step", message, "leave it out: shells have the step of their membrane");
+        }
+    }
+
     fn shape(&mut self, path: &str, part: &Part) {
         if let Some((shape, key)) = part.shape.solid() {
             let key = format!("{path}.{key}");
@@ -201,7 +246,7 @@ impl Check<'_> {
         let known = |part: &&Part| !self.model.lacks_mesh(part);
         if known(&part) && self.model.dimension_of(part) != dimension {
             let first = excerpt(self.model.parts.iter().find(known).map_or("", |first| &first.name));
-            let lines = |part: &Part| part.shape.cell_kind() == Some(CellKind::Line) || part.is_of_bars();
+            let lines = |part: &Part| part.shape.cell_kind() == Some(CellKind::Line) || part.is_of_lines();
             let word = |dimension: usize, part: &Part| match (dimension, lines(part)) {
                 (2, _) => "2D",
                 (_, true) => "of bars in 3D",
@@ -222,8 +267,8 @@ impl Check<'_> {
         let path = format!("{path}.{}", sweep.key());
         if part.shape.solid().is_some() {
             self.fault(&CLASH, path.as_str(), "the shape is a solid as it is", "leave it out, or take a 2D shape");
-        } else if part.is_of_bars() || part.shape.cell_kind() == Some(CellKind::Line) {
-            self.fault(&CLASH, path.as_str(), "bars have no area that could become a solid", "leave it out");
+        } else if part.is_of_lines() || part.shape.cell_kind() == Some(CellKind::Line) {
+            self.fault(&CLASH, path.as_str(), "lines have no area that could become a solid", "leave it out");
         }
         match sweep {
             Sweep::Extrude(Extrude { from, length, elements, grading }) => {

@@ -39,6 +39,12 @@ impl Check<'_> {
                     self.third(place, NO_Z);
                 }
             }
+            for (axis, spin) in ["x", "y"].iter().zip(&constraint.spin) {
+                // What is clamped is written in short.
+                if spin.as_ref().is_some_and(|spin| *spin != Drive::Constant(0.0)) {
+                    self.third(format!("{path}.spin.{axis}"), "rotations in 2D are about z");
+                }
+            }
             constraint.rotation.iter().for_each(|rotation| self.flat_axis(&format!("{path}.rotation"), &rotation.about));
         }
         for (index, load) in model.loads.iter().enumerate() {
@@ -47,6 +53,11 @@ impl Check<'_> {
                 Load::Gravity { acceleration, .. } => self.flat(&format!("{path}.gravity"), *acceleration),
                 Load::Centrifugal { about, .. } => self.flat_axis(&path, about),
                 Load::Force { force, .. } => self.flat(&format!("{path}.force"), *force),
+                Load::Moment { moment: [x, y, _], .. } => {
+                    if [*x, *y] != [0.0; 2] {
+                        self.third(format!("{path}.moment"), "moments in 2D are about z");
+                    }
+                }
                 Load::Pressure { .. } | Load::Damping { .. } | Load::StiffnessDamping { .. } => {}
             }
         }

@@ -298,7 +298,9 @@ shapes!(
         quadrilateral: Quadrilateral,
         polygon: Polygon,
         path: Path,
-        truss: Truss;
+        truss: Truss,
+        line: Line,
+        arc: CircularArc;
     in space:
         cuboid: Cuboid,
         cylinder: Cylinder,
@@ -465,6 +467,17 @@ fn unfolded(body: Body<2>, help: &str) -> Result<Body<2>, Wrong> {
         None => Ok(body),
         Some((element, [x, y])) => Err(Wrong::new("", format!("the mesh folds over at ({x:.6e}, {y:.6e}) m, in element {element}"), help)),
     }
+}
+
+/// Lines one after the other through `at` each of their ends; `start` and `end` of one that does not close.
+fn chain(elements: usize, closed: bool, at: impl Fn(usize) -> [f64; 2]) -> Body<2> {
+    let count = if closed { elements } else { elements + 1 };
+    let mut body = Body { positions: (0..count).map(at).collect(), ..Body::default() };
+    body.extend(CellKind::Line, (0..elements).map(|j| [node(j), node((j + 1) % count)]));
+    if !closed {
+        body.points = vec![("start".to_string(), vec![0]), ("end".to_string(), vec![node(elements)])];
+    }
+    body
 }
 
 fn node(index: usize) -> u32 {

@@ -168,10 +168,49 @@ impl BuiltIn<2> for Path {
     }
 
     fn check(&self, check: &mut dyn ShapeCheck) {
-        let sound = check.points("points", &self.points);
         check.number("width", self.width);
-        check.number("radius", self.radius);
+        if self.radius > 0.0 && self.radius <= 0.5 * self.width {
+            let message =
+                format!("a strip {} m wide can't be bent with a radius of {} m: its inside would fold over", self.width, self.radius);
+            check.fault("radius", message, "take a radius of more than half the width, or 0 for mitred corners");
+        }
         check.counts(ELEMENTS, &self.elements);
+        self.check_line(check);
+    }
+
+    fn sides(&self) -> Vec<String> {
+        ["left", "right", "start", "end"].into_iter().take(if self.closed { 2 } else { 4 }).map(String::from).collect()
+    }
+
+    fn count(&self) -> Count {
+        Count::of_lattice(self.elements, self.closed)
+    }
+
+    fn body(&self) -> Result<Body<2>, Wrong> {
+        let station = self.stations()?;
+        let at = |i: usize, j: usize| station(j, self.width * (i as f64 / self.elements[0] as f64 - 0.5));
+        let body = lattice(self.elements, self.closed, ["left", "right", "start", "end"], at);
+        unfolded(body, "the strip is too wide for its bends: make it narrower, give the bends a radius, or move its points apart")
+    }
+
+    #[cfg(test)]
+    fn examples(n: usize) -> Vec<(Self, f64)> {
+        let points = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [4.0, 2.0]];
+        let mitred = Self { points, width: 0.2, radius: 0.0, closed: false, elements: [2, 3 * n] };
+        let length = 3.0 + 5.0_f64.sqrt();
+        let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let frame = Self { points: square, closed: true, elements: [2, 4 * n], ..mitred.clone() };
+        let round = Self { radius: 0.25, elements: [2, 4 * n], ..frame.clone() };
+        let around = 4.0 - 8.0 * 0.25 + 0.5 * std::f64::consts::PI;
+        vec![(mitred, 0.2 * length), (frame, 0.8), (round, 0.2 * around)]
+    }
+}
+
+impl Path {
+    /// Reports faults of its middle line.
+    pub(super) fn check_line(&self, check: &mut dyn ShapeCheck) {
+        let sound = check.points("points", &self.points);
+        check.number("radius", self.radius);
         let least = if self.closed { 3 } else { 2 };
         if self.points.len() < least {
             check.fault(
@@ -200,26 +239,14 @@ impl BuiltIn<2> for Path {
             );
             return;
         }
-        if self.radius > 0.0 && self.radius <= 0.5 * self.width {
-            let message =
-                format!("a strip {} m wide can't be bent with a radius of {} m: its inside would fold over", self.width, self.radius);
-            check.fault("radius", message, "take a radius of more than half the width, or 0 for mitred corners");
-        }
         if self.elements[1] < self.pieces_least() {
             let message = format!("{} elements along a path of {} straight parts and bends", self.elements[1], self.pieces_least());
             check.fault(ELEMENTS, message, "each of them needs one at least");
         }
     }
 
-    fn sides(&self) -> Vec<String> {
-        ["left", "right", "start", "end"].into_iter().take(if self.closed { 2 } else { 4 }).map(String::from).collect()
-    }
-
-    fn count(&self) -> Count {
-        Count::of_lattice(self.elements, self.closed)
-    }
-
-    fn body(&self) -> Result<Body<2>, Wrong> {
+    /// The point of each row of nodes, an offset (m) to the right of the middle line.
+    pub(super) fn stations(&self) -> Result<impl Fn(usize, f64) -> [f64; 2] + use<>, Wrong> {
         let pieces = self.pieces()?;
         let counts = shares(&pieces.iter().map(Piece::length).collect::<Vec<f64>>(), self.elements[1]);
         // Where each row of nodes lies: its piece, and how far along it.
@@ -228,24 +255,7 @@ impl BuiltIn<2> for Path {
             rows.extend((0..count).map(|k| (piece, k as f64 / count as f64)));
         }
         rows.push((pieces.len() - 1, 1.0));
-        let at = |i: usize, j: usize| {
-            let offset = self.width * (i as f64 / self.elements[0] as f64 - 0.5);
-            pieces[rows[j].0].at(rows[j].1, offset)
-        };
-        let body = lattice(self.elements, self.closed, ["left", "right", "start", "end"], at);
-        unfolded(body, "the strip is too wide for its bends: make it narrower, give the bends a radius, or move its points apart")
-    }
-
-    #[cfg(test)]
-    fn examples(n: usize) -> Vec<(Self, f64)> {
-        let points = vec![[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [4.0, 2.0]];
-        let mitred = Self { points, width: 0.2, radius: 0.0, closed: false, elements: [2, 3 * n] };
-        let length = 3.0 + 5.0_f64.sqrt();
-        let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-        let frame = Self { points: square, closed: true, elements: [2, 4 * n], ..mitred.clone() };
-        let round = Self { radius: 0.25, elements: [2, 4 * n], ..frame.clone() };
-        let around = 4.0 - 8.0 * 0.25 + 0.5 * std::f64::consts::PI;
-        vec![(mitred, 0.2 * length), (frame, 0.8), (round, 0.2 * around)]
+        Ok(move |row: usize, offset: f64| pieces[rows[row].0].at(rows[row].1, offset))
     }
 }
 

@@ -37,7 +37,7 @@ impl Default for Ring {
 }
 
 impl Ring {
-    fn is_closed(&self) -> bool {
+    pub(super) fn is_closed(&self) -> bool {
         is_full_turn(self.from, self.to)
     }
 }
@@ -68,20 +68,29 @@ static SECTION: Section = Section {
 impl Ring {
     /// Reports faults of radii and angles.
     pub(super) fn check_radii(&self, check: &mut dyn ShapeCheck) {
-        let Self { inner, outer, from, to, .. } = *self;
-        for (key, value) in [("inner", inner), ("outer", outer), ("from", from), ("to", to)] {
+        let Self { inner, outer, .. } = *self;
+        for (key, value) in [("inner", inner), ("outer", outer)] {
             check.number(key, value);
         }
         if inner >= outer {
             let message = format!("the inner radius {inner} m is not smaller than the outer radius {outer} m");
             check.fault("inner", message, "swap or correct the radii");
         }
+        self.check_angles(check);
+    }
+
+    /// Reports faults of the angles.
+    pub(super) fn check_angles(&self, check: &mut dyn ShapeCheck) {
+        let Self { from, to, .. } = *self;
+        for (key, value) in [("from", from), ("to", to)] {
+            check.number(key, value);
+        }
         let degrees = |angle: f64| (angle.to_degrees() * 1e9).round() / 1e9;
         if to <= from {
-            let message = format!("the ring ends at {} deg, not after its beginning at {} deg", degrees(to), degrees(from));
+            let message = format!("it ends at {} deg, not after its beginning at {} deg", degrees(to), degrees(from));
             check.fault("to", message, "it runs counter-clockwise: add \"360 deg\" to `to`, or swap the two");
         } else if to - from > std::f64::consts::TAU + 1e-9 {
-            let message = format!("the ring runs over {} deg, more than a full turn", degrees(to - from));
+            let message = format!("it runs over {} deg, more than a full turn", degrees(to - from));
             check.fault("to", message, "let `to` exceed `from` by at most 360 deg");
         } else if self.is_closed() && (1..3).contains(&self.elements[1]) {
             check.fault(ELEMENTS, format!("{} elements can't go all around", self.elements[1]), "give at least 3 around");

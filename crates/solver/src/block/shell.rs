@@ -1,0 +1,571 @@
+//! Shells: elements of a mid surface whose nodes move and rotate, with layers of points through the
+//! thickness.
+//!
+//! A kernel ([`ShellKernel`]; `line.rs`) knows positions and rotations of the nodes: it strains the layers in
+//! the frame of the element and makes forces and moments of their stresses. Each layer is a point of the law
+//! without stress across it ([`points::layer`]), so every law works, and its thickness follows the strain
+//! across: heights of the layers and the section are those of the present thickness. Work of a step in rate
+//! form: ½ (σ_old + σ_new):Δε times the volume of the layer half way.
+//!
+//! Nodes have the moment of inertia m α about every axis; α is chosen at the start such that membrane waves
+//! alone set the stable step, which so does not depend on the thickness. An element that has failed neither
+//! is strained nor pulls. Strips of eight batches go through strain, law and forces one after the other, so
+//! that what passes between stays in the first-level cache.
+//!
+//! [`points::layer`]: crate::material::points::layer
+
+mod advance;
+mod line;
+mod section;
+
+pub(super) use line::Line;
+
+use super::initial::{self, Initial, Wrong};
+use super::make::BlockInput;
+use super::{Block, ElementState, Motion, NodalForces, Report, SHELL_VALUES, damping};
+use crate::archive::{Archive, ArchiveResult, Persist};
+use crate::failure::{Criterion, Seen};
+use crate::material::points::{PointLaw, RESPONSE, Scratch};
+use crate::material::{Family, Parameters, Variable};
+use crate::rotations::Rotations;
+use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
+use embate_lanes::{BATCH, Batch, Lane, Level, Team};
+use section::Points as Section;
+use std::sync::Mutex;
+
+/// Batches that one task advances.
+const CHUNK: usize = 32;
+
+/// A tensor of the layers.
+type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
+
+/// What is the same for all elements of a block.
+#[derive(Clone, Debug)]
+pub(super) struct Facts {
+    section: Section,
+    family: Family,
+    /// Whether K and µ of the law are those of an isotropic body; else they bound waves alone.
+    is_isotropic: bool,
+    /// Whether there is no stress out of the plane either (2D).
+    is_plane_stress: bool,
+    /// Whether x is the radius.
+    is_axisymmetric: bool,
+    /// Whether the law wants the volume ratio.
+    needs_ratio: bool,
+    /// Places in the history of λ across (of λ² where it is also that out of the plane), and of λ out of the
+    /// plane where that is another.
+    ratios: [Option<usize>; 2],
+    /// Batches of history per point.
+    width: usize,
+    /// Components of a stress.
+    components: usize,
+}
+
+impl Facts {
+    /// Modulus of a membrane, Pa, from K and µ: E/(1 − ν²), in plane stress E; of laws whose K and µ bound
+    /// waves alone K + 4µ/3.
+    #[inline(always)]
+    fn membrane_modulus<L: Lane>(&self, bulk: L, shear: L) -> L {
+        let three = L::splat(3.0);
+        if !self.is_isotropic {
+            return bulk + L::splat(4.0 / 3.0) * shear;
+        }
+        let both = three * bulk + shear;
+        if self.is_plane_stress {
+            L::splat(9.0) * bulk * shear / both
+        } else {
+            L::splat(4.0) * shear * both / (three * bulk + L::splat(4.0) * shear)
+        }
+    }
+
+    /// λ across of a point, and its product with that out of the plane, from its history.
+    #[inline(always)]
+    fn stretches<L: Lane>(&self, history: &[Batch], at: usize) -> [L; 2] {
+        let Some(place) = self.ratios[0] else { return [L::splat(1.0); 2] };
+        let own = L::load(&history[place], at);
+        match self.ratios[1] {
+            Some(other) => [own, own * L::load(&history[other], at)],
+            None if self.is_plane_stress => [own.sqrt(), own],
+            None => [own, own],
+        }
+    }
+}
+
+/// An element of a shell at the start.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Start {
+    /// What the kernel keeps of it.
+    state: Vec<f64>,
+    /// Share of each corner in the mass by density and thickness, m (m²).
+    areas: Vec<f64>,
+    /// Volume of each layer, m² (m³).
+    volumes: Vec<f64>,
+    /// Inertia of a corner by its mass, m².
+    inertia: f64,
+}
+
+/// Stresses, histories and responses of the layers of a batch of elements, point by point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layers<'a> {
+    stress: &'a [Batch],
+    history: &'a [Batch],
+    response: &'a [Batch],
+    /// Stress of the damping; empty: there is none.
+    damped: &'a [Batch],
+    /// Thickness at the start, m.
+    thickness: &'a Batch,
+}
+
+impl Layers<'_> {
+    /// Stress of a point with that of the damping, components of the dimension.
+    #[inline(always)]
+    fn stress_of<T: SymmetricTensor<L>, L: Lane>(&self, point: usize, at: usize) -> T {
+        let own = T::load(&self.stress[point * T::COMPONENTS..][..T::COMPONENTS], at);
+        if self.damped.is_empty() { own } else { own.plus(T::load(&self.damped[point * T::COMPONENTS..][..T::COMPONENTS], at)) }
+    }
+}
+
+/// What the layers of a batch are to be strained by.
+#[derive(Debug)]
+pub(super) struct Strains<'a> {
+    /// Strain increment, or b, of each point.
+    strain: &'a mut [Batch],
+    /// Volume ratio without that across.
+    ratio: &'a mut [Batch],
+    /// Rate: volume of the layer half way, with the thickness of the start. Hyperelastic: that at the start.
+    volume: &'a mut [Batch],
+    /// Thickness now, and at the start, m.
+    thickness: [&'a Batch; 2],
+    /// 1: it is there.
+    live: &'a Batch,
+}
+
+/// What an element answers to the stresses of its layers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Answer<L> {
+    /// Square of the highest frequency that it may have, times the mass, N/m.
+    stiffness: L,
+    /// Least length or area of a layer over that of the middle; not positive: the element is inverted.
+    determinant: L,
+    /// Present thickness, m.
+    thickness: L,
+    /// See [`ElementState::shell`].
+    resultants: [L; SHELL_VALUES],
+}
+
+/// The kinematics of a shell element. All functions with lanes are `#[inline(always)]`.
+pub(super) trait ShellKernel<const D: usize>: Clone + Send + Sync + 'static
+where
+    Dim<D>: Space<D>,
+{
+    /// Nodes of an element.
+    const NODES: usize;
+    /// Batches of the motion of a batch of elements: position and rotation of each node.
+    const MOTION: usize;
+    /// Batches that are kept of an element.
+    const STATE: usize;
+    /// Batches of forces and moments of an element: of each node D of force, then three of moment.
+    const PULLS: usize;
+
+    /// Directions of the nodes of each element (its tangents; in 3D its normals), which are common to the
+    /// elements around a node as far as these differ by less than an angle with the cosine `fold`.
+    fn directions(connectivity: &[u32], positions: &[[f64; D]], fold: f64) -> Vec<[f64; D]>;
+    /// An element at the start; `stiffness`: K and µ, Pa.
+    fn start(facts: &Facts, positions: &[[f64; D]], directions: &[[f64; D]], thickness: f64, stiffness: [f64; 2]) -> Start;
+    /// Gathers the motion of a node.
+    fn gather(node: usize, place: usize, motion: &Motion<'_, D>, to: &mut [Batch], lane: usize);
+    /// Strains the layers, and keeps what forces need.
+    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize);
+    /// Forces and moments of the stresses; `inertia` is that of a corner by its mass, m².
+    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L>;
+    /// Stress of an elastic body with K and µ (Pa) that is strained like a layer, Pa.
+    fn elastic<L: Lane>(facts: &Facts, strain: &[Batch], stiffness: [L; 2], at: usize) -> [L; 6];
+    /// A stress in the frame of an element, in that of the model: xx yy zz xy yz zx.
+    fn turned(state: &[Batch], stress: [f64; 6], lane: usize) -> [f64; 6];
+}
+
+/// What belongs to a batch of eight elements.
+#[derive(Clone, Copy, Debug, Default)]
+struct ShellBatch {
+    /// Least corner mass of each element times its corners, kg/m (kg).
+    mass_least: Batch,
+    /// Thickness at the start and now, m.
+    thickness_initial: Batch,
+    thickness: Batch,
+    /// Inertia of a corner by its mass, m².
+    inertia: Batch,
+    /// Energies, J/m.
+    stored: Batch,
+    dissipated: Batch,
+    damping: Batch,
+    time_step_squared: Batch,
+    /// See [`Answer::determinant`].
+    determinant: Batch,
+    /// 1 for an element that is there, else 0.
+    live: Batch,
+}
+
+impl Persist for ShellBatch {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        #[rustfmt::skip]
+        let Self {
+            mass_least: _, thickness_initial: _, inertia: _,
+            thickness, stored, dissipated, damping, time_step_squared, determinant, live,
+        } = self;
+        crate::archive::persist_each!(archive; thickness, stored, dissipated, damping, time_step_squared, determinant, live);
+        Ok(())
+    }
+}
+
+/// Room of a thread.
+#[derive(Debug, Default)]
+struct Room {
+    motion: Vec<Batch>,
+    strain: Vec<Batch>,
+    ratio: Vec<Batch>,
+    volume: Vec<Batch>,
+    response: Vec<Batch>,
+    pulls: Vec<Batch>,
+    law: Scratch,
+}
+
+/// The shells of a part.
+pub(super) struct Shells<K, const D: usize> {
+    law: Box<dyn PointLaw>,
+    facts: Facts,
+    /// β of the damping in proportion to the stiffness, s.
+    damping: f64,
+    /// Share of failed points with which an element fails.
+    failed_share: f64,
+    count: usize,
+    /// Nodes of the elements: the slots of forces and moments.
+    slots: Vec<u32>,
+    /// Where each is among the nodes that rotate.
+    places: Vec<u32>,
+    state: Vec<Batch>,
+    elements: Vec<ShellBatch>,
+    /// Mass of each corner, kg/m (kg), and initial volume of each element, m² (m³).
+    corner_mass: Vec<f64>,
+    volume: Vec<f64>,
+    stress: Vec<Batch>,
+    history: Vec<Batch>,
+    /// Stress of the damping, Pa; empty without.
+    damped: Vec<Batch>,
+    /// Squares of the stable steps when they were marked, s²; empty: not yet.
+    marks: Vec<Batch>,
+    /// No rotation, at the points of a strip, and no heat.
+    rotation: Vec<Batch>,
+    heat: Vec<Batch>,
+    reports: Vec<Report>,
+    rooms: Vec<Mutex<Room>>,
+    kernel: std::marker::PhantomData<K>,
+}
+
+impl<K, const D: usize> Shells<K, D>
+where
+    K: ShellKernel<D>,
+    Dim<D>: Space<D>,
+{
+    /// From what [`super::make`] was given, with the law of its layers; `None` without a section.
+    pub(super) fn new(input: &BlockInput<'_, D>, law: Box<dyn PointLaw>, [is_plane_stress, is_axisymmetric]: [bool; 2]) -> Option<Self> {
+        let section = input.section?;
+        let components = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
+        let facts = Facts {
+            section: Section::new(section.points, section.rule == crate::model::LOBATTO),
+            family: law.family(),
+            is_isotropic: law.is_stiffest_at_rest() || law.family() == Family::Hyperelastic,
+            is_plane_stress,
+            is_axisymmetric,
+            needs_ratio: law.needs_volume() || law.family() == Family::Hyperelastic,
+            ratios: law.ratios(),
+            width: law.state_width(),
+            components,
+        };
+        let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
+        let (points, count) = (facts.section.count(), input.connectivity.len() / K::NODES);
+        let batches = count.div_ceil(BATCH);
+        let scratch = |width: usize| vec![Batch::default(); batches * width];
+        let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
+        let mut rotation = vec![Batch::default(); super::strip::STRIP * points * turn];
+        for point in rotation.chunks_exact_mut(turn) {
+            (0..BATCH).for_each(|lane| <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::none().store(point, lane));
+        }
+        let mut history = scratch(points * facts.width);
+        history.chunks_exact_mut(facts.width).for_each(|point| law.start(point));
+        let damped = if input.damping > 0.0 { scratch(points * components) } else { Vec::new() };
+        let mut shells = Self {
+            damping: input.damping,
+            failed_share: section.failed_points,
+            count,
+            slots: input.connectivity.to_vec(),
+            places: vec![u32::MAX; input.connectivity.len()],
+            state: scratch(K::STATE),
+            elements: vec![ShellBatch::default(); batches],
+            corner_mass: Vec::with_capacity(input.connectivity.len()),
+            volume: Vec::with_capacity(count),
+            stress: scratch(points * components),
+            history,
+            damped,
+            marks: Vec::new(),
+            rotation,
+            heat: vec![Batch::default(); super::strip::STRIP * points],
+            reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
+            rooms: vec![Mutex::default()],
+            kernel: std::marker::PhantomData,
+            law,
+            facts,
+        };
+        shells.begin_elements(input, section.thickness, section.fold_angle, density);
+        Some(shells)
+    }
+
+    fn begin_elements(&mut self, input: &BlockInput<'_, D>, thickness: f64, fold_angle: f64, density: f64) {
+        let own =
+            input.directions.is_empty().then(|| K::directions(input.connectivity, input.positions, crate::angle::cos_sin(fold_angle)[0]));
+        let directions = own.as_deref().unwrap_or(input.directions);
+        let stored = self.law.stored();
+        for (element, nodes) in input.connectivity.chunks_exact(K::NODES).enumerate() {
+            let (batch, lane) = (element / BATCH, element % BATCH);
+            let positions: Vec<[f64; D]> = nodes.iter().map(|&node| input.positions[node as usize]).collect();
+            let own = &directions[element * K::NODES..][..K::NODES];
+            let start = K::start(&self.facts, &positions, own, thickness, self.law.stiffness());
+            let state = &mut self.state[batch * K::STATE..][..K::STATE];
+            state.iter_mut().zip(&start.state).for_each(|(batch, &value)| batch.0[lane] = value);
+            let masses = start.areas.iter().map(|area| density * thickness * area);
+            let least = masses.clone().fold(f64::INFINITY, f64::min);
+            self.corner_mass.extend(masses);
+            let volume = start.volumes.iter().sum();
+            self.volume.push(volume);
+            let own = &mut self.elements[batch];
+            for (batch, value) in [
+                (&mut own.mass_least, K::NODES as f64 * least),
+                (&mut own.thickness_initial, thickness),
+                (&mut own.thickness, thickness),
+                (&mut own.inertia, start.inertia),
+                (&mut own.stored, stored * volume),
+                (&mut own.live, 1.0),
+            ] {
+                batch.0[lane] = value;
+            }
+        }
+    }
+
+    /// Where nodes are among those that rotate: as in the step before, in most.
+    fn find_places(&mut self, rotations: &Rotations) {
+        for (place, node) in self.places.iter_mut().zip(&self.slots) {
+            if rotations.nodes.get(*place as usize) != Some(node) {
+                *place = rotations.place(*node).map_or(u32::MAX, |place| place as u32);
+            }
+        }
+    }
+
+    fn joined(&self) -> Report {
+        Report::joined(self.reports.iter().copied())
+    }
+
+    /// Points of an element.
+    fn points(&self) -> usize {
+        self.facts.section.count()
+    }
+
+    /// The layers of a batch; responses are those of the last step where they are given.
+    fn layers<'a>(&'a self, batch: usize, response: &'a [Batch]) -> Layers<'a> {
+        let points = self.points();
+        Layers {
+            stress: &self.stress[batch * points * self.facts.components..][..points * self.facts.components],
+            history: &self.history[batch * points * self.facts.width..][..points * self.facts.width],
+            response,
+            damped: &[],
+            thickness: &self.elements[batch].thickness_initial,
+        }
+    }
+
+    /// Stress xx yy zz xy yz zx of a point in the frame of the element.
+    fn stress_of(&self, element: usize, point: usize) -> [f64; 6] {
+        let (batch, lane) = (element / BATCH, element % BATCH);
+        let components = self.facts.components;
+        let own = &self.stress[(batch * self.points() + point) * components..][..components];
+        Tensor::<D, f64>::load(own, lane).components()
+    }
+}
+
+/// A point of a batch of elements as criteria see it.
+struct Look<'a, K, const D: usize> {
+    shells: &'a Shells<K, D>,
+    batch: usize,
+    point: usize,
+}
+
+impl<K, const D: usize> Seen for Look<'_, K, D>
+where
+    K: ShellKernel<D>,
+    Dim<D>: Space<D>,
+{
+    fn stress(&self) -> [Batch; 6] {
+        let mut stress = [Batch::default(); 6];
+        for lane in 0..BATCH {
+            let own = self.shells.stress_of(self.batch * BATCH + lane, self.point);
+            stress.iter_mut().zip(own).for_each(|(batch, value)| batch.0[lane] = value);
+        }
+        stress
+    }
+    fn variable(&self, variable: &Variable) -> Batch {
+        let first = (self.batch * self.shells.points() + self.point) * self.shells.facts.width;
+        self.shells.law.place(variable).map_or(Batch::default(), |place| self.shells.history[first + place])
+    }
+    fn time_step_squared(&self) -> Batch {
+        self.shells.elements[self.batch].time_step_squared
+    }
+}
+
+impl<K, const D: usize> Block<D> for Shells<K, D>
+where
+    K: ShellKernel<D>,
+    Dim<D>: Space<D>,
+{
+    fn elements(&self) -> usize {
+        self.count
+    }
+
+    fn slots(&self) -> &[u32] {
+        &self.slots
+    }
+
+    fn moment_slots(&self) -> &[u32] {
+        &self.slots
+    }
+
+    fn rotating_nodes(&self) -> Vec<(u32, f64)> {
+        let share = |(k, &node): (usize, &u32)| {
+            let element = k / K::NODES;
+            (node, self.corner_mass[k] * self.elements[element / BATCH].inertia.0[element % BATCH])
+        };
+        self.slots.iter().enumerate().map(share).collect()
+    }
+
+    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, pulls: NodalForces<'_, D>, team: &mut Team) -> Report {
+        self.find_places(motion.rotations);
+        self.advance_all(motion, level, pulls, team);
+        self.joined()
+    }
+
+    fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D] {
+        slots[K::NODES * element + corner]
+    }
+
+    fn mass(&self, element: usize) -> f64 {
+        self.corner_mass[element * K::NODES..][..K::NODES].iter().sum()
+    }
+
+    fn corner_mass(&self, element: usize, corner: usize) -> f64 {
+        self.corner_mass[element * K::NODES + corner]
+    }
+
+    fn time_step_squared(&self, element: usize) -> f64 {
+        self.elements[element / BATCH].time_step_squared.0[element % BATCH]
+    }
+
+    fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
+        for (element, nodes) in self.slots.chunks_exact(K::NODES).enumerate().filter(|(element, _)| self.is_alive(*element)) {
+            let mass = self.elements[element / BATCH].mass_least.0[element % BATCH] / K::NODES as f64;
+            let stiffness = damping::bounding_stiffness(mass, self.time_step_squared(element), shortest, self.damping > 0.0);
+            nodes.iter().for_each(|&node| add(node, stiffness, mass));
+        }
+    }
+
+    fn mark_time_steps(&mut self) {
+        self.marks = self.elements.iter().map(|own| own.time_step_squared).collect();
+    }
+
+    fn state(&self, element: usize) -> ElementState {
+        let (batch, lane) = (element / BATCH, element % BATCH);
+        let state = &self.state[batch * K::STATE..][..K::STATE];
+        let stresses = (0..self.points()).map(|point| self.stress_of(element, point));
+        let worst = stresses.max_by(|a, b| crate::tensor::von_mises(a).total_cmp(&crate::tensor::von_mises(b))).unwrap_or_default();
+        let mut shown = ElementState { stress: K::turned(state, worst, lane), ..ElementState::default() };
+        for (value, variable) in shown.variables.iter_mut().zip(self.law.variables()) {
+            let of = |point: usize| self.history[(batch * self.points() + point) * self.facts.width + variable.place].0[lane];
+            *value = (0..self.points()).map(of).fold(f64::NEG_INFINITY, f64::max);
+        }
+        let own = &self.elements[batch];
+        shown.energy_density = own.stored.0[lane] / self.volume[element];
+        let response = vec![Batch::default(); self.points() * RESPONSE];
+        let mut pulls = vec![Batch::default(); K::PULLS];
+        shown.shell = K::forces::<f64>(&self.facts, state, &self.layers(batch, &response), 1.0, &mut pulls, lane).resultants;
+        shown
+    }
+
+    fn law(&self) -> Option<&dyn PointLaw> {
+        Some(self.law.as_ref())
+    }
+
+    fn scale_mass(&mut self, element: usize, factor: f64) {
+        self.corner_mass[element * K::NODES..][..K::NODES].iter_mut().for_each(|mass| *mass *= factor);
+        self.elements[element / BATCH].mass_least.0[element % BATCH] *= factor;
+    }
+
+    fn begin(&mut self, initial: &Initial<'_>, _positions: &[[f64; D]]) -> Result<(), Wrong> {
+        if let Some(temperature) = initial.temperature {
+            initial::warm(self.law.as_ref(), &mut self.history, temperature)?;
+        }
+        Ok(())
+    }
+
+    fn is_alive(&self, element: usize) -> bool {
+        self.elements[element / BATCH].live.0[element % BATCH] > 0.0
+    }
+
+    fn failed(&self, criteria: &[Criterion], _parallel: bool) -> Vec<(u32, u32)> {
+        let mut failed = Vec::new();
+        let needed = self.failed_share * self.points() as f64 - 1e-9;
+        for batch in 0..self.elements.len() {
+            let mut first = [None; BATCH];
+            for (number, criterion) in (0..).zip(criteria) {
+                let mut counts = [0.0; BATCH];
+                for point in 0..self.points() {
+                    let fails = (criterion.kind.fails)(&Look { shells: self, batch, point }, criterion.limit);
+                    counts.iter_mut().zip(fails).for_each(|(count, fails)| *count += f64::from(u8::from(fails)));
+                }
+                for (first, count) in first.iter_mut().zip(counts) {
+                    *first = first.or((count > 0.0 && count >= needed).then_some(number));
+                }
+            }
+            let elements = (batch * BATCH..).zip(first).filter(|&(element, _)| element < self.count && self.is_alive(element));
+            failed.extend(elements.filter_map(|(element, first)| Some((element as u32, first?))));
+        }
+        failed
+    }
+
+    fn determinant(&self, element: usize, _positions: &[[f64; D]]) -> f64 {
+        self.elements[element / BATCH].determinant.0[element % BATCH]
+    }
+
+    fn erode(&mut self, elements: &[u32], pulls: NodalForces<'_, D>) -> Vec<f64> {
+        let take = |&element: &u32| {
+            let (element, first) = (element as usize, element as usize * K::NODES);
+            pulls.forces[first..first + K::NODES].fill([0.0; D]);
+            pulls.moments[first..first + K::NODES].fill([0.0; 3]);
+            let own = &mut self.elements[element / BATCH];
+            own.live.0[element % BATCH] = 0.0;
+            own.stored.0[element % BATCH]
+        };
+        let stored = elements.iter().map(take).collect();
+        self.sum_reports();
+        stored
+    }
+
+    fn report(&self, _positions: &[[f64; D]]) -> Report {
+        self.joined()
+    }
+
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        for list in [&mut self.state, &mut self.stress, &mut self.history, &mut self.damped, &mut self.marks] {
+            list.persist(archive)?;
+        }
+        self.elements[..].persist(archive)?;
+        if archive.reads() {
+            self.sum_reports();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,377 @@
+//! A step of shells: strips of elements go through strain, law, damping and forces; chunks of strips are
+//! shared by threads, and their reports joined in order.
+
+use super::{BATCH, Batch, CHUNK, Facts, Layers, Room, ShellBatch, ShellKernel, Shells, Strains};
+use crate::block::strip::{ForEachBatch, Parts, STRIP};
+use crate::block::{Motion, NodalForces, Report, damping};
+use crate::material::Family;
+use crate::material::points::{Points, RESPONSE};
+use crate::tensor::{Dim, Space};
+use embate_lanes::{Chunks, Lane, Level, Team};
+use std::marker::PhantomData;
+use std::sync::{Mutex, PoisonError};
+
+/// The strain of a strip.
+struct Strain<'a, K, const D: usize> {
+    facts: &'a Facts,
+    points: usize,
+    motion: &'a [Batch],
+    state: &'a mut [Batch],
+    elements: &'a [ShellBatch],
+    strain: &'a mut [Batch],
+    ratio: &'a mut [Batch],
+    volume: &'a mut [Batch],
+    kernel: PhantomData<K>,
+}
+
+impl<K: ShellKernel<D>, const D: usize> Parts for Strain<'_, K, D>
+where
+    Dim<D>: Space<D>,
+{
+    #[inline(always)]
+    fn batches(&self) -> usize {
+        self.elements.len()
+    }
+
+    #[inline(always)]
+    fn part<L: Lane>(&mut self, batch: usize, at: usize) {
+        let (own, points) = (&self.elements[batch], batch * self.points..(batch + 1) * self.points);
+        let components = self.facts.components;
+        let mut strains = Strains {
+            strain: &mut self.strain[points.start * components..points.end * components],
+            ratio: &mut self.ratio[points.clone()],
+            volume: &mut self.volume[points],
+            thickness: [&own.thickness, &own.thickness_initial],
+            live: &own.live,
+        };
+        let motion = &self.motion[batch * K::MOTION..][..K::MOTION];
+        K::strain::<L>(self.facts, motion, &mut self.state[batch * K::STATE..][..K::STATE], &mut strains, at);
+    }
+}
+
+/// Energies, forces and steps of a strip after the law has answered.
+struct Pull<'a, K, const D: usize> {
+    facts: &'a Facts,
+    points: usize,
+    /// β and the step, s.
+    damping: [f64; 2],
+    state: &'a [Batch],
+    stress: &'a mut [Batch],
+    damped: &'a mut [Batch],
+    history: &'a [Batch],
+    response: &'a [Batch],
+    strain: &'a [Batch],
+    volume: &'a [Batch],
+    elements: &'a mut [ShellBatch],
+    pulls: &'a mut [Batch],
+    kernel: PhantomData<K>,
+}
+
+impl<K: ShellKernel<D>, const D: usize> Pull<'_, K, D>
+where
+    Dim<D>: Space<D>,
+{
+    /// Energies of the layers of a batch.
+    #[inline(always)]
+    fn energies<L: Lane>(&mut self, batch: usize, at: usize) {
+        let own = &mut self.elements[batch];
+        let (zero, half) = (L::splat(0.0), L::splat(0.5));
+        let (mut stored, mut dissipated) = (zero, zero);
+        for p in batch * self.points..(batch + 1) * self.points {
+            let volume = L::load(&self.volume[p], at);
+            stored += L::load(&self.response[p * RESPONSE], at) * volume;
+            dissipated += L::load(&self.response[p * RESPONSE + 1], at) * volume;
+        }
+        let stored = match self.facts.family {
+            Family::Rate => L::load(&own.stored, at) + half * stored - dissipated,
+            Family::Hyperelastic => stored,
+        };
+        // What is not there has no volume.
+        let stored = L::select(half.less(L::load(&own.live, at)), stored, zero);
+        stored.store(&mut own.stored, at);
+        (L::load(&own.dissipated, at) + dissipated).store(&mut own.dissipated, at);
+    }
+}
+
+impl<K: ShellKernel<D>, const D: usize> Parts for Pull<'_, K, D>
+where
+    Dim<D>: Space<D>,
+{
+    #[inline(always)]
+    fn batches(&self) -> usize {
+        self.elements.len()
+    }
+
+    #[inline(always)]
+    fn part<L: Lane>(&mut self, batch: usize, at: usize) {
+        self.energies::<L>(batch, at);
+        let (components, width) = (self.facts.components, self.facts.width);
+        let points = batch * self.points..(batch + 1) * self.points;
+        if !self.damped.is_empty() {
+            self.damp::<L>(batch, at);
+        }
+        let damped = if self.damped.is_empty() { &[][..] } else { &self.damped[points.start * components..points.end * components] };
+        let own = &mut self.elements[batch];
+        let layers = Layers {
+            stress: &self.stress[points.start * components..points.end * components],
+            history: &self.history[points.start * width..points.end * width],
+            response: &self.response[points.start * RESPONSE..points.end * RESPONSE],
+            damped,
+            thickness: &own.thickness_initial,
+        };
+        let state = &self.state[batch * K::STATE..][..K::STATE];
+        let pulls = &mut self.pulls[batch * K::PULLS..][..K::PULLS];
+        let answer = K::forces::<L>(self.facts, state, &layers, L::load(&own.inertia, at), pulls, at);
+        let there = L::splat(0.5).less(L::load(&own.live, at));
+        for pull in pulls {
+            L::select(there, L::load(pull, at), L::splat(0.0)).store(pull, at);
+        }
+        // dt = 2/ω.
+        let squared = L::splat(4.0) * L::load(&own.mass_least, at) / answer.stiffness;
+        let squared = damping::step_squared(squared, self.damping[0]);
+        let infinite = L::splat(f64::INFINITY);
+        L::select(there, squared, infinite).store(&mut own.time_step_squared, at);
+        L::select(there, answer.determinant, infinite).store(&mut own.determinant, at);
+        L::select(there, answer.thickness, L::load(&own.thickness, at)).store(&mut own.thickness, at);
+    }
+}
+
+impl<K: ShellKernel<D>, const D: usize> Pull<'_, K, D>
+where
+    Dim<D>: Space<D>,
+{
+    /// Stress of the damping, β C:Δε/Δt, and its work (`block/damping.rs`).
+    #[inline(always)]
+    fn damp<L: Lane>(&mut self, batch: usize, at: usize) {
+        let [beta, time_step] = self.damping;
+        let factor = L::splat(if time_step > 0.0 { beta / time_step } else { 0.0 });
+        let components = self.facts.components;
+        let mut work = L::splat(0.0);
+        for p in batch * self.points..(batch + 1) * self.points {
+            let strain = &self.strain[p * components..][..components];
+            let stiffness = [L::load(&self.response[p * RESPONSE + 2], at), L::load(&self.response[p * RESPONSE + 3], at)];
+            let new = K::elastic::<L>(self.facts, strain, stiffness, at);
+            let [_, stretch] = self.facts.stretches::<L>(&self.history[p * self.facts.width..][..self.facts.width], at);
+            let volume = L::load(&self.volume[p], at) * stretch;
+            let kept = &mut self.damped[p * components..][..components];
+            for (c, kept) in kept.iter_mut().enumerate() {
+                let (old, new) = (L::load(kept, at), factor * new[c]);
+                // Shear counts twice.
+                let weight = L::splat(if c < 3 { 0.5 } else { 1.0 });
+                work += weight * (old + new) * L::load(&strain[c], at) * volume;
+                new.store(kept, at);
+            }
+        }
+        let own = &mut self.elements[batch].damping;
+        (L::load(own, at) + work).store(own, at);
+    }
+}
+
+/// What is the same for all tasks.
+struct Common<'a, const D: usize> {
+    law: &'a dyn crate::material::points::PointLaw,
+    facts: &'a Facts,
+    damping: f64,
+    slots: &'a [u32],
+    places: &'a [u32],
+    rotation: &'a [Batch],
+    heat: &'a [Batch],
+    motion: &'a Motion<'a, D>,
+    level: Level,
+}
+
+/// What one task advances.
+struct Chunk<'a, const D: usize> {
+    /// Its first batch.
+    first: usize,
+    state: &'a mut [Batch],
+    elements: &'a mut [ShellBatch],
+    stress: &'a mut [Batch],
+    damped: &'a mut [Batch],
+    history: &'a mut [Batch],
+    forces: &'a mut [[f64; D]],
+    moments: &'a mut [[f64; 3]],
+}
+
+impl<K: ShellKernel<D>, const D: usize> Shells<K, D>
+where
+    Dim<D>: Space<D>,
+{
+    pub(super) fn advance_all(&mut self, motion: &Motion<'_, D>, level: Level, pulls: NodalForces<'_, D>, team: &mut Team) {
+        let (points, components, width) = (self.points(), self.facts.components, self.facts.width);
+        let nodes = CHUNK * BATCH * K::NODES;
+        while self.rooms.len() < team.threads() {
+            self.rooms.push(Mutex::default());
+        }
+        // Without damping there is one batch for each chunk, which stands for nothing.
+        let mut nothing = vec![Batch::default(); if self.damping > 0.0 { 0 } else { self.reports.len() }];
+        let (damped, damped_size) = if self.damping > 0.0 { (&mut self.damped, CHUNK * points * components) } else { (&mut nothing, 1) };
+        let common = Common {
+            law: self.law.as_ref(),
+            facts: &self.facts,
+            damping: self.damping,
+            slots: &self.slots,
+            places: &self.places,
+            rotation: &self.rotation,
+            heat: &self.heat,
+            motion,
+            level,
+        };
+        let (rooms, marks) = (&self.rooms, &self.marks);
+        let lists = (
+            Chunks::new(&mut self.state, CHUNK * K::STATE),
+            Chunks::new(&mut self.elements, CHUNK),
+            Chunks::new(&mut self.stress, CHUNK * points * components),
+            Chunks::new(damped, damped_size),
+            Chunks::new(&mut self.history, CHUNK * points * width),
+            Chunks::new(pulls.forces, nodes),
+            Chunks::new(pulls.moments, nodes),
+            Chunks::new(&mut self.reports, 1),
+        );
+        team.each(lists, |index, member, (state, elements, stress, damped, history, forces, moments, report)| {
+            let mut room = rooms[member].lock().unwrap_or_else(PoisonError::into_inner);
+            let first = index * CHUNK;
+            let mut chunk = Chunk { first, state, elements, stress, damped, history, forces, moments };
+            Self::advance_chunk(&common, &mut chunk, &mut room);
+            let marks = marks.get(first..(first + chunk.elements.len()).min(marks.len())).unwrap_or_default();
+            report[0] = summed(chunk.elements, marks);
+        });
+    }
+
+    fn advance_chunk(common: &Common<'_, D>, chunk: &mut Chunk<'_, D>, room: &mut Room) {
+        let Common { facts, motion, level, .. } = *common;
+        let (points, components, width) = (facts.section.count(), facts.components, facts.width);
+        let count = chunk.elements.len();
+        for from in (0..count).step_by(STRIP) {
+            let to = (from + STRIP).min(count);
+            let batches = to - from;
+            room.fit::<K, D>(batches, points, components);
+            for batch in 0..batches {
+                let own = &mut room.motion[batch * K::MOTION..][..K::MOTION];
+                Self::gather(common, chunk.first + from + batch, own);
+            }
+            let stress = &mut chunk.stress[from * points * components..to * points * components];
+            let history = &mut chunk.history[from * points * width..to * points * width];
+            let state = &mut chunk.state[from * K::STATE..to * K::STATE];
+            let elements = &mut chunk.elements[from..to];
+            let Room { motion: moved, strain, ratio, volume, response, pulls, law } = &mut *room;
+            level.run(ForEachBatch(Strain::<K, D> {
+                facts,
+                points,
+                motion: moved,
+                state: &mut *state,
+                elements: &*elements,
+                strain: &mut *strain,
+                ratio: &mut *ratio,
+                volume: &mut *volume,
+                kernel: PhantomData,
+            }));
+            common.law.respond(
+                level,
+                Points {
+                    time_step: motion.time_step,
+                    strain: &*strain,
+                    rotation: &common.rotation[..common.rotation.len() / STRIP * batches],
+                    volume_ratio: &*ratio,
+                    viscous_heat: &common.heat[..batches * points],
+                    stress: &mut *stress,
+                    state: &mut *history,
+                    response: &mut *response,
+                    scratch: law,
+                },
+            );
+            let damped =
+                if common.damping > 0.0 { &mut chunk.damped[from * points * components..to * points * components] } else { &mut [][..] };
+            level.run(ForEachBatch(Pull::<K, D> {
+                facts,
+                points,
+                damping: [common.damping, motion.time_step],
+                state,
+                stress,
+                damped,
+                history,
+                response,
+                strain,
+                volume,
+                elements,
+                pulls: &mut *pulls,
+                kernel: PhantomData,
+            }));
+            let first = from * BATCH * K::NODES;
+            for (node, (force, moment)) in
+                chunk.forces[first..].iter_mut().zip(&mut chunk.moments[first..]).enumerate().take(batches * BATCH * K::NODES)
+            {
+                let (element, corner) = (node / K::NODES, node % K::NODES);
+                let own = &pulls[element / BATCH * K::PULLS + corner * (D + 3)..][..D + 3];
+                let of = |k: usize| own[k].0[element % BATCH];
+                (*force, *moment) = (std::array::from_fn(of), [of(D), of(D + 1), of(D + 2)]);
+            }
+        }
+    }
+
+    /// The motion of the nodes of a batch; lanes beyond the last element repeat it.
+    fn gather(common: &Common<'_, D>, batch: usize, to: &mut [Batch]) {
+        let last = common.slots.len() / K::NODES - 1;
+        let each = K::MOTION / K::NODES;
+        for lane in 0..BATCH {
+            let first = (batch * BATCH + lane).min(last) * K::NODES;
+            for corner in 0..K::NODES {
+                let (node, place) = (common.slots[first + corner], common.places[first + corner]);
+                K::gather(node as usize, place as usize, common.motion, &mut to[corner * each..][..each], lane);
+            }
+        }
+    }
+
+    /// Reports of all chunks from what elements have.
+    pub(super) fn sum_reports(&mut self) {
+        for (index, (report, elements)) in self.reports.iter_mut().zip(self.elements.chunks(CHUNK)).enumerate() {
+            let marks = self.marks.get(index * CHUNK..(index * CHUNK + elements.len()).min(self.marks.len())).unwrap_or_default();
+            *report = summed(elements, marks);
+        }
+    }
+}
+
+/// What elements report together.
+fn summed(elements: &[ShellBatch], marks: &[Batch]) -> Report {
+    let mut report = Report::NOTHING;
+    for (batch, own) in elements.iter().enumerate() {
+        for lane in 0..BATCH {
+            report.dissipated += own.dissipated.0[lane];
+            report.damping += own.damping.0[lane];
+            if own.live.0[lane] == 0.0 {
+                continue;
+            }
+            let squared = own.time_step_squared.0[lane];
+            report.stored += own.stored.0[lane];
+            // Not a number stays.
+            report.time_step_squared =
+                if squared < report.time_step_squared || squared.is_nan() { squared } else { report.time_step_squared };
+            let determinant = own.determinant.0[lane];
+            report.determinant = if determinant < report.determinant || determinant.is_nan() { determinant } else { report.determinant };
+            if let Some(mark) = marks.get(batch) {
+                report.step_change = report.step_change.min(squared / mark.0[lane]);
+            }
+        }
+    }
+    report
+}
+
+impl Room {
+    /// Room for so many batches of elements.
+    fn fit<K: ShellKernel<D>, const D: usize>(&mut self, batches: usize, points: usize, components: usize)
+    where
+        Dim<D>: Space<D>,
+    {
+        let all = batches * points;
+        for (list, length) in [
+            (&mut self.motion, batches * K::MOTION),
+            (&mut self.strain, all * components),
+            (&mut self.ratio, all),
+            (&mut self.volume, all),
+            (&mut self.response, all * RESPONSE),
+            (&mut self.pulls, batches * K::PULLS),
+        ] {
+            list.resize(length, Batch::default());
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! The surfaces of shells: nodes on both faces, which go with the nodes of the middle, and the cells between
+//! them, which bound a body as those of solids do.
+//!
+//! Around a node of the middle its elements divide the plane into sectors. Each sector has a node where the
+//! faces on its two sides meet: of a smooth shell at half of the thickness from the middle, at a fold at half
+//! of it from both elements, as far as that is within twice the half; a free end has two, side by side. So
+//! contact, pressure and pictures see a body of the shell's thickness, whose faces bend with it, and nothing
+//! of them knows of shells.
+
+use super::cell::CellKind;
+use super::surface::Corners;
+use super::{Dim, ElementGroup, Mesh, Meshed};
+use crate::model::{Model, Symmetry};
+use crate::vector::{dot, first, minus, plus, times, unit};
+use std::collections::BTreeMap;
+
+/// Farthest that a node of a face is from the middle, in half thicknesses.
+const MITRE: f64 = 2.0;
+
+/// A node of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkinNode<const D: usize> {
+    /// The node of the middle that it goes with.
+    pub owner: u32,
+    /// Where it is from there at the start, m.
+    pub arm: [f64; D],
+}
+
+/// An element at a node of the middle: group and element, which end of it, direction away from the node, and
+/// half of its thickness, m.
+#[derive(Clone, Copy)]
+struct Spoke {
+    group: usize,
+    element: usize,
+    end: usize,
+    away: [f64; 2],
+    half: f64,
+    /// The mirror image of another one, beyond a symmetry line.
+    is_image: bool,
+}
+
+/// Left of a direction.
+fn left([x, y]: [f64; 2]) -> [f64; 2] {
+    [-y, x]
+}
+
+/// A direction by half of the sector that begins at `from` and ends at `to`, counter-clockwise, and the sine
+/// of that half.
+fn bisector(from: [f64; 2], to: [f64; 2]) -> ([f64; 2], f64) {
+    // The sum of the normals into the sector: long where they agree.
+    let (begin, end) = (left(from), times(-1.0, left(to)));
+    let sum = plus(begin, end);
+    let along = unit(sum).unwrap_or(from);
+    (along, dot(along, begin).max(1.0 / MITRE))
+}
+
+impl<const D: usize> Mesh<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    /// Nodes on a symmetry line (in 3D: plane), ascending.
+    #[must_use]
+    pub fn on_symmetry(&self, symmetry: &Symmetry) -> Vec<u32> {
+        let Some(normal) = unit(first(symmetry.normal)) else { return Vec::new() };
+        let (point, tolerance) = (first(symmetry.point), super::tolerance(&self.positions));
+        let near = |&node: &u32| dot(minus(self.positions[node as usize], point), normal).abs() <= tolerance;
+        let parts = self.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
+        super::sorted(parts.flat_map(|part| part.nodes.iter().copied()).filter(near))
+    }
+
+    /// Number of the first node of a face: they come after all others.
+    #[must_use]
+    pub fn first_skin_node(&self) -> usize {
+        self.positions.len() - self.skins.len()
+    }
+
+    /// Adds a node of a face.
+    fn add_skin_node(&mut self, owner: u32, arm: [f64; D]) -> u32 {
+        self.positions.push(plus(self.positions[owner as usize], arm));
+        self.user_nodes.push(self.user_nodes.len() as u32);
+        self.skins.push(SkinNode { owner, arm });
+        self.positions.len() as u32 - 1
+    }
+}
+
+impl Mesh<2> {
+    /// Gives shells their faces and the directions of their nodes.
+    pub(super) fn add_skins_of_lines(&mut self, model: &Model) {
+        let is_shell = |group: &ElementGroup| group.kind == CellKind::Line && model.parts[group.part].is_of_shells();
+        if !self.groups.iter().any(is_shell) {
+            return;
+        }
+        let normals = self.symmetry_normals(model);
+        let mut at: BTreeMap<u32, Vec<Spoke>> = BTreeMap::new();
+        for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| is_shell(group)) {
+            let half = model.parts[group.part].section.as_ref().map_or(0.0, |section| 0.5 * section.thickness);
+            for (element, nodes) in group.connectivity.as_chunks::<2>().0.iter().enumerate() {
+                for end in 0..2 {
+                    let [own, other] = [nodes[end], nodes[1 - end]].map(|node| self.positions[node as usize]);
+                    let away = unit(minus(other, own)).unwrap_or_default();
+                    at.entry(nodes[end]).or_default().push(Spoke { group: number, element, end, away, half, is_image: false });
+                }
+            }
+        }
+        let groups = self.groups.len();
+        self.directions = vec![Vec::new(); groups];
+        for (number, group) in self.groups.iter_mut().enumerate().filter(|(_, group)| is_shell(group)) {
+            group.outer = vec![u32::MAX; 4 * group.elements()];
+            self.directions[number] = vec![[0.0; 2]; 2 * group.elements()];
+        }
+        for (node, mut spokes) in at {
+            let images: Vec<Spoke> = (normals.get(&node).into_iter().flatten())
+                .flat_map(|normal| spokes.iter().map(|spoke| mirrored(spoke, *normal)))
+                .filter(|image| spokes.iter().all(|spoke| dot(spoke.away, image.away) < 1.0 - 1e-12))
+                .collect();
+            spokes.extend(images);
+            self.direct(model, &spokes);
+            self.surround(model, node, spokes);
+        }
+        self.name_faces(model);
+    }
+
+    /// Normals of the symmetry lines that each node is on.
+    fn symmetry_normals(&self, model: &Model) -> BTreeMap<u32, Vec<[f64; 2]>> {
+        let mut normals: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
+        for symmetry in &model.symmetries {
+            let Some(normal) = unit(first::<2>(symmetry.normal)) else { continue };
+            self.on_symmetry(symmetry).into_iter().for_each(|node| normals.entry(node).or_default().push(normal));
+        }
+        if model.is_axisymmetric() {
+            let tolerance = super::tolerance(&self.positions);
+            let at_axis = (0..).zip(&self.positions).filter(|(_, x)| x[0].abs() <= tolerance);
+            at_axis.for_each(|(node, _)| normals.entry(node).or_default().push([1.0, 0.0]));
+        }
+        normals
+    }
+
+    /// Whether one element continues another as a smooth shell.
+    fn is_smooth(&self, model: &Model, one: &Spoke, other: &Spoke) -> bool {
+        let section = model.parts[self.groups[one.group].part].section.as_ref();
+        let fold = crate::angle::cos_sin(section.map_or(0.0, |section| section.fold_angle))[0];
+        -dot(one.away, other.away) >= fold
+    }
+
+    /// Directions of the tangents at a node: of each element the mean of those that are smooth to it.
+    fn direct(&mut self, model: &Model, spokes: &[Spoke]) {
+        for spoke in spokes.iter().filter(|spoke| !spoke.is_image) {
+            let mut sum = spoke.away;
+            for other in spokes.iter().filter(|other| dot(other.away, spoke.away) < 1.0 - 1e-12) {
+                if self.is_smooth(model, spoke, other) {
+                    sum = minus(sum, other.away);
+                }
+            }
+            let sign = if spoke.end == 0 { 1.0 } else { -1.0 };
+            self.directions[spoke.group][2 * spoke.element + spoke.end] = times(sign, unit(sum).unwrap_or(spoke.away));
+        }
+    }
+
+    /// Puts nodes of the faces around a node of the middle.
+    fn surround(&mut self, model: &Model, node: u32, mut spokes: Vec<Spoke>) {
+        let angle = |spoke: &Spoke| crate::angle::angle_of(spoke.away);
+        spokes.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+        let count = spokes.len();
+        let alone = count == 1;
+        for k in 0..count {
+            let (from, to) = (spokes[k], spokes[(k + 1) % count]);
+            if from.is_image && to.is_image {
+                continue;
+            }
+            if alone {
+                // At a free end the faces end side by side, across the shell.
+                let across = left(self.tangent(&from));
+                let ends = [1.0, -1.0].map(|side| self.add_skin_node(node, times(side * from.half, across)));
+                self.put(&from, true, ends[0]);
+                self.put(&from, false, ends[1]);
+                continue;
+            }
+            let (along, sine) = bisector(from.away, to.away);
+            // A smooth shell has its thickness at the node, as the nodes of a round solid have; at a fold
+            // its faces do.
+            let sine = if self.is_smooth(model, &from, &to) { 1.0 } else { sine };
+            let own = self.add_skin_node(node, times(0.5 * (from.half + to.half) / sine, along));
+            self.put(&from, true, own);
+            self.put(&to, false, own);
+        }
+    }
+
+    /// Direction away from its node of the tangent there.
+    fn tangent(&self, spoke: &Spoke) -> [f64; 2] {
+        let direction = self.directions[spoke.group][2 * spoke.element + spoke.end];
+        if spoke.end == 0 { direction } else { times(-1.0, direction) }
+    }
+
+    /// Gives an element its node on the left or right of the direction away from the node. Its cell runs
+    /// along the right of the line from its first to its second node, and back on the left.
+    fn put(&mut self, spoke: &Spoke, is_left: bool, node: u32) {
+        if spoke.is_image {
+            return;
+        }
+        let corner = match (spoke.end, is_left) {
+            (0, true) => 3,
+            (0, false) => 0,
+            (_, true) => 1,
+            (_, false) => 2,
+        };
+        self.groups[spoke.group].outer[4 * spoke.element + corner] = node;
+    }
+
+    /// Faces of parts by name, and their nodes among those of the parts.
+    fn name_faces(&mut self, model: &Model) {
+        for (index, part) in model.parts.iter().enumerate().filter(|(_, part)| part.is_of_shells()) {
+            let groups = || self.groups.iter().filter(move |group| group.part == index);
+            let cells = || groups().flat_map(|group| group.outer.as_chunks::<4>().0);
+            // Segments have the body on their right.
+            let right: Vec<[u32; 2]> = cells().map(|&[a, b, ..]| [b, a].canonical()).collect();
+            let left: Vec<[u32; 2]> = cells().map(|&[.., c, d]| [d, c].canonical()).collect();
+            let nodes = super::sorted(cells().flatten().copied());
+            self.sides.insert(format!("{}.{}", part.name, LEFT), left);
+            self.sides.insert(format!("{}.{}", part.name, RIGHT), right);
+            self.parts[index].nodes.extend(nodes);
+        }
+    }
+}
+
+/// Names of the faces of who walks along a line.
+const LEFT: &str = "left";
+const RIGHT: &str = "right";
+
+/// The image of an element beyond a symmetry line.
+fn mirrored(spoke: &Spoke, normal: [f64; 2]) -> Spoke {
+    let away = minus(spoke.away, times(2.0 * dot(spoke.away, normal), normal));
+    Spoke { away, is_image: true, ..*spoke }
+}

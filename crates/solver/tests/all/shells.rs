@@ -1,0 +1,620 @@
+//! Shells: forces against the slope of the energy, momenta, turns without strain, the stable step against
+//! true frequencies, layers that flow, and models against closed forms.
+
+use crate::bodies::*;
+use crate::patches::{Spread, YOUNG, material, solids};
+use embate_lanes::{Level, Team};
+use embate_solver::block::{Block, BlockInput, Motion, NodalForces, Report, evaluate_at_rest, make};
+use embate_solver::material::variable::PLASTIC_STRAIN;
+use embate_solver::model::{
+    CircularArc, Constraint, Contact, Curve, CurveShape, Line, Load, Material, Model, Obstacle, Partners, Probe, ProbeAt, Shape,
+    ShellSection, Symmetry,
+};
+use embate_solver::rotations::Rotations;
+use std::f64::consts::{PI, TAU};
+
+const STATES: [&str; 3] = ["plane_strain", "plane_stress", "axisymmetric"];
+
+fn section(thickness: f64) -> ShellSection {
+    ShellSection { thickness, ..ShellSection::default() }
+}
+
+/// Some shells, driven by places and rotations of their nodes.
+struct Chain {
+    block: Box<dyn Block<2>>,
+    forces: Vec<[f64; 2]>,
+    moments: Vec<[f64; 3]>,
+    positions: Vec<[f64; 2]>,
+    rotations: Rotations,
+    report: Report,
+    time_step: f64,
+}
+
+impl Chain {
+    fn new(material: &Material, state: &str, section: &ShellSection, positions: &[[f64; 2]], damping: f64) -> Self {
+        let connectivity: Vec<u32> = (1..positions.len() as u32).flat_map(|k| [k - 1, k]).collect();
+        let input = BlockInput {
+            section: Some(section),
+            stress_state: state,
+            damping,
+            ..BlockInput::new("shell2", material, &connectivity, positions)
+        };
+        let mut block = make(&input).unwrap();
+        let slots = block.slots().len();
+        let report = evaluate_at_rest(block.as_mut(), positions, Level::best());
+        Self {
+            forces: vec![[0.0; 2]; slots],
+            moments: vec![[0.0; 3]; slots],
+            positions: positions.to_vec(),
+            rotations: Rotations::at_rest(0..positions.len() as u32, 2),
+            report,
+            time_step: 1e-3,
+            block,
+        }
+    }
+
+    /// A step to places and angles.
+    fn go(&mut self, positions: &[[f64; 2]], angles: &[f64]) {
+        let velocities: Vec<[f64; 2]> =
+            positions.iter().zip(&self.positions).map(|(x, old)| [0, 1].map(|d| (x[d] - old[d]) / self.time_step)).collect();
+        self.rotations.angles.copy_from_slice(angles);
+        let motion = Motion { rotations: &self.rotations, ..Motion::new(positions, &velocities, self.time_step) };
+        let pulls = NodalForces { forces: &mut self.forces, moments: &mut self.moments };
+        self.report = self.block.advance(&motion, Level::best(), pulls, &mut Team::alone());
+        self.positions.copy_from_slice(positions);
+    }
+
+    /// Pulls of one element as one list: force and moment of each node.
+    fn pulls(&self) -> [f64; 6] {
+        let [a, b] = [0, 1].map(|k| [self.forces[k][0], self.forces[k][1], self.moments[k][2]]);
+        [a[0], a[1], a[2], b[0], b[1], b[2]]
+    }
+}
+
+fn moved(start: &[[f64; 2]; 2], by: &[f64; 6]) -> ([[f64; 2]; 2], [f64; 2]) {
+    let [a, b] = *start;
+    ([[a[0] + by[0], a[1] + by[1]], [b[0] + by[3], b[1] + by[4]]], [by[2], by[5]])
+}
+
+/// One element that goes there in `steps` equal steps.
+fn led(material: &Material, state: &str, section: &ShellSection, start: &[[f64; 2]; 2], by: &[f64; 6], steps: usize) -> Chain {
+    let mut one = Chain::new(material, state, section, start, 0.0);
+    for k in 1..=steps {
+        let part = by.map(|x| x * k as f64 / steps as f64);
+        let (positions, angles) = moved(start, &part);
+        one.go(&positions, &angles);
+    }
+    one
+}
+
+/// A random element, right of the axis, and a random motion of it.
+fn random(numbers: &mut Spread, size: f64) -> ([[f64; 2]; 2], [f64; 6]) {
+    let angle = numbers.between(0.0, TAU);
+    let middle = [numbers.between(2.0, 5.0), numbers.between(-1.0, 1.0)];
+    let half = [0.5 * angle.cos(), 0.5 * angle.sin()];
+    let start = [[middle[0] - half[0], middle[1] - half[1]], [middle[0] + half[0], middle[1] + half[1]]];
+    (start, std::array::from_fn(|_| numbers.between(-size, size)))
+}
+
+#[test]
+fn forces_and_moments_of_rubber_are_the_slope_of_its_energy() {
+    let mut numbers = Spread::new(1);
+    for (state, law) in STATES.into_iter().flat_map(|state| ["neo_hookean", "yeoh"].map(|law| (state, law))) {
+        for _ in 0..20 {
+            let (start, by) = random(&mut numbers, 0.15);
+            let (rubber, section) = (material(law, 0.3), section(numbers.between(0.02, 0.4)));
+            let energy = |by: &[f64; 6]| led(&rubber, state, &section, &start, by, 1).report.stored;
+            let pulls = led(&rubber, state, &section, &start, &by, 1).pulls();
+            let size = pulls.iter().fold(0.0, |size: f64, pull| size.max(pull.abs()));
+            for k in 0..6 {
+                let [mut low, mut high] = [by; 2];
+                (low[k], high[k]) = (by[k] - 1e-5, by[k] + 1e-5);
+                let slope = (energy(&high) - energy(&low)) / 2e-5;
+                assert!(
+                    (pulls[k] + slope).abs() < 1e-6 * size + 1e-8 * YOUNG * section.thickness,
+                    "{law} {state} {k}: {} for {} of {size}",
+                    pulls[k],
+                    -slope
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn forces_and_their_moments_vanish_together_for_every_law() {
+    let mut numbers = Spread::new(3);
+    for law in solids() {
+        for state in ["plane_strain", "plane_stress"] {
+            let (start, by) = random(&mut numbers, 0.1);
+            let one = led(&material(law.name, 0.3), state, &section(0.1), &start, &by, 20);
+            let pulls = one.pulls();
+            let size = pulls.iter().fold(0.0, |size: f64, pull| size.max(pull.abs()));
+            let [a, b] = one.positions[..] else { panic!() };
+            let moment = a[0] * pulls[1] - a[1] * pulls[0] + pulls[2] + b[0] * pulls[4] - b[1] * pulls[3] + pulls[5];
+            assert!(size > 1e-4 * YOUNG * 0.1 && pulls.iter().all(|pull| pull.is_finite()), "{}: {pulls:?}", law.name);
+            assert!((pulls[0] + pulls[3]).abs() < 1e-14 * size && (pulls[1] + pulls[4]).abs() < 1e-14 * size, "{}: {pulls:?}", law.name);
+            assert!(moment.abs() < 3e-14 * size, "{}: {moment} of {size}", law.name);
+        }
+    }
+}
+
+#[test]
+fn a_turn_of_any_size_in_one_step_is_no_strain() {
+    for law in ["elastic", "j2", "neo_hookean", "orthotropic_elastic", "viscoelastic"] {
+        for turn in [0.3, 1.0, PI, 40.0] {
+            // A bent and folded chain.
+            let start = [[0.0, 0.0], [1.0, 0.2], [1.8, 0.9], [1.8, 2.1], [0.4, 2.1]];
+            let mut chain = Chain::new(&material(law, 0.3), "plane_strain", &section(0.05), &start, 0.0);
+            let (sin, cos) = turn.sin_cos();
+            let turned = start.map(|[x, y]| [3.0 + cos * x - sin * y, -7.0 + sin * x + cos * y]);
+            chain.go(&turned, &[turn; 5]);
+            for element in 0..4 {
+                let state = chain.block.state(element);
+                assert!(state.stress.iter().all(|s| s.abs() < 4e-13 * YOUNG), "{law} {turn}: {:?}", state.stress);
+            }
+            assert!(chain.report.stored.abs() < 1e-20 * YOUNG, "{law} {turn}: {}", chain.report.stored);
+        }
+    }
+}
+
+/// The largest eigenvalue of M⁻¹K of one element at its start, by the response to small motions, and four
+/// over the square of its step.
+fn frequency_and_bound(material: &Material, state: &str, section: &ShellSection, start: &[[f64; 2]; 2]) -> [f64; 2] {
+    let one = Chain::new(material, state, section, start, 0.0);
+    let masses: Vec<f64> = (0..2).map(|corner| one.block.corner_mass(0, corner)).collect();
+    let inertia: Vec<f64> = one.block.rotating_nodes().iter().map(|(_, inertia)| *inertia).collect();
+    let mass = [masses[0], masses[0], inertia[0], masses[1], masses[1], inertia[1]];
+    let h = 1e-7;
+    let columns: Vec<[f64; 6]> = (0..6)
+        .map(|k| {
+            let mut by = [0.0; 6];
+            by[k] = h;
+            led(material, state, section, start, &by, 1).pulls().map(|pull| -pull / h)
+        })
+        .collect();
+    let k = |i: usize, j: usize| 0.5 * (columns[j][i] + columns[i][j]) / (mass[i] * mass[j]).sqrt();
+    let mut v: [f64; 6] = std::array::from_fn(|i| 1.0 + 0.37 * i as f64);
+    let mut largest = 0.0;
+    for _ in 0..20_000 {
+        let w: [f64; 6] = std::array::from_fn(|i| (0..6).map(|j| k(i, j) * v[j]).sum());
+        largest = w.iter().map(|w| w * w).sum::<f64>().sqrt();
+        v = w.map(|w| w / largest);
+    }
+    [largest, 4.0 / one.report.time_step_squared]
+}
+
+#[test]
+fn the_step_bounds_the_frequency_of_any_element_and_reaches_it_in_the_plane() {
+    let mut numbers = Spread::new(5);
+    for state in STATES {
+        for case in 0..60 {
+            let thickness = 10f64.powf(numbers.between(-2.0, 0.5));
+            let (mut start, _) = random(&mut numbers, 0.0);
+            if state == "axisymmetric" {
+                // Near the axis too.
+                let least = start[0][0].min(start[1][0]);
+                let shift = [0.0, 0.51 * thickness, 1.0, 20.0][case % 4];
+                start.iter_mut().for_each(|x| x[0] += shift - least);
+                if 0.5 * (start[0][0] + start[1][0]) < 0.55 * thickness {
+                    continue;
+                }
+            }
+            let elastic = material("elastic", numbers.between(0.0, 0.45));
+            let [frequency, bound] = frequency_and_bound(&elastic, state, &section(thickness), &start);
+            assert!(frequency < 1.0001 * bound, "{state} {start:?} {thickness}: {frequency} over {bound}");
+            if state != "axisymmetric" {
+                assert!(frequency > 0.9999 * bound, "{state} {thickness}: {frequency} under {bound}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hinge_has_the_moment_of_its_points_and_books_its_work() {
+    // Ideally plastic; exact: M = M_p (3/2 − ½ (κ_y/κ)²) M_e/M_p with the elastic limit at κ_y.
+    let (flow, thickness) = (1.0, 0.1);
+    let mut steel = material("j2", 0.3);
+    steel.parameters.insert("yield".into(), flow);
+    steel.parameters.insert("hardening".into(), 0.0);
+    for (rule, points, share) in
+        [("gauss", 4, 1.043), ("gauss", 5, 0.945), ("gauss", 6, 1.020), ("lobatto", 5, 0.913), ("gauss", 10, 1.008)]
+    {
+        let section = ShellSection { points, rule: rule.into(), ..section(thickness) };
+        for (state, factor) in [("plane_stress", 1.0), ("plane_strain", 2.0 / 3.0f64.sqrt())] {
+            let start = [[0.0, 0.0], [1.0, 0.0]];
+            let mut one = Chain::new(&steel, state, &section, &start, 0.0);
+            let full = factor * flow * thickness * thickness / 4.0;
+            // Large against κ_y = 2 σ_y/(E t), small against what changes the thickness.
+            let (steps, last) = (4000, 0.6);
+            let (mut work, mut before) = (0.0, 0.0);
+            for k in 1..=steps {
+                let bend = last * f64::from(k) / f64::from(steps);
+                one.go(&start, &[-0.5 * bend, 0.5 * bend]);
+                work += 0.5 * (-one.moments[1][2] + before) * last / f64::from(steps);
+                before = -one.moments[1][2];
+            }
+            assert!((before / full / share - 1.0).abs() < 3e-3, "{rule} {points} {state}: {}", before / full);
+            let booked = one.report.stored + one.report.dissipated;
+            assert!((booked / work - 1.0).abs() < 1e-5 && one.report.dissipated > 0.8 * work, "{booked} for {work}");
+            let state = one.block.state(0);
+            assert!(
+                (state.shell[3] - before).abs() < 1e-12 * before && (state.shell[8] / thickness - 1.0).abs() < 0.01,
+                "{:?}",
+                state.shell
+            );
+            assert!(one.block.variable(&state, &PLASTIC_STRAIN).unwrap() > 0.02);
+        }
+    }
+}
+
+#[test]
+fn layers_without_stress_across_are_those_of_every_law() {
+    // Stretched along: of laws that are alike in all directions a layer in plane stress is a bar.
+    let mut seen = 0;
+    for law in solids().filter(|law| crate::patches::is_isotropic(law.name)) {
+        let material = material(law.name, 0.3);
+        let start = [[0.0, 0.0], [1.0, 0.0]];
+        let mut shell = Chain::new(&material, "plane_stress", &section(0.01), &start, 0.0);
+        let input = BlockInput { area: 0.01, ..BlockInput::new("bar2", &material, &[0, 1], &start) };
+        let mut bar = make(&input).unwrap();
+        let mut old = start;
+        for k in 1..=50 {
+            let positions = [[0.0, 0.0], [1.0 + 1e-3 * f64::from(k), 0.0]];
+            shell.go(&positions, &[0.0; 2]);
+            let velocities = [[0.0; 2], [(positions[1][0] - old[1][0]) / 1e-3, 0.0]];
+            let motion = Motion::new(&positions, &velocities, 1e-3);
+            let mut slots = [[0.0; 2]; 2];
+            let report = bar.advance(&motion, Level::best(), NodalForces::new(&mut slots), &mut Team::alone());
+            old = positions;
+            assert!((shell.forces[0][0] - slots[0][0]).abs() < 1e-9 * YOUNG * 0.01, "{}: {:?} {slots:?}", law.name, shell.forces);
+            assert!((shell.report.stored - report.stored).abs() < 1e-9 * YOUNG * 0.01, "{}", law.name);
+        }
+        seen += 1;
+    }
+    assert!(seen > 10);
+}
+
+#[test]
+fn damping_by_stiffness_takes_energy_and_shortens_the_step_as_it_says() {
+    let elastic = material("elastic", 0.3);
+    let (start, beta) = ([[0.0, 0.0], [1.0, 0.0]], 0.01);
+    let [free, damped] = [0.0, beta].map(|beta| {
+        let mut one = Chain::new(&elastic, "plane_strain", &section(0.1), &start, beta);
+        for k in 1..=100 {
+            let x = 1e-4 * f64::from(k);
+            one.go(&[[0.0, 0.0], [1.0 + x, 0.5 * x]], &[0.0, 0.3 * x]);
+        }
+        one
+    });
+    let dt = free.report.time_step_squared.sqrt();
+    assert!((damped.report.time_step_squared.sqrt() / ((beta * beta + dt * dt).sqrt() - beta) - 1.0).abs() < 1e-3);
+    assert!(damped.report.damping > 0.0 && free.report.damping == 0.0);
+    // β C ε̇ beside the stress: the force grows by β/Δt times what it grew by in the step.
+    let rate = 1e-4 / 1e-3;
+    let expected = beta * rate * 0.1 * YOUNG / (1.0 - 0.09);
+    assert!(((damped.forces[0][0] - free.forces[0][0]) / expected - 1.0).abs() < 0.02, "{:?} {:?}", damped.forces, free.forces);
+}
+
+/// A part of shells of the material `soft`.
+fn shells(model: &mut Model, name: &str, shape: impl Into<Shape>, thickness: f64, state: &str) {
+    add(model, name, shape.into(), [0.0; 2]);
+    let part = model.parts.last_mut().unwrap();
+    (part.element, part.section, part.stress_state) = ("shell2".into(), Some(section(thickness)), state.into());
+}
+
+fn clamp(model: &mut Model, on: &str) {
+    let still = || Some(0.0.into());
+    model.constraints.push(Constraint {
+        on: on.into(),
+        velocity: [still(), still(), None],
+        spin: [None, None, still()],
+        ..Constraint::default()
+    });
+}
+
+fn straight(length: f64, elements: usize) -> Line {
+    Line { points: vec![[0.0, 0.0], [length, 0.0]], radius: 0.0, closed: false, elements }
+}
+
+fn set(model: &mut Model, name: &str, of: &str) {
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: of.into() } });
+}
+
+/// Loads that grow smoothly until half of the run.
+fn slowly(model: &mut Model, end: f64) -> Option<String> {
+    let shape = CurveShape::Table { times: vec![0.0, 0.5 * end], values: vec![0.0, 1.0], smooth: true };
+    model.curves.insert("slowly".into(), Curve { shape, dimension: None });
+    Some("slowly".into())
+}
+
+#[test]
+fn a_strip_with_a_moment_at_its_end_rolls_up_to_a_circle_with_five_elements() {
+    // M = 2π E I / L; density such that the strip is at rest at the end.
+    let (length, thickness, young) = (10.0, 0.1_f64, 1.2e6);
+    for elements in [5, 10] {
+        let end = 400.0;
+        let mut model = slender(end, young, 1.0);
+        shells(&mut model, "strip", straight(length, elements), thickness, "plane_stress");
+        clamp(&mut model, "strip.start");
+        let curve = slowly(&mut model, end);
+        let moment = TAU * young * thickness.powi(3) / 12.0 / length;
+        model.loads.push(Load::Moment { on: "strip.end".into(), moment: [0.0, 0.0, moment], curve });
+        model.loads.push(Load::Damping { parts: vec![], rate: 0.2, active: [0.0, f64::INFINITY] });
+        set(&mut model, "tip", "strip.end");
+        let simulation = to_end(&model);
+        let tip = [value(&simulation, "tip.x"), value(&simulation, "tip.y")];
+        // A polygon of chords of the circle, whose end is where it began.
+        assert!(tip.iter().all(|x| x.abs() < 0.01), "{elements}: {tip:?}");
+    }
+}
+
+#[test]
+fn a_cantilever_bends_as_a_beam_with_linear_rotations() {
+    // w = P L³/3EI (1 − 1/(4 n²)) + P L/(k G A).
+    let (length, thickness, young, elements) = (1.0_f64, 0.05_f64, 2e6, 8);
+    let end = 20.0;
+    let mut model = slender(end, young, 10.0);
+    shells(&mut model, "strip", straight(length, elements), thickness, "plane_stress");
+    clamp(&mut model, "strip.start");
+    let curve = slowly(&mut model, end);
+    let force = 1e-4;
+    model.loads.push(Load::Force { on: "strip.end".into(), force: [0.0, force, 0.0], curve });
+    model.loads.push(Load::Damping { parts: vec![], rate: 10.0, active: [0.0, f64::INFINITY] });
+    set(&mut model, "tip", "strip.end");
+    let simulation = to_end(&model);
+    let bending = force * length.powi(3) / (3.0 * young * thickness.powi(3) / 12.0) * (1.0 - 0.25 / (elements * elements) as f64);
+    let shear = force * length / (5.0 / 6.0 * 0.5 * young * thickness);
+    let found = value(&simulation, "tip.y");
+    assert!((found / (bending + shear) - 1.0).abs() < 1e-4, "{found} for {}", bending + shear);
+}
+
+#[test]
+fn a_plate_that_flies_spins_and_swings_keeps_momenta_and_energy() {
+    let mut model = model(0.012);
+    model.materials.insert("soft".into(), elastic(200e9, 7800.0));
+    shells(&mut model, "plate", straight(0.5, 20), 0.006, "plane_strain");
+    model.parts[0].spin = 200.0;
+    model.parts[0].velocity = [3.0, -5.0, 0.0];
+    let mut simulation = simulation(&model);
+    let nodes = simulation.nodes_of("plate").unwrap();
+    let places = simulation.coordinates();
+    // Spin and flight, and a wave of 30 m/s across.
+    let velocity = |&node: &u32| {
+        let x = places[2 * node as usize] - 0.25;
+        [3.0, -5.0 + 200.0 * x + 30.0 * (TAU * (x + 0.25) / 0.5).cos()]
+    };
+    let velocities: Vec<f64> = nodes.iter().flat_map(velocity).collect();
+    simulation.set_velocities(&nodes, &velocities).unwrap();
+    simulation.advance(f64::INFINITY, u64::MAX).unwrap();
+    let summary = simulation.summary();
+    assert!(summary.ledger_residual < 1e-13 && summary.energy_drift < 2e-5, "{:e} {:e}", summary.ledger_residual, summary.energy_drift);
+    assert!(simulation.steps() > 2_000);
+}
+
+#[test]
+fn a_ring_breathes_and_ovalizes_with_its_frequencies() {
+    let (radius, thickness, young, poisson, density) = (0.097_f64, 0.006, 200e9, 0.3, 7800.0);
+    let plate = young / (1.0 - poisson * poisson);
+    // Breathing: ω² = E*/(ρ R²). Inextensional n = 2: ω² = E* I/(ρ A R⁴) n² (n² − 1)²/(n² + 1).
+    let breathing = (plate / (density * radius * radius)).sqrt() / TAU;
+    let oval = (plate * thickness * thickness / 12.0 / (density * radius.powi(4)) * 36.0 / 5.0).sqrt() / TAU;
+    assert!((breathing - 8709.5).abs() < 1.0 && (oval - 417.30).abs() < 0.05, "{breathing} {oval}");
+    for (n, expected, tolerance) in [(0, breathing, 5e-3), (2, oval, 8e-3)] {
+        let mut model = model(2.25 / expected);
+        model.materials.insert("soft".into(), elastic(young, density));
+        shells(&mut model, "ring", CircularArc { radius, elements: 80, ..CircularArc::default() }, thickness, "plane_strain");
+        probe(&mut model, "right", "ring", [radius, 0.0]);
+        let mut simulation = simulation(&model);
+        // v = r̂ cos nθ − θ̂ sin nθ / n: without extension where n > 0.
+        let nodes = simulation.nodes_of("ring").unwrap();
+        let (places, mut velocities) = (simulation.coordinates(), Vec::new());
+        for &node in &nodes {
+            let [x, y] = [0, 1].map(|d| places[2 * node as usize + d] / radius);
+            let (radial, around) = if n == 0 { (1.0, 0.0) } else { (x * x - y * y, -x * y) };
+            velocities.extend([radial * x - around * y, radial * y + around * x].map(|v| 0.1 * v));
+        }
+        simulation.set_velocities(&nodes, &velocities).unwrap();
+        let (mut times, mut x) = (vec![0.0], vec![radius]);
+        while simulation.time() < model.run.end {
+            simulation.advance(f64::INFINITY, 1).unwrap();
+            times.push(simulation.time());
+            x.push(value(&simulation, "right.x"));
+        }
+        let crossings: Vec<f64> = (1..x.len())
+            .filter(|&k| (x[k - 1] - radius) * (x[k] - radius) < 0.0)
+            .map(|k| times[k - 1] + (times[k] - times[k - 1]) * (radius - x[k - 1]) / (x[k] - x[k - 1]))
+            .collect();
+        let found = 1.0 / (crossings[3] - crossings[1]);
+        assert!((found / expected - 1.0).abs() < tolerance, "{n}: {found} for {expected}");
+    }
+}
+
+fn steel_strip(model: &mut Model, name: &str, points: [[f64; 2]; 2], thickness: f64, elements: usize, velocity: [f64; 2]) {
+    shells(model, name, Line { points: points.to_vec(), radius: 0.0, closed: false, elements }, thickness, "plane_strain");
+    model.parts.last_mut().unwrap().velocity = embate_solver::model::in_3d(velocity);
+}
+
+fn steel(end: f64) -> Model {
+    let mut model = model(end);
+    model.materials.insert("soft".into(), elastic(200e9, 7800.0));
+    model
+}
+
+fn all_touch(model: &mut Model, friction: Option<f64>) {
+    let interface = friction.map(rough).unwrap_or_default();
+    model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(Vec::new()), interface, ..Contact::default() });
+}
+
+#[test]
+fn two_sheets_that_collide_flat_touch_at_their_thickness_and_swap_their_velocities() {
+    let (thickness, gap) = (0.002, 0.001);
+    let mut model = steel(2e-4);
+    let y = thickness + gap;
+    steel_strip(&mut model, "lower", [[0.0, 0.0], [0.1, 0.0]], thickness, 10, [0.0, 10.0]);
+    steel_strip(&mut model, "upper", [[0.0, y], [0.1, y]], thickness, 10, [0.0, -10.0]);
+    all_touch(&mut model, None);
+    let steps = every_step(&model);
+    let (times, contact) = (steps.column("time"), steps.column("contact.energy[all]"));
+    let first = contact.iter().position(|energy| *energy > 0.0).unwrap();
+    let step = times[first] - times[first - 1];
+    assert!((times[first] - gap / 20.0).abs() < 1.5 * step, "{} for {}", times[first], gap / 20.0);
+    for (part, expected) in [("lower", -10.0), ("upper", 10.0)] {
+        let column = steps.column(&format!("{part}.vy"));
+        let found = column[column.len() - 1];
+        assert!((found / expected - 1.0).abs() < 0.02, "{part}: {found}");
+    }
+    let total = steps.column("energy.total");
+    assert!(total.iter().all(|energy| (energy / total[0] - 1.0).abs() < 1e-4), "{:?}", total[total.len() - 1] / total[0]);
+}
+
+#[test]
+fn sheets_that_hit_each_other_with_friction_keep_both_momenta() {
+    let mut model = steel(6e-4);
+    steel_strip(&mut model, "lower", [[0.0, 0.0], [0.2, 0.02]], 0.003, 12, [0.0, 0.0]);
+    steel_strip(&mut model, "upper", [[0.05, 0.02], [0.15, 0.06]], 0.002, 9, [20.0, -40.0]);
+    shells(
+        &mut model,
+        "ring",
+        CircularArc { centre: [0.16, 0.06], radius: 0.02, elements: 24, ..CircularArc::default() },
+        0.001,
+        "plane_strain",
+    );
+    model.parts[2].velocity = [-20.0, -50.0, 0.0];
+    all_touch(&mut model, Some(0.3));
+    let (simulation, history) = run(&model);
+    let summary = simulation.summary();
+    assert!(history.largest("contact.energy[all]") > 0.0);
+    assert!(summary.ledger_residual < 1e-12, "{:e}", summary.ledger_residual);
+    assert!(summary.momentum_drift_linear.unwrap() < 1e-12, "{:?}", summary.momentum_drift_linear);
+    assert!(summary.momentum_drift_angular.unwrap() < 1e-12, "{:?}", summary.momentum_drift_angular);
+    assert!(summary.energy_drift < 5e-3, "{:e}", summary.energy_drift);
+}
+
+#[test]
+fn a_ring_rolls_down_a_slope_on_its_outer_face() {
+    // a = g sin θ/(1 + (R² + α)/R_o²): without couples of friction at the face it would be off by 6 %.
+    let (radius, thickness, slope, elements, young) = (0.1, 0.012, 0.3_f64, 240, 1e9);
+    let mut model = model(0.3);
+    model.materials.insert("soft".into(), elastic(young, 7800.0));
+    let outer = radius + 0.5 * thickness;
+    let above = outer + 3e-6;
+    let centre = [-slope.sin() * above, slope.cos() * above];
+    shells(&mut model, "ring", CircularArc { centre, radius, elements, ..CircularArc::default() }, thickness, "plane_strain");
+    model.obstacles.push(Obstacle { interface: rough(0.9), ..Obstacle::wall("slope", [0.0; 2], [-slope.sin(), slope.cos()]) });
+    gravity(&mut model, [0.0, -9.81]);
+    model.loads.push(Load::StiffnessDamping { parts: vec![], time: 5e-6 });
+    let mut simulation = simulation(&model);
+    // A polygon loses energy at each of its corners, in proportion to the square of their angles.
+    let mut seen = [[0.0; 2]; 2];
+    for (at, time) in [0.1, 0.3].into_iter().enumerate() {
+        simulation.advance(time, u64::MAX).unwrap();
+        seen[at] = [simulation.time(), value(&simulation, "ring.vx") / -slope.cos()];
+    }
+    let [[begin, before], [end, after]] = seen;
+    let stiff = young / (1.0 - 0.09) / (5.0 / 6.0 * young / 2.6) - 1.0;
+    let length = 2.0 * radius * (PI / elements as f64).sin();
+    let alpha = (thickness * thickness / 12.0_f64).max(length * length / (4.0 * stiff));
+    let expected = 9.81 * slope.sin() / (1.0 + (radius * radius + alpha) / (outer * outer));
+    let found = (after - before) / (end - begin);
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} for {expected}");
+}
+
+#[test]
+fn pressure_acts_on_the_face_where_it_is() {
+    // N = p R_i; u = N R/(E* t).
+    let (radius, thickness, pressure, elements) = (0.1, 0.01, 1e6, 60);
+    let mut model = steel(2e-3);
+    shells(&mut model, "pipe", CircularArc { radius, elements, ..CircularArc::default() }, thickness, "plane_strain");
+    let curve = slowly(&mut model, 1e-3);
+    model.loads.push(Load::Pressure { on: "pipe.left".into(), pressure, curve });
+    model.loads.push(Load::Damping { parts: vec![], rate: 2e4, active: [0.0, f64::INFINITY] });
+    probe(&mut model, "right", "pipe", [radius, 0.0]);
+    let simulation = to_end(&model);
+    let inner = radius - 0.5 * thickness;
+    let expected = pressure * inner * radius / (200e9 / (1.0 - 0.09) * thickness);
+    let found = value(&simulation, "right.x") - radius;
+    assert!((found / expected - 1.0).abs() < 5e-3, "{found} for {expected}");
+}
+
+/// Two sheets of steel that flow and fail, and a ring between them.
+fn crash(end: f64, elements: usize) -> Model {
+    let mut model = steel(end);
+    let mut flows = material("j2", 0.3);
+    for (name, value) in [("young", 200e9), ("density", 7800.0), ("yield", 300e6), ("hardening", 1e9)] {
+        flows.parameters.insert(name.into(), value);
+    }
+    flows.failure.insert("plastic_strain".into(), 0.05);
+    model.materials.insert("soft".into(), flows);
+    steel_strip(&mut model, "lower", [[0.0, 0.0], [0.2, 0.0]], 0.002, elements, [0.0, 0.0]);
+    steel_strip(&mut model, "upper", [[0.02, 0.05], [0.18, 0.045]], 0.002, elements, [0.0, -200.0]);
+    shells(
+        &mut model,
+        "ring",
+        CircularArc { centre: [0.1, 0.024], radius: 0.02, elements, ..CircularArc::default() },
+        0.001,
+        "plane_strain",
+    );
+    model.parts[1].section = Some(ShellSection { points: 4, failed_points: 0.5, ..section(0.002) });
+    all_touch(&mut model, Some(0.2));
+    model
+}
+
+#[test]
+fn sheets_that_flow_and_fail_close_the_ledger_and_continue_where_they_were_kept() {
+    let model = crash(4e-4, 40);
+    let hash = hash_of_equal_bits(&model, &[1, 2], "crash");
+    let mut half = simulation(&model);
+    half.advance(2e-4, u64::MAX).unwrap();
+    continues_to(&hash, &model, &mut half, "crash");
+    let (simulation, history) = run(&model);
+    let summary = simulation.summary();
+    assert!(history.last("energy.plastic") > 100.0 && history.last("energy.eroded") > 0.0);
+    assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 0.02, "{:e} {:e}", summary.ledger_residual, summary.energy_drift);
+    assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12);
+}
+
+#[test]
+fn threads_and_instructions_change_no_bit_of_many_shells() {
+    let mut model = crash(1.0, 2000);
+    model.run.max_steps = Some(40);
+    model.parts[1].shape = Line { points: vec![[0.02, 0.0018], [0.18, 0.00185]], radius: 0.0, closed: false, elements: 2000 }.into();
+    model.parts.pop();
+    model.probes.pop();
+    shells(&mut model, "third", straight(0.1, 1000), 0.002, "plane_strain");
+    hash_of_equal_bits(&model, &[1, 2, 3], "many");
+}
+
+#[test]
+fn models_of_shells_that_make_no_sense_are_told_what_is_wrong() {
+    let sound = || {
+        let mut model = model(1e-3);
+        shells(&mut model, "strip", straight(0.1, 4), 0.002, "plane_strain");
+        model
+    };
+    assert_eq!(faults(&sound()), Vec::<String>::new());
+    let told = |change: &dyn Fn(&mut Model), words: &str| {
+        let mut model = sound();
+        change(&mut model);
+        let faults = faults(&model);
+        assert!(faults.iter().any(|fault| fault.contains(words)), "{words}: {faults:?}");
+    };
+    told(&|model| model.parts[0].section = None, "shells need their thickness");
+    told(&|model| model.parts[0].section = Some(ShellSection { points: 11, ..section(0.1) }), "1 to 10 points");
+    told(&|model| model.parts[0].section = Some(ShellSection { points: 2, rule: "lobatto".into(), ..section(0.1) }), "3 to 10 points");
+    told(&|model| model.parts[0].section = Some(section(-0.1)), "section.thickness");
+    told(&|model| model.parts[0].element = "bar2".into(), "that of shells");
+    told(&|model| model.parts[0].shape = mapped_rectangle(), "shell2");
+    told(&|model| model.run.stable_step = embate_solver::model::StableStep::Nodes, "knows no rotations");
+    told(&|model| model.loads.push(Load::Moment { on: "strip.end".into(), moment: [1.0, 0.0, 0.0], curve: None }), "about z");
+    let on_solid = |model: &mut Model| {
+        add(model, "block", mapped_rectangle(), [0.0; 2]);
+        model.loads.push(Load::Moment { on: "block.left".into(), moment: [0.0, 0.0, 1.0], curve: None });
+    };
+    told(&on_solid, "no rotations");
+    let spun = |model: &mut Model| {
+        model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], point: [0.0; 3], parts: vec![] });
+        model.constraints.push(Constraint { on: "strip.start".into(), spin: [None, None, Some(1.0.into())], ..Constraint::default() });
+    };
+    told(&spun, "keeps it from rotating");
+}

@@ -24,7 +24,7 @@ mod x86;
 
 #[cfg(feature = "count")]
 pub use counted::Operations;
-pub use dispatch::{Kernel, Level, prefetch};
+pub use dispatch::{Kernel, Level, prefetch, prefetch_ahead};
 pub use gather::{Indices, Moving, Places, Room, VectorSums};
 pub use lane::{BATCH, Batch, Lane};
 pub use team::{Chunks, Parts, Team};

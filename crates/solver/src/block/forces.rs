@@ -17,7 +17,7 @@ use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
 use super::kernel::FixedState;
 use super::strain::{Tensor, averages, circumference, deformation, initial_width, matrix};
-use super::strip::{Parts, StripBuffers};
+use super::strip::{Parts, StripBuffers, prefetch_next};
 use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
@@ -64,6 +64,8 @@ pub(super) struct Forces<'a, const D: usize> {
     /// Squares of their stable steps when these were marked, s²; empty before.
     pub(super) marks: &'a [Batch],
     pub(super) sums: &'a mut Sums,
+    /// Whether the next strip follows in memory and should be fetched.
+    pub(super) prefetches: bool,
 }
 
 /// [`Forces`] by an element.
@@ -148,6 +150,11 @@ where
 
     #[inline(always)]
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
+        if at == 0 && self.input.prefetches {
+            prefetch_next(self.input.elements, batch, 1);
+            prefetch_next(self.input.history, batch, P * self.input.history_width);
+            prefetch_next(self.input.resistance, batch, usize::from(!self.input.resistance.is_empty()));
+        }
         let zero = L::splat(0.0);
         let geometry = self.geometry::<L>(batch, at);
         // Sums begin with -0: the first addition is none.

@@ -173,6 +173,7 @@ where
                 hourglass: &mut [],
                 weights: weights.get(first..last).unwrap_or_default(),
                 strip,
+                prefetches: false,
             };
             kernel.strain(level, strain);
             for batch in 0..weight.len() {
@@ -342,6 +343,7 @@ where
                 kept: if keeps_forces { kept } else { &mut [] },
                 marks: marks.get(first..first + count).unwrap_or_default(),
                 sums: &mut sums,
+                prefetches: false,
             };
             kernel.forces(level, forces);
             strip.pulls.copy_to(pulls);

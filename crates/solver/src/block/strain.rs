@@ -8,7 +8,7 @@
 
 use super::batch::Resistance;
 use super::kernel::FixedState;
-use super::strip::{Parts, StripBuffers};
+use super::strip::{Parts, StripBuffers, prefetch_next};
 use crate::element::{Element, PATTERNS, map, map_at};
 use crate::material::Family;
 use crate::stress_state::StressState;
@@ -144,6 +144,8 @@ pub(super) struct Strain<'a, const D: usize> {
     /// What the ways of the nodes around their mean count with, 1/m; empty: nothing.
     pub(super) weights: &'a [Batch],
     pub(super) strip: &'a mut StripBuffers<D>,
+    /// Whether the next strip follows in memory and should be fetched.
+    pub(super) prefetches: bool,
 }
 
 /// [`Strain`] by an element.
@@ -163,6 +165,13 @@ where
 
     #[inline(always)]
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
+        if at == 0 && self.input.prefetches {
+            prefetch_next(self.input.stress, batch, P * <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS);
+            prefetch_next(self.input.hourglass, batch, E::HOURGLASS);
+            if matches!(self.input.measures.family, Family::Hyperelastic) {
+                prefetch_next(self.input.initial, batch, P * initial_width::<E, D, N, P>(S::STATE));
+            }
+        }
         let row = (self.input.first + batch) * N;
         let (mut x, mut v) = ([[L::splat(0.0); D]; N], [[L::splat(0.0); D]; N]);
         if D == 2 {

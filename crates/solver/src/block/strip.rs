@@ -6,7 +6,7 @@
 
 use super::kernel::Facts;
 use crate::material::points::{PointLaw, RESPONSE, Scratch};
-use embate_lanes::{BATCH, Batch, Kernel, Lane, Moving, VectorSums};
+use embate_lanes::{BATCH, Batch, Kernel, Lane, Moving, VectorSums, prefetch_ahead};
 
 /// Batches of elements in a strip.
 pub(super) const STRIP: usize = 8;
@@ -63,6 +63,15 @@ impl<const D: usize> StripBuffers<D> {
             response: scratch(points * RESPONSE),
             law: Scratch::default(),
         }
+    }
+}
+
+/// Asks the memory for what a batch of the next strip has in a list, which has so many items for each batch.
+/// Done batch by batch, since the processor has only some ten to twenty requests under way at a time.
+#[inline(always)]
+pub(super) fn prefetch_next<T>(list: &[T], batch: usize, width: usize) {
+    for own in &list[batch * width..][..width] {
+        prefetch_ahead(own, STRIP * width);
     }
 }
 

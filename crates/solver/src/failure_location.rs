@@ -140,7 +140,7 @@ where
 
     /// Where bodies in contact overlapped without being held, first and worst, in words.
     pub(crate) fn overlaps_in_words(&self, contact: &Contact<D>, found: &Findings) -> Option<String> {
-        let of = |node: u32| self.mesh.parts.iter().find(|part| part.nodes.contains(&node)).map(|part| &part.name);
+        let of = |node: u32| self.mesh.parts.iter().find(|part| part.with_faces().any(|own| own == node)).map(|part| &part.name);
         let who = |nodes: [u32; 2]| match nodes.map(of) {
             [Some(a), Some(b)] => format!("parts \"{a}\" and \"{b}\""),
             [Some(part), None] | [None, Some(part)] => format!("part \"{part}\" in the obstacle"),
@@ -164,7 +164,7 @@ where
     /// A node by the user's number, and the parts that it belongs to.
     fn node_name(&self, node: usize) -> String {
         let Some(user) = self.mesh.user_nodes.get(node) else { return "a point of an obstacle".into() };
-        let parts = self.mesh.parts.iter().filter(|part| part.nodes.contains(&(node as u32)));
+        let parts = self.mesh.parts.iter().filter(|part| part.with_faces().any(|own| own == node as u32));
         let parts: Vec<_> = parts.map(|part| format!("\"{}\"", part.name)).collect();
         format!("node {user} of part {}", parts.join(" and "))
     }

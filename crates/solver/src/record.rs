@@ -198,8 +198,7 @@ where
                 let way = minus(system.positions[*node as usize], first(*point));
                 dot(way, way).sqrt()
             };
-            let nodes = &part_of(part)?.nodes;
-            let nearest = nodes.iter().copied().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });
+            let nearest = part_of(part)?.with_faces().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });
             let node = nearest.ok_or_else(|| format!("part \"{part}\" has no nodes"))?;
             Ok((vec![(node, 1.0)], format!("node of \"{part}\" at {}, {:.3e} m from the wanted point", place(node), distance(&node))))
         }
@@ -315,6 +314,7 @@ where
             && system.body_forces.is_empty()
             && system.forces.is_empty()
             && system.boundary.is_empty()
+            && !system.rotations.is_acted_on()
             && !system.joins.is_periodic()
             && system.damping.is_empty();
         // Forces at time zero have acted half a step already; both momenta are kept by them as well.

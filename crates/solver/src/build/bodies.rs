@@ -69,7 +69,8 @@ where
                 }
             }
         }
-        momentum.iter_mut().zip(&self.mass).for_each(|(p, &m)| *p = p.map(|p| p / m));
+        // Nodes on the faces of shells have no mass; their middles lead them.
+        momentum.iter_mut().zip(&self.mass).filter(|(_, m)| **m > 0.0).for_each(|(p, &m)| *p = p.map(|p| p / m));
         momentum
     }
 
@@ -129,7 +130,7 @@ impl Builder<'_, 2> {
             mass: std::array::from_fn(|k| if drives[k].is_none() { masses[k] } else { 0.0 }),
             drives,
             of_elements: true,
-            members: mesh.nodes.iter().map(|&node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
+            members: mesh.with_faces().map(|node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
             shared: own.iter().filter(|&&(node, share)| self.mass[node as usize] != share).map(|&(node, _)| node).collect(),
             ..Body::default()
         }

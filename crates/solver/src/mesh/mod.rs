@@ -64,6 +64,15 @@ pub struct PartMesh {
     pub name: String,
     /// All nodes of the part in the order of its mesh.
     pub nodes: Vec<u32>,
+    /// Of shells the nodes on their faces, ascending: these go with the others.
+    pub faces: Vec<u32>,
+}
+
+impl PartMesh {
+    /// Its nodes, those on the faces of shells too.
+    pub fn with_faces(&self) -> impl Iterator<Item = u32> + Clone {
+        self.nodes.iter().chain(&self.faces).copied()
+    }
 }
 
 /// The elements of one part that are the same kind of cell: what a block is made of.
@@ -261,7 +270,7 @@ where
         let first = self.positions.len() as u32;
         self.positions.extend(&body.positions);
         self.add_elements(body.cells(), |node| node + first);
-        self.parts.push(PartMesh { name: part.into(), nodes: (first..first + body.positions.len() as u32).collect() });
+        self.parts.push(PartMesh { name: part.into(), nodes: (first..first + body.positions.len() as u32).collect(), faces: Vec::new() });
         for (side, facets) in body.sides {
             let facets = facets.into_iter().map(|facet| facet.renamed(|node| node + first)).collect();
             self.sides.insert(format!("{part}.{side}"), facets);
@@ -313,7 +322,7 @@ where
         }
         let number = |node: &u32| numbers[*node as usize];
         self.add_elements(group.elements().flatten(), number);
-        self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)) });
+        self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)), faces: Vec::new() });
     }
 
     /// Adds a group of a mesh in 2D that is swept; parts of one file that are swept alike share their
@@ -426,14 +435,17 @@ where
         faults
     }
 
-    /// Nodes of a part, a `part.side` or a group, ascending; `None` when there is no such name.
+    /// Nodes of a part, a `part.side` or a group, ascending; of the face of a shell those of its middle, which
+    /// lead it. `None` when there is no such name.
     #[must_use]
     pub fn nodes(&self, name: &str) -> Option<Vec<u32>> {
         if let Some(part) = self.parts.iter().find(|part| part.name == name) {
             return Some(sorted(part.nodes.iter().copied()));
         }
         if let Some(facets) = self.sides.get(name) {
-            return Some(sorted(facets.iter().flat_map(Corners::corners).copied()));
+            let first = self.first_skin_node();
+            let leader = |&node: &u32| (node as usize).checked_sub(first).map_or(node, |own| self.skins[own].owner);
+            return Some(sorted(facets.iter().flat_map(Corners::corners).map(leader)));
         }
         self.points.get(name).cloned()
     }

@@ -18,7 +18,7 @@ impl Persist for CellKind {
     }
 }
 
-persist_all!(PartMesh { name, nodes });
+persist_all!(PartMesh { name, nodes, faces });
 
 impl Persist for ElementGroup {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
@@ -99,7 +99,7 @@ where
                 && are_nodes(&group.outer)
         };
         let is_numbered = |part: usize| is_permutation(self.groups_of(part).flat_map(|group| &group.user_elements), self.elements_of(part));
-        self.parts.iter().all(|part| are_nodes(&part.nodes))
+        self.parts.iter().all(|part| are_nodes(&part.nodes) && are_nodes(&part.faces))
             && self.groups.iter().all(of_group)
             && (0..parts).all(is_numbered)
             && is_permutation(&self.user_nodes, nodes)

@@ -9,7 +9,7 @@
 
 use super::cell::CellKind;
 use super::surface::Corners;
-use super::{Dim, ElementGroup, Mesh, Meshed};
+use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh};
 use crate::model::{Model, Symmetry};
 use crate::vector::{dot, first, minus, plus, times, unit};
 use std::collections::BTreeMap;
@@ -65,7 +65,7 @@ where
         let (point, tolerance) = (first(symmetry.point), super::tolerance(&self.positions));
         let near = |&node: &u32| dot(minus(self.positions[node as usize], point), normal).abs() <= tolerance;
         let parts = self.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
-        super::sorted(parts.flat_map(|part| part.nodes.iter().copied()).filter(near))
+        super::sorted(parts.flat_map(PartMesh::with_faces).filter(near))
     }
 
     /// Number of the first node of a face: they come after all others.
@@ -206,7 +206,7 @@ impl Mesh<2> {
         self.groups[spoke.group].outer[4 * spoke.element + corner] = node;
     }
 
-    /// Faces of parts by name, and their nodes among those of the parts.
+    /// Faces of parts by name, and their nodes.
     fn name_faces(&mut self, model: &Model) {
         for (index, part) in model.parts.iter().enumerate().filter(|(_, part)| part.is_of_shells()) {
             let groups = || self.groups.iter().filter(move |group| group.part == index);
@@ -217,7 +217,7 @@ impl Mesh<2> {
             let nodes = super::sorted(cells().flatten().copied());
             self.sides.insert(format!("{}.{}", part.name, LEFT), left);
             self.sides.insert(format!("{}.{}", part.name, RIGHT), right);
-            self.parts[index].nodes.extend(nodes);
+            self.parts[index].faces = nodes;
         }
     }
 }

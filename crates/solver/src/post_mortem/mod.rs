@@ -251,7 +251,7 @@ where
 
     fn part_of_node(&self, node: usize) -> String {
         let is_in = |nodes: &[u32]| nodes.contains(&(node as u32));
-        self.mesh.parts.iter().find(|part| is_in(&part.nodes)).map_or(String::new(), |part| part.name.clone())
+        self.mesh.parts.iter().find(|part| is_in(&part.nodes) || is_in(&part.faces)).map_or(String::new(), |part| part.name.clone())
     }
 
     /// A suspect by the user's names.

@@ -257,7 +257,7 @@ where
         self.mesh
             .groups
             .iter()
-            .flat_map(|group| group.live_cells())
+            .flat_map(|group| group.live_cells().chain(group.live_outer_cells()))
             .flat_map(|cell| cell.nodes)
             .for_each(|&node| has_elements[node as usize] = true);
         has_elements

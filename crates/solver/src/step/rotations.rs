@@ -190,6 +190,11 @@ impl NodalRotations {
         self.now_loads = vec![[0.0; 3]; if self.loads.is_empty() { 0 } else { self.inertia.len() }];
     }
 
+    /// Whether moments of loads act, or rotations are held.
+    pub(crate) fn is_acted_on(&self) -> bool {
+        !self.loads.is_empty() || self.groups.iter().any(|group| group.held.is_some())
+    }
+
     /// Moments of loads now, to add to.
     pub(super) fn loads_now(&mut self) -> &mut [[f64; 3]] {
         self.now_loads.resize(self.inertia.len(), [0.0; 3]);

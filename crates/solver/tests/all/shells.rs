@@ -7,8 +7,8 @@ use embate_lanes::{Level, Team};
 use embate_solver::block::{Block, BlockInput, Motion, NodalForces, Report, evaluate_at_rest, make};
 use embate_solver::material::variable::PLASTIC_STRAIN;
 use embate_solver::model::{
-    CircularArc, Constraint, Contact, Curve, CurveShape, Line, Load, Material, Model, Obstacle, Partners, Probe, ProbeAt, Shape,
-    ShellSection, Symmetry,
+    CircularArc, Constraint, Contact, Curve, CurveShape, Image, InitialPenetration, Interface, Join, Line, Load, Material, Model,
+    NonReflecting, Obstacle, Partners, PointMass, Probe, ProbeAt, Shape, ShellSection, Spring, Symmetry,
 };
 use embate_solver::rotations::Rotations;
 use std::f64::consts::{PI, TAU};
@@ -494,8 +494,8 @@ fn sheets_that_hit_each_other_with_friction_keep_both_momenta() {
 #[test]
 fn a_ring_rolls_down_a_slope_on_its_outer_face() {
     // a = g sin θ/(1 + (R² + α)/R_o²): without couples of friction at the face it would be off by 6 %.
-    let (radius, thickness, slope, elements, young) = (0.1, 0.012, 0.3_f64, 240, 1e9);
-    let mut model = model(0.3);
+    let (radius, thickness, slope, elements, young) = (0.1, 0.012, 0.3_f64, 60, 4e9);
+    let mut model = model(0.4);
     model.materials.insert("soft".into(), elastic(young, 7800.0));
     let outer = radius + 0.5 * thickness;
     let above = outer + 3e-6;
@@ -503,21 +503,26 @@ fn a_ring_rolls_down_a_slope_on_its_outer_face() {
     shells(&mut model, "ring", CircularArc { centre, radius, elements, ..CircularArc::default() }, thickness, "plane_strain");
     model.obstacles.push(Obstacle { interface: rough(0.9), ..Obstacle::wall("slope", [0.0; 2], [-slope.sin(), slope.cos()]) });
     gravity(&mut model, [0.0, -9.81]);
-    model.loads.push(Load::StiffnessDamping { parts: vec![], time: 5e-6 });
+    model.loads.push(Load::StiffnessDamping { parts: vec![], time: 3e-6 });
     let mut simulation = simulation(&model);
-    // A polygon loses energy at each of its corners, in proportion to the square of their angles.
-    let mut seen = [[0.0; 2]; 2];
-    for (at, time) in [0.1, 0.3].into_iter().enumerate() {
-        simulation.advance(time, u64::MAX).unwrap();
-        seen[at] = [simulation.time(), value(&simulation, "ring.vx") / -slope.cos()];
+    // The slope of the velocity, which swings as the ring does under its weight.
+    let mut seen: Vec<[f64; 2]> = Vec::new();
+    for at in 100..=400 {
+        simulation.advance(1e-3 * f64::from(at), u64::MAX).unwrap();
+        seen.push([simulation.time(), value(&simulation, "ring.vx") / -slope.cos()]);
     }
-    let [[begin, before], [end, after]] = seen;
+    let [time, velocity] = [0, 1].map(|k| seen.iter().map(|row| row[k]).sum::<f64>() / seen.len() as f64);
+    let product = |a: usize, b: usize| -> f64 {
+        let means = [time, velocity];
+        seen.iter().map(|row| (row[a] - means[a]) * (row[b] - means[b])).sum()
+    };
+    let found = product(0, 1) / product(0, 0);
     let stiff = young / (1.0 - 0.09) / (5.0 / 6.0 * young / 2.6) - 1.0;
     let length = 2.0 * radius * (PI / elements as f64).sin();
     let alpha = (thickness * thickness / 12.0_f64).max(length * length / (4.0 * stiff));
     let expected = 9.81 * slope.sin() / (1.0 + (radius * radius + alpha) / (outer * outer));
-    let found = (after - before) / (end - begin);
-    assert!((found / expected - 1.0).abs() < 0.01, "{found} for {expected}");
+    // A polygon loses energy at each of its corners.
+    assert!((found / expected - 1.0).abs() < 0.012, "{found} for {expected}");
 }
 
 #[test]
@@ -578,11 +583,42 @@ fn sheets_that_flow_and_fail_close_the_ledger_and_continue_where_they_were_kept(
 fn threads_and_instructions_change_no_bit_of_many_shells() {
     let mut model = crash(1.0, 2000);
     model.run.max_steps = Some(40);
-    model.parts[1].shape = Line { points: vec![[0.02, 0.0018], [0.18, 0.00185]], radius: 0.0, closed: false, elements: 2000 }.into();
+    model.parts[1].shape = Line { points: vec![[0.02, 0.0021], [0.18, 0.00215]], radius: 0.0, closed: false, elements: 2000 }.into();
     model.parts.pop();
     model.probes.pop();
     shells(&mut model, "third", straight(0.1, 1000), 0.002, "plane_strain");
     hash_of_equal_bits(&model, &[1, 2, 3], "many");
+}
+
+#[test]
+fn what_is_said_of_a_face_holds_for_the_middle() {
+    let thrown = || {
+        let mut model = steel(1e-4);
+        steel_strip(&mut model, "strip", [[0.0, 0.0], [0.1, 0.0]], 0.002, 10, [1.0, 0.0]);
+        model
+    };
+    let mut held = thrown();
+    held.constraints.push(Constraint { on: "strip.left".into(), velocity: [Some(0.0.into()), None, None], ..Constraint::default() });
+    assert_eq!(value(&to_end(&held), "strip.vx"), 0.0);
+    let mut heavy = thrown();
+    heavy.point_masses.push(PointMass { on: "strip.right".into(), mass: 1.0 });
+    let kinetic = value(&to_end(&heavy), "energy.kinetic");
+    assert!((kinetic / (0.5 * (0.1 * 0.002 * 7800.0 + 1.0)) - 1.0).abs() < 1e-9, "{kinetic}");
+    // Joined to another strip along the whole of both: they fly as one.
+    let mut joined = thrown();
+    steel_strip(&mut joined, "other", [[0.0, 0.0], [0.1, 0.0]], 0.002, 10, [0.0, 2.0]);
+    joined.joins.push(Join { between: ["strip".into(), "other.left".into()], image: Image::Same, tolerance: None });
+    let (simulation, _) = run(&joined);
+    assert!((value(&simulation, "strip.vx") - 0.5).abs() < 1e-12 && (value(&simulation, "other.vy") - 1.0).abs() < 1e-12);
+    // A spring between the faces of two strips pulls at both.
+    let mut sprung = thrown();
+    steel_strip(&mut sprung, "other", [[0.0, 0.02], [0.1, 0.02]], 0.002, 10, [0.0, 2.0]);
+    let between = ["strip.left".to_string(), "other.right".to_string()];
+    sprung.springs.push(Spring { between, stiffness: 1e6, ..Spring::default() });
+    let (simulation, _) = run(&sprung);
+    let summary = simulation.summary();
+    assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-3);
+    assert!(value(&simulation, "strip.vy") > 1e-4, "{}", value(&simulation, "strip.vy"));
 }
 
 #[test]
@@ -612,6 +648,14 @@ fn models_of_shells_that_make_no_sense_are_told_what_is_wrong() {
         model.loads.push(Load::Moment { on: "block.left".into(), moment: [0.0, 0.0, 1.0], curve: None });
     };
     told(&on_solid, "no rotations");
+    let quiet = |model: &mut Model| model.non_reflecting.push(NonReflecting { on: "strip.left".into() });
+    told(&quiet, "no waves come through its faces");
+    told(&|model| model.parts[0].hourglass = Some(0.1), "no hourglass control");
+    let pushed = |model: &mut Model| {
+        let interface = Interface { initial_penetration: InitialPenetration::PushOut, ..Interface::default() };
+        model.contacts.push(Contact { name: "all".into(), partners: Partners::Bodies(vec![]), interface, ..Contact::default() });
+    };
+    told(&pushed, "pushed out one by one");
     let spun = |model: &mut Model| {
         model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], point: [0.0; 3], parts: vec![] });
         model.constraints.push(Constraint { on: "strip.start".into(), spin: [None, None, Some(1.0.into())], ..Constraint::default() });

@@ -7,8 +7,8 @@ use embate_solver::element::{ELEMENTS, ElementKind};
 use embate_solver::failure;
 use embate_solver::material;
 use embate_solver::model::{
-    Contact, ContactLaw, Disk, Formulation, Friction, Interface, Load, Material, Model, Motion, Obstacle, ObstacleShape, Part, Partners,
-    Penalty, PenaltySource, Placement, Rectangle, Ring, Run, Shape, Trapezoid,
+    CircularArc, Contact, ContactLaw, Disk, Formulation, Friction, GAUSS, Interface, LOBATTO, Line, Load, Material, Model, Motion,
+    Obstacle, ObstacleShape, Part, Partners, Penalty, PenaltySource, Placement, Rectangle, Ring, Run, Shape, ShellSection, Trapezoid,
 };
 use embate_solver::quantity::Dimension;
 use embate_solver::stress_state::STRESS_STATES;
@@ -101,6 +101,41 @@ pub(crate) fn model(seed: u64) -> Model {
     let viscosity = if dice.chance(0.3) { [0.06, 1.2] } else { [0.0; 2] };
     model.run = Run { end: 4.0 * CELL / speed, max_steps: Some(dice.whole(200, 3000) as u64), bulk_viscosity: viscosity, ..Run::default() };
     model
+}
+
+/// Makes shells of most bodies of a model.
+pub(crate) fn thin(seed: u64, model: &mut Model) {
+    let dice = &mut Dice::new(seed ^ 0x5ce1_1e55);
+    for part in &mut model.parts {
+        // Axisymmetric bodies have no point that they are turned about.
+        if dice.chance(0.25) || part.stress_state == "axisymmetric" {
+            continue;
+        }
+        let [x, y, _] = part.placement.rotation_point;
+        let half = 0.5 * BODY * dice.number(0.2, 0.9);
+        let elements = dice.whole(1, 30);
+        part.shape = match dice.whole(0, 2) {
+            0 => Line { points: vec![[x - half, y], [x + half, y + 0.3 * half]], radius: 0.0, closed: false, elements }.into(),
+            1 => {
+                let points = vec![[x - half, y], [x, y + half * dice.number(-1.0, 1.0)], [x + half, y], [x, y - half]];
+                let closed = dice.chance(0.5);
+                Line { points, radius: 0.0, closed, elements: elements.max(4) }.into()
+            }
+            _ => {
+                let to = if dice.chance(0.6) { std::f64::consts::TAU } else { dice.number(0.5, 6.0) };
+                CircularArc { centre: [x, y], radius: half, to, elements: elements.max(3), ..CircularArc::default() }.into()
+            }
+        };
+        let rule = if dice.chance(0.3) { LOBATTO } else { GAUSS };
+        let section = ShellSection {
+            thickness: half * dice.order(0.004, 0.3),
+            points: dice.whole(3, 7),
+            rule: rule.into(),
+            failed_points: dice.number(0.1, 1.0),
+            ..ShellSection::default()
+        };
+        (part.element, part.section) = ("shell2".into(), Some(section));
+    }
 }
 
 /// Names of the elements with so many nodes.

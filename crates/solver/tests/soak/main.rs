@@ -9,7 +9,8 @@
 //! (`EMBATE_BLESS=1`, `--count 400`). What is found is reported with the number of the model. In 3D, where
 //! all bodies meet in `double_pass`, elements say whether nodes of one body are deep in another one
 //! (`inside.rs`): a run that does not say so is a finding. With `--heavy 1` every second material is 36 times
-//! as heavy, and with `--subcycling 1` all models run with subcycling, too: of both nothing is known before.
+//! as heavy, with `--subcycling 1` all models run with subcycling, too, and with `--shells 1` most bodies of
+//! models in 2D are shells: of these nothing is known before.
 //!
 //! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of
 //! springs that are stiff against theirs, or of elements that collapse within a few. Those are counted. The
@@ -61,6 +62,14 @@ fn known(table: &str) -> BTreeMap<u64, String> {
 struct Change {
     heavy: bool,
     subcycling: bool,
+    shells: bool,
+}
+
+impl Change {
+    /// Whether nothing is known of such models.
+    fn is_new(self) -> bool {
+        self.heavy || self.shells
+    }
 }
 
 /// How one model ended.
@@ -80,7 +89,8 @@ fn main() {
             ("--count", Some(value)) => count = value as u64,
             ("--dimension", Some(value)) => dimension = value as u64,
             ("--heavy", Some(value)) => change.heavy = value > 0.0,
-            ("--subcycling", Some(value)) => change = Change { heavy: value > 0.0, subcycling: value > 0.0 },
+            ("--subcycling", Some(value)) => (change.heavy, change.subcycling) = (value > 0.0, value > 0.0),
+            ("--shells", Some(value)) => change.shells = value > 0.0,
             // Those of the test runner.
             _ => {}
         }
@@ -89,7 +99,7 @@ fn main() {
     let begin = Instant::now();
     let (mut ends, mut found) = (BTreeMap::<String, u64>::new(), Vec::new());
     let (mut steps, mut longer, mut warm, mut done, mut drifting, mut stepping) = (0, 0, 0, 0, 0u64, 0u64);
-    let (mut hashes, drifts) = if change.heavy { Default::default() } else { (known(HASHES), known(DRIFTS)) };
+    let (mut hashes, drifts) = if change.is_new() { Default::default() } else { (known(HASHES), known(DRIFTS)) };
     std::panic::set_hook(Box::new(|_| {}));
     let numbers = (first..u64::MAX).filter(|seed| dimension == 0 || dimension == dimension_of(*seed));
     for seed in numbers.take(count.try_into().unwrap_or(usize::MAX)) {
@@ -144,7 +154,7 @@ fn main() {
     for (end, count) in &ends {
         println!("  {count:>6} {end}");
     }
-    if is_blessed() && !change.heavy {
+    if is_blessed() && !change.is_new() {
         // Those of models that did not run stay.
         let lines: String = hashes.iter().map(|(seed, hash)| format!("{seed} {hash}\n")).collect();
         std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/soak/hashes.txt"), lines).expect("the table can be written");
@@ -179,6 +189,9 @@ struct Drift {
 fn run(seed: u64, change: Change, [steps, longer]: [&mut u64; 2], hashes: &mut BTreeMap<u64, String>) -> (End, Option<Drift>, Vec<String>) {
     let mut model = model(seed);
     model.run.subcycling = change.subcycling;
+    if change.shells && dimension_of(seed) == 2 {
+        generator::thin(seed, &mut model);
+    }
     if change.heavy {
         let heavy = model.materials.values_mut().skip(1).step_by(2);
         heavy.filter_map(|material| material.parameters.get_mut("density")).for_each(|density| *density *= 36.0);

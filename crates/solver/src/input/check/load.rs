@@ -4,6 +4,7 @@ use super::Check;
 use crate::load::messages::{FORCE_ON_PART, NO_EFFECT, RIGID, TO_ITSELF};
 use crate::material;
 use crate::material::messages::NO_STIFFNESS;
+use crate::mesh::messages::SHELLS;
 use crate::model::messages::{OF_REVOLUTION, TWICE};
 use crate::model::reference::{Reference, Wanted};
 use crate::model::{Drive, Image, Load};
@@ -104,11 +105,15 @@ impl Check<'_> {
         let model = self.model;
         for (index, boundary) in model.non_reflecting.iter().enumerate() {
             let path = format!("non_reflecting[{index}].on");
-            if let Some(Reference::Part(part) | Reference::Side { part, .. }) = self.reference(&path, &boundary.on, Wanted::Surface)
-                && model.parts[part].rigid.is_some()
-            {
-                let message = format!("part `{}` is rigid, so no waves meet this boundary", excerpt(&model.parts[part].name));
-                self.fault(&RIGID, path.as_str(), message, "name a surface of a part that deforms");
+            if let Some(Reference::Part(part) | Reference::Side { part, .. }) = self.reference(&path, &boundary.on, Wanted::Surface) {
+                let part = &model.parts[part];
+                if part.rigid.is_some() {
+                    let message = format!("part `{}` is rigid, so no waves meet this boundary", excerpt(&part.name));
+                    self.fault(&RIGID, path.as_str(), message, "name a surface of a part that deforms");
+                } else if part.is_of_shells() {
+                    let message = format!("part `{}` is a shell: no waves come through its faces", excerpt(&part.name));
+                    self.fault(&SHELLS, path.as_str(), message, "name a surface of solids");
+                }
             }
             if let Some(first) = model.non_reflecting[..index].iter().position(|it| it.on == boundary.on) {
                 let message = format!("`{}` reflects nothing by non_reflecting[{first}] already", excerpt(&boundary.on));

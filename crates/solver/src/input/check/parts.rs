@@ -207,7 +207,11 @@ impl Check<'_> {
             let help = "leave it out; bring it about by loads in the first part of the run";
             self.fault(&SHELLS, format!("{path}.stress_initial"), "shells begin without stress", help);
         }
-        if self.model.run.stable_step != StableStep::Elements {
+        if part.hourglass.is_some() {
+            self.fault(&SHELLS, format!("{path}.hourglass"), "these shells have no hourglass control", "leave it out");
+        }
+        let is_first = self.model.parts.iter().find(|part| part.is_of_shells()).is_some_and(|first| first.name == part.name);
+        if is_first && self.model.run.stable_step != StableStep::Elements {
             let message = "this bound of the stable step knows no rotations, but the model has shells";
             self.fault(&SHELLS, "run.stable_step", message, "leave it out: shells have the step of their membrane");
         }

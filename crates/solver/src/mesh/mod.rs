@@ -435,8 +435,8 @@ where
         faults
     }
 
-    /// Nodes of a part, a `part.side` or a group, ascending; of the face of a shell those of its middle, which
-    /// lead it. `None` when there is no such name.
+    /// Nodes of a part, a `part.side` or a group, ascending; of the face of a shell those of its middle,
+    /// which lead it. `None` when there is no such name.
     #[must_use]
     pub fn nodes(&self, name: &str) -> Option<Vec<u32>> {
         if let Some(part) = self.parts.iter().find(|part| part.name == name) {

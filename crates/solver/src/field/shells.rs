@@ -28,12 +28,6 @@ pub(super) fn fields() -> Vec<Description> {
             "transverse force of a shell by width",
             of_cells(|cell, values| values[0] = cell.state.shell[6]),
         ),
-        field(
-            "thickness",
-            Components::Scalar,
-            "m",
-            "thickness of a shell",
-            of_cells(|cell, values| values[0] = cell.state.shell[8]),
-        ),
+        field("thickness", Components::Scalar, "m", "thickness of a shell", of_cells(|cell, values| values[0] = cell.state.shell[8])),
     ]
 }

@@ -1,8 +1,8 @@
 //! An arc: the middle of a round shell.
 
+use super::numbers::{cos_sin, quarters};
 use super::ring::Ring;
 use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Steps, Values, Wrong, chain, shape_key};
-use super::numbers::{cos_sin, quarters};
 use crate::mesh::cell::CellKind;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
@@ -50,7 +50,12 @@ static SECTION: Section = Section {
             "Angle at which it ends: more than `from`, by at most a full turn.",
         ),
         key(ELEMENTS, Integer(1), Required, "Elements along it."),
-        key("grading", Quantity(Dimension::NONE, Positive), Written("1"), "Length of the last element over that of the first; the lengths in between grow by a constant factor."),
+        key(
+            "grading",
+            Quantity(Dimension::NONE, Positive),
+            Written("1"),
+            "Length of the last element over that of the first; the lengths in between grow by a constant factor.",
+        ),
     ],
     ..Section::EMPTY
 };
@@ -82,7 +87,11 @@ impl BuiltIn<2> for CircularArc {
         check.counts(ELEMENTS, &[self.elements]);
         self.ring().check_angles(check);
         if self.ring().is_closed() && self.grading != 1.0 {
-            check.fault("grading", format!("a closed arc can't be graded, but grading is {}", self.grading), "let it be 1, or make two arcs");
+            check.fault(
+                "grading",
+                format!("a closed arc can't be graded, but grading is {}", self.grading),
+                "let it be 1, or make two arcs",
+            );
         }
     }
 

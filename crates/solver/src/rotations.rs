@@ -40,6 +40,12 @@ impl Rotations {
         self.nodes.binary_search(&node).ok()
     }
 
+    /// Spin of a node, rad/s; zero where it has no rotation.
+    #[must_use]
+    pub fn spin(&self, node: u32) -> [f64; 3] {
+        self.place(node).map_or([0.0; 3], |place| self.spins[place])
+    }
+
     /// Whether no node rotates.
     #[must_use]
     pub fn is_empty(&self) -> bool {

@@ -31,14 +31,15 @@ impl<const D: usize> Skins<D>
 where
     Dim<D>: Meshed<D> + Rotate<D> + RotatedArm<D>,
 {
-    /// Those of a mesh; `is_led` says of which nodes a rigid body leads.
+    /// Those of a mesh; `is_led` says which nodes of the middle a rigid body leads, and their faces with
+    /// them.
     pub(crate) fn new(mesh: &Mesh<D>, rotations: &Rotations, is_led: impl Fn(u32) -> bool) -> Self {
         let first = mesh.first_skin_node();
-        let place = |(node, skin): (u32, &SkinNode<D>)| match rotations.place(skin.owner) {
-            Some(place) if !is_led(node) => place as u32,
+        let place = |skin: &SkinNode<D>| match rotations.place(skin.owner) {
+            Some(place) if !is_led(skin.owner) => place as u32,
             _ => u32::MAX,
         };
-        let places = (first as u32..).zip(&mesh.skins).map(place).collect();
+        let places = mesh.skins.iter().map(place).collect();
         Self { first, nodes: mesh.skins.clone(), places }
     }
 

@@ -494,7 +494,7 @@ where
 
     /// Finds the nodes on the faces of shells, which their middles lead.
     pub(crate) fn find_skins(&mut self) {
-        self.skins = Skins::new(&self.mesh, &self.rotations.now, |node| self.bodies.of_node(node).is_some());
+        self.skins = Skins::new(&self.mesh, &self.rotations.now, |owner| self.bodies.of_node(owner).is_some());
         if self.skins.is_empty() {
             return;
         }

@@ -118,6 +118,8 @@ where
 impl Builder<'_, 2> {
     pub(crate) fn rigid_part(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<2> {
         let (mesh, part, positions) = (&self.mesh.parts[index], &self.model.parts[index], &self.mesh.positions);
+        let nodes: Vec<u32> = own.iter().map(|&(node, _)| node).collect();
+        let faces = self.mesh.faces_of(&nodes);
         // The whole mass of the nodes: that of other parts at common nodes belongs to the body.
         let whole: Vec<(u32, f64)> = own.iter().map(|&(node, _)| (node, self.mass[node as usize])).collect();
         let bulk = Bulk::of(&whole, positions);
@@ -130,7 +132,7 @@ impl Builder<'_, 2> {
             mass: std::array::from_fn(|k| if drives[k].is_none() { masses[k] } else { 0.0 }),
             drives,
             of_elements: true,
-            members: mesh.with_faces().map(|node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
+            members: mesh.nodes.iter().copied().chain(faces).map(|node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
             shared: own.iter().filter(|&&(node, share)| self.mass[node as usize] != share).map(|&(node, _)| node).collect(),
             ..Body::default()
         }

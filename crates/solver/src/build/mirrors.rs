@@ -7,6 +7,7 @@ use crate::contact::mirror::{Mirror, Mirrored, MirroredNode};
 use crate::contact::springs::{Tangential, Terms};
 use crate::contact::tracker::SKIN;
 use crate::contact::{Formulation, Tributary};
+use crate::mesh::PartMesh;
 use crate::model::{ContactLaw, Interface, Partners};
 use crate::tensor::Dim;
 use crate::vector::{dot, first, minus, unit};
@@ -24,7 +25,7 @@ where
             let (normal, point) = (unit(first(symmetry.normal))?, first(symmetry.point));
             let parts = self.mesh.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-            for &node in parts.flat_map(|part| &part.nodes) {
+            for node in parts.flat_map(PartMesh::with_faces) {
                 let distance = dot(minus(self.mesh.positions[node as usize], point), normal);
                 (low, high) = (low.min(distance), high.max(distance));
             }
@@ -47,7 +48,7 @@ where
             let held = &self.model.symmetries[number].parts;
             let mut is_held = vec![held.is_empty(); self.mesh.positions.len()];
             for part in self.mesh.parts.iter().filter(|part| held.contains(&part.name)) {
-                part.nodes.iter().for_each(|&node| is_held[node as usize] = true);
+                part.with_faces().for_each(|node| is_held[node as usize] = true);
             }
             let free: Vec<MirroredNode> = nodes
                 .iter()

@@ -22,7 +22,7 @@ impl Builder<'_, 3> {
             turning: Turning::of_masses(whole.iter().map(|&(node, mass)| (mass, bulk.arm(positions[node as usize])))),
             drives,
             of_elements: true,
-            members: self.mesh.parts[index].with_faces().map(|node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
+            members: self.mesh.parts[index].nodes.iter().map(|&node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
             shared: own.iter().filter(|&&(node, share)| self.mass[node as usize] != share).map(|&(node, _)| node).collect(),
             ..Body::default()
         }

@@ -29,6 +29,7 @@ use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::masses::PartMasses;
 use crate::material::messages::INITIAL_STATE;
 use crate::mesh::ElementGroup;
+use crate::mesh::messages::SHELLS;
 use crate::mesh::surface::Surface;
 use crate::mesh::surface::tributary::Depth;
 use crate::model::messages::UNKNOWN_NAME;
@@ -159,6 +160,7 @@ where
     pub(super) fn conditions(&mut self, elements: &Elements<D>) -> Result<Conditions<D>, Vec<Fault>> {
         let springs = self.springs().map(|springs| Box::new(springs) as Box<dyn Block<D>>);
         let (forces, boundary) = self.loads();
+        self.check_moments(&elements.blocks);
         let contacts = self.contacts_and_obstacles();
         let contacts = self.sound(contacts)?;
         self.bodies.weigh(&elements.body_forces, &self.mass);
@@ -276,6 +278,24 @@ where
         system.load_rotations(model);
         system.find_skins();
         system
+    }
+
+    /// A moment needs nodes that rotate.
+    fn check_moments(&mut self, blocks: &[Box<dyn Block<D>>]) {
+        let moments = |load: &&model::Load| matches!(load, model::Load::Moment { .. });
+        if !self.model.loads.iter().any(|load| moments(&load)) {
+            return;
+        }
+        let mut rotating: Vec<u32> = blocks.iter().flat_map(|block| block.rotating_nodes()).map(|(node, _)| node).collect();
+        rotating.sort_unstable();
+        for (i, load) in self.model.loads.iter().enumerate() {
+            let model::Load::Moment { on, .. } = load else { continue };
+            let rotates = |node: &u32| rotating.binary_search(node).is_ok() && self.bodies.of_node(*node).is_none();
+            if !self.mesh.nodes(on).is_some_and(|nodes| nodes.iter().any(rotates)) {
+                let message = format!("no node of \"{on}\" can rotate by itself");
+                self.faults.push(Fault::new(&SHELLS, format!("load[{i}].on"), message, "name a set of nodes of shells that deform"));
+            }
+        }
     }
 
     /// A block for each group of elements.

@@ -208,6 +208,7 @@ where
         Ok(surface) if !surface.facets().is_empty() => {
             for &facet in surface.facets() {
                 for (node, part) in tributary::shares(depth, facet, &mesh.positions) {
+                    let node = mesh.leader_of(node);
                     if let Ok(at) = shares.binary_search_by_key(&node, |&(node, _)| node) {
                         shares[at].1 += part;
                     }

@@ -193,6 +193,8 @@ where
     pub revision: u32,
     /// Nodes on the faces of shells: the last ones of all.
     pub skins: Vec<SkinNode<D>>,
+    /// Nodes where three or more elements of shells meet, ascending, and how many.
+    pub(super) joints: Vec<(u32, u32)>,
     /// Of each group of shells the directions of the nodes of each element: tangents in 2D, normals in 3D.
     pub directions: Vec<Vec<[f64; D]>>,
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are
@@ -252,7 +254,8 @@ where
         mesh.imported = imported;
         mesh.reorder(|part| model.parts[part].is_of_shells());
         Dim::<D>::add_skins(&mut mesh, model);
-        Ok(mesh)
+        mesh.check_thickness(&mut faults);
+        if faults.is_empty() { Ok(mesh) } else { Err(faults) }
     }
 
     fn add_shape(&mut self, part: &Part, faults: &mut Vec<Fault>) {
@@ -435,6 +438,19 @@ where
         faults
     }
 
+    /// Of a node on the face of a shell that of the middle which leads it; others lead themselves.
+    #[must_use]
+    pub fn leader_of(&self, node: u32) -> u32 {
+        let own = (node as usize).checked_sub(self.first_skin_node());
+        own.and_then(|own| self.skins.get(own)).map_or(node, |skin| skin.owner)
+    }
+
+    /// Nodes on faces that these nodes (ascending) lead.
+    pub(crate) fn faces_of<'a>(&'a self, nodes: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+        let all = (self.first_skin_node() as u32..).zip(&self.skins);
+        all.filter(|(_, skin)| nodes.binary_search(&skin.owner).is_ok()).map(|(node, _)| node)
+    }
+
     /// Nodes of a part, a `part.side` or a group, ascending; of the face of a shell those of its middle,
     /// which lead it. `None` when there is no such name.
     #[must_use]
@@ -443,9 +459,7 @@ where
             return Some(sorted(part.nodes.iter().copied()));
         }
         if let Some(facets) = self.sides.get(name) {
-            let first = self.first_skin_node();
-            let leader = |&node: &u32| (node as usize).checked_sub(first).map_or(node, |own| self.skins[own].owner);
-            return Some(sorted(facets.iter().flat_map(Corners::corners).map(leader)));
+            return Some(sorted(facets.iter().flat_map(Corners::corners).map(|&node| self.leader_of(node))));
         }
         self.points.get(name).cloned()
     }
@@ -493,7 +507,9 @@ where
     /// # Errors
     /// As [`Mesh::outside`].
     pub fn outside_without(&self, parts: &[String], leave_out: impl Fn(Facet<D>) -> bool) -> Result<Surface<D>, Fault> {
-        Dim::<D>::outside_without(self.cells(parts), leave_out)
+        let joints = self.whole_joints();
+        // In order: who is asked may count.
+        Dim::<D>::outside_without(self.cells(parts), |facet| leave_out(facet) | self.is_within_joint(facet, &joints))
     }
 
     /// Surface of a part (its whole outside), a `part.side` or a group of lines (in 3D of surfaces),

@@ -42,7 +42,7 @@ where
     Dim<D>: Meshed<D>,
 {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { positions, parts, groups, user_nodes, imported, revision, skins, directions, outlines, sides, points } = self;
+        let Self { positions, parts, groups, user_nodes, imported, revision, skins, joints, directions, outlines, sides, points } = self;
         persist_points(positions, archive)?;
         persist_each!(archive; parts, groups, user_nodes, imported, revision, outlines, sides, points);
         let mut owners: Vec<u32> = skins.iter().map(|skin| skin.owner).collect();
@@ -50,6 +50,7 @@ where
         owners.persist(archive)?;
         persist_points(&mut arms, archive)?;
         *skins = owners.into_iter().zip(arms).map(|(owner, arm)| SkinNode { owner, arm }).collect();
+        joints.persist(archive)?;
         let mut count = directions.len();
         count.persist(archive)?;
         archive.check(count <= groups.len(), "more groups of shells than groups")?;

@@ -8,8 +8,10 @@
 //! of them knows of shells.
 
 use super::cell::CellKind;
-use super::surface::Corners;
+use super::messages::SHELLS;
+use super::surface::{Corners, Facet};
 use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh};
+use crate::error::Fault;
 use crate::model::{Model, Symmetry};
 use crate::vector::{dot, first, minus, plus, times, unit};
 use std::collections::BTreeMap;
@@ -74,6 +76,45 @@ where
         self.positions.len() - self.skins.len()
     }
 
+    /// Shells that are too thick where they are bent: one face folds over.
+    pub(super) fn check_thickness(&self, faults: &mut Vec<Fault>) {
+        let shells = self.groups.iter().filter(|group| !group.outer.is_empty());
+        for (part, group) in shells.map(|group| (group.part, group)) {
+            let folded = group.outer_cells().position(|cell| self.what_is_wrong_with(cell).is_some());
+            if let Some(element) = folded.filter(|_| faults.iter().all(|fault| fault.path != format!("part[{part}].section.thickness"))) {
+                let at = crate::vector::place(self.positions[group.nodes_of(element)[0] as usize]);
+                let message = format!("the shell is too thick for its bend or fold at {at} m: one of its faces folds over there");
+                let help = "take a smaller thickness, a larger radius, or elements longer than half of the thickness at folds";
+                faults.push(Fault::new(&SHELLS, format!("part[{part}].section.thickness"), message, help));
+            }
+        }
+    }
+
+    /// Nodes where three or more elements of shells meet and all are there.
+    pub(super) fn whole_joints(&self) -> Vec<u32> {
+        let mut left: Vec<(u32, u32)> = self.joints.clone();
+        if left.is_empty() {
+            return Vec::new();
+        }
+        let shells = self.groups.iter().filter(|group| !group.outer.is_empty());
+        for node in shells.flat_map(ElementGroup::live_cells).flat_map(|cell| cell.nodes) {
+            if let Ok(at) = left.binary_search_by_key(node, |joint| joint.0) {
+                left[at].1 -= 1;
+            }
+        }
+        left.into_iter().filter(|joint| joint.1 == 0).map(|joint| joint.0).collect()
+    }
+
+    /// Whether a piece of the outside bounds the hole between the faces of three or more elements at one of
+    /// these nodes: nothing comes there.
+    pub(super) fn is_within_joint(&self, facet: Facet<D>, joints: &[u32]) -> bool {
+        let first = self.first_skin_node();
+        let owner = |&node: &u32| self.skins.get((node as usize).checked_sub(first)?).map(|skin| skin.owner);
+        let mut owners = facet.corners().iter().map(owner);
+        let Some(Some(one)) = owners.next() else { return false };
+        joints.binary_search(&one).is_ok() && owners.all(|owner| owner == Some(one))
+    }
+
     /// Adds a node of a face.
     fn add_skin_node(&mut self, owner: u32, arm: [f64; D]) -> u32 {
         self.positions.push(plus(self.positions[owner as usize], arm));
@@ -114,6 +155,10 @@ impl Mesh<2> {
                 .filter(|image| spokes.iter().all(|spoke| dot(spoke.away, image.away) < 1.0 - 1e-12))
                 .collect();
             spokes.extend(images);
+            let own = spokes.iter().filter(|spoke| !spoke.is_image).count();
+            if own > 2 {
+                self.joints.push((node, own as u32));
+            }
             self.direct(model, &spokes);
             self.surround(model, node, spokes);
         }
@@ -215,19 +260,49 @@ impl Mesh<2> {
             let right: Vec<[u32; 2]> = cells().map(|&[a, b, ..]| [b, a].canonical()).collect();
             let left: Vec<[u32; 2]> = cells().map(|&[.., c, d]| [d, c].canonical()).collect();
             let nodes = super::sorted(cells().flatten().copied());
-            self.sides.insert(format!("{}.{}", part.name, LEFT), left);
-            self.sides.insert(format!("{}.{}", part.name, RIGHT), right);
+            for (face, facets) in FACES.into_iter().zip([left, right]) {
+                self.sides.insert(format!("{}.{face}", part.name), facets);
+            }
             self.parts[index].faces = nodes;
         }
     }
 }
 
-/// Names of the faces of who walks along a line.
-const LEFT: &str = "left";
-const RIGHT: &str = "right";
+/// Names of the faces, of who walks along a line.
+pub(super) const FACES: [&str; 2] = ["left", "right"];
 
 /// The image of an element beyond a symmetry line.
 fn mirrored(spoke: &Spoke, normal: [f64; 2]) -> Spoke {
     let away = minus(spoke.away, times(2.0 * dot(spoke.away, normal), normal));
     Spoke { away, is_image: true, ..*spoke }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shapes::Truss;
+    use crate::mesh::surface::Sided;
+    use crate::model::{Part, Shape, ShellSection};
+
+    #[test]
+    fn the_hole_where_three_shells_meet_is_outside_only_when_one_is_gone() {
+        let lines = vec![vec![[-0.5, 0.0], [0.0, 0.0], [0.5, 0.0]], vec![[0.0, 0.0], [0.0, 0.5]]];
+        let part = Part {
+            name: "tee".into(),
+            shape: Shape::Truss(Truss { lines, elements: 5 }),
+            element: "shell2".into(),
+            section: Some(ShellSection { thickness: 0.02, ..ShellSection::default() }),
+            ..Part::default()
+        };
+        let mut mesh = Mesh::<2>::new(&Model { parts: vec![part], ..Model::default() }).unwrap();
+        let count = |mesh: &Mesh<2>| mesh.outside_without(&[], |_| false).unwrap().facets().len();
+        // Two faces of each of 15 elements, three ends.
+        assert_eq!((mesh.joints.len(), count(&mesh)), (1, 33));
+        let joint = mesh.joints[0].0;
+        let group = &mut mesh.groups[0];
+        let element = (0..15).find(|&element| group.nodes_of(element).contains(&joint)).unwrap();
+        group.erode(element);
+        // Its two faces are gone; the end of the next one and the hole's edges of the other two show.
+        assert_eq!(count(&mesh), 33 - 2 + 1 + 2);
+    }
 }

@@ -191,6 +191,9 @@ where
                 for d in 0..D {
                     work += force[d] * (x[d] - x_old[d]);
                 }
+                if let Some(moment) = self.rotations.slots[moments.clone()].get(element as usize * group.kind.nodes() + corner) {
+                    work += self.time_step_old * crate::vector::dot(*moment, self.rotations.now.spin(node));
+                }
             }
             if work.is_finite() {
                 erosion.energy += 0.5 * work;
@@ -219,6 +222,10 @@ where
 
     /// Lets contacts, traces and loads see the surfaces that are left.
     fn rebuild_surfaces(&mut self, erosion: &mut Erosion<D>) {
+        if self.rotations.has_loads() {
+            let has_elements = self.has_elements();
+            self.rotations.renew_loads(|node| has_elements[node as usize]);
+        }
         if !self.forces.is_empty() {
             let has_elements = self.has_elements();
             let cells = self.mesh.groups.iter().filter(|group| group.is_body(D)).flat_map(|group| group.live_outer_cells());

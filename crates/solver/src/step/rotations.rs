@@ -195,6 +195,17 @@ impl NodalRotations {
         !self.loads.is_empty() || self.groups.iter().any(|group| group.held.is_some())
     }
 
+    /// Whether moments of loads act.
+    pub(super) fn has_loads(&self) -> bool {
+        !self.loads.is_empty()
+    }
+
+    /// Leaves nodes without elements alone.
+    pub(super) fn renew_loads(&mut self, has_elements: impl Fn(u32) -> bool) {
+        let nodes = &self.now.nodes;
+        self.loads.iter_mut().for_each(|load| load.places.retain(|&place| has_elements(nodes[place])));
+    }
+
     /// Moments of loads now, to add to.
     pub(super) fn loads_now(&mut self) -> &mut [[f64; 3]] {
         self.now_loads.resize(self.inertia.len(), [0.0; 3]);

@@ -8,7 +8,7 @@ use embate_solver::block::{Block, BlockInput, Motion, NodalForces, Report, evalu
 use embate_solver::material::variable::PLASTIC_STRAIN;
 use embate_solver::model::{
     CircularArc, Constraint, Contact, Curve, CurveShape, Image, InitialPenetration, Interface, Join, Line, Load, Material, Model,
-    NonReflecting, Obstacle, Partners, PointMass, Probe, ProbeAt, Shape, ShellSection, Spring, Symmetry,
+    NonReflecting, Obstacle, Partners, PointMass, Probe, ProbeAt, Shape, ShellSection, Spring, Symmetry, Truss,
 };
 use embate_solver::rotations::Rotations;
 use std::f64::consts::{PI, TAU};
@@ -619,6 +619,41 @@ fn what_is_said_of_a_face_holds_for_the_middle() {
     let summary = simulation.summary();
     assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-3);
     assert!(value(&simulation, "strip.vy") > 1e-4, "{}", value(&simulation, "strip.vy"));
+    // A force on a face moves the whole: v = F t/m.
+    let mut pulled = thrown();
+    pulled.loads.push(Load::Force { on: "strip.left".into(), force: [0.0, 156.0, 0.0], curve: None });
+    let velocity = value(&to_end(&pulled), "strip.vy");
+    assert!((velocity / (156.0 * 1e-4 / (0.1 * 0.002 * 7800.0)) - 1.0).abs() < 1e-2, "{velocity}");
+}
+
+#[test]
+fn a_rigid_sheet_carries_its_faces_along() {
+    // Momentum of a sheet that is thrown at a rigid one, both free: no face stays behind.
+    let mut model = steel(4e-4);
+    steel_strip(&mut model, "lower", [[0.0, 0.0], [0.1, 0.0]], 0.002, 10, [0.0, 0.0]);
+    model.parts[0].rigid = Some(embate_solver::model::Motion::default());
+    steel_strip(&mut model, "upper", [[0.0, 0.003], [0.1, 0.003]], 0.002, 10, [0.0, -10.0]);
+    all_touch(&mut model, None);
+    let simulation = to_end(&model);
+    let (lower, upper) = (value(&simulation, "lower.vy"), value(&simulation, "upper.vy"));
+    assert!((lower + upper + 10.0).abs() < 1e-9 && lower < -5.0 && upper > lower, "{lower} {upper}");
+    let y = value(&simulation, "upper.y") - value(&simulation, "lower.y");
+    assert!(y > 0.0019, "{y}");
+}
+
+#[test]
+fn three_sheets_at_one_line_have_an_outside_without_a_hole() {
+    // A foot stands on a sheet; a third one comes from the side in which no sheet leaves the joint.
+    let mut model = steel(2e-4);
+    let lines = vec![vec![[-0.05, 0.0], [0.0, 0.0], [0.05, 0.0]], vec![[0.0, 0.0], [0.0, 0.05]]];
+    shells(&mut model, "foot", Shape::Truss(Truss { lines, elements: 5 }), 0.002, "plane_strain");
+    steel_strip(&mut model, "thrown", [[-0.03, -0.003], [0.03, -0.003]], 0.002, 6, [0.0, 20.0]);
+    all_touch(&mut model, None);
+    let (simulation, history) = run(&model);
+    let summary = simulation.summary();
+    assert!(history.last("energy.total").is_finite() && summary.energy_drift < 5e-3, "{:e}", summary.energy_drift);
+    assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.ledger_residual < 1e-12);
+    assert!(value(&simulation, "foot.vy") > 1.0, "{}", value(&simulation, "foot.vy"));
 }
 
 #[test]
@@ -648,6 +683,16 @@ fn models_of_shells_that_make_no_sense_are_told_what_is_wrong() {
         model.loads.push(Load::Moment { on: "block.left".into(), moment: [0.0, 0.0, 1.0], curve: None });
     };
     told(&on_solid, "no rotations");
+    let on_rigid = |model: &mut Model| {
+        model.parts[0].rigid = Some(embate_solver::model::Motion::default());
+        model.loads.push(Load::Moment { on: "strip.end".into(), moment: [0.0, 0.0, 1.0], curve: None });
+    };
+    told(&on_rigid, "rigid");
+    let too_thick = |model: &mut Model| {
+        model.parts[0].shape = CircularArc { radius: 0.01, elements: 20, ..CircularArc::default() }.into();
+        model.parts[0].section = Some(section(0.025));
+    };
+    told(&too_thick, "too thick for its bend");
     let quiet = |model: &mut Model| model.non_reflecting.push(NonReflecting { on: "strip.left".into() });
     told(&quiet, "no waves come through its faces");
     told(&|model| model.parts[0].hourglass = Some(0.1), "no hourglass control");

@@ -9,13 +9,14 @@
 //! l = t̂·(x₂ − x₁),   s = n̂·(x₂ − x₁),   layers at z are l_z = l − z δ long: a stack of bars
 //! Δε_xx = 2 (l_z − l_z,old)/(l_z + l_z,old),   2 Δε_xy = √k 2 (s − s_old)/(l + l_old),   k = 5/6
 //! of revolution Δε_zz = 2 (r_z − r_z,old)/(r_z + r_z,old),   r_z = ½ (x₁ + x₂) − z ½ (sin φ₁ + sin φ₂)
-//! N = Σ σ_xx A,   M = −Σ σ_xx A z,   Q = √k Σ σ_xy A
+//! N = Σ σ_xx A,   M = −Σ σ_xx A z,   Q = √k Σ σ_xy A l_z/l
 //! ```
 //!
 //! δ itself, not its chord, so that the roll-up of a strip is exact with any number of elements. The work N
 //! dl + Q ds + M dδ makes the force −(N t̂ + Q n̂) on the second node, its opposite on the first, and the
-//! moments −½ (N s − Q l) ∓ M: both momenta are kept to round-off. The hoop stress pulls inwards with ½ Σ
-//! σ_zz A/r l_z, and with moments. Stress is kept along t̂ and n̂, so nothing has to be rotated.
+//! moments −½ (N s − Q l) ± M on the first and the second: both momenta are kept to round-off. The hoop
+//! stress pulls inwards with ½ Σ σ_zz A/r l_z, and with moments. Stress is kept along t̂ and n̂, so nothing
+//! has to be rotated.
 //!
 //! Of laws in rate form heights z follow the thickness; hyperelastic ones keep those of the start, so that
 //! forces are the gradient of the energy.
@@ -44,14 +45,14 @@ use std::f64::consts::{PI, TAU};
 const SHEAR: f64 = 5.0 / 6.0;
 
 /// Places in the state: φ̄, δ, l, s at the start; R̄ and the mean of the normals' x there; then l, s, δ, r̄
-/// and the mean of the normals' x now, cos φ̄, sin φ̄, cos φ₁, cos φ₂, and what was before.
+/// and the mean of the normals' x now, cos φ̄, sin φ̄, cos φ₁, cos φ₂.
 const MEAN: usize = 0;
 const BEND: usize = 1;
 const LENGTH: usize = 2;
 const SLIDE: usize = 3;
 const RADIUS: usize = 4;
 const LEAN: usize = 5;
-/// The same five, now and before.
+/// The last five, now.
 const NOW: usize = 6;
 const AXES: usize = 11;
 const STATE: usize = 15;
@@ -312,7 +313,7 @@ impl ShellKernel<2> for Line {
     #[inline(always)]
     fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L> {
         let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
-        let now = Shape::<L>::load(state, NOW, at);
+        let (now, begin) = (Shape::<L>::load(state, NOW, at), Shape::<L>::start(state, at));
         let (cos, sin) = (L::load(&state[AXES], at), L::load(&state[AXES + 1], at));
         let (cos_one, cos_two) = (L::load(&state[AXES + 2], at), L::load(&state[AXES + 3], at));
         let initial = L::load(layers.thickness, at);
@@ -338,7 +339,9 @@ impl ShellKernel<2> for Line {
             let pull = xx * area;
             normal += pull;
             moment += -(pull * z);
-            transverse += xy * area;
+            // As the strain counts in it: by the length of the layer over that of the middle.
+            let part = if is_rate { length / now.length } else { begin.layer(z) / begin.length };
+            transverse += xy * area * part;
             if facts.is_axisymmetric {
                 let own = zz * plate * L::splat(TAU) * length;
                 hoop += own;
@@ -367,7 +370,7 @@ impl ShellKernel<2> for Line {
             all[k].store(&mut pulls[k], at);
         }
         Answer {
-            stiffness: bound(facts, &now, [normal, transverse], section, [membrane, shear], [inertia, thickness]),
+            stiffness: bound(facts, &now, [normal, transverse], section, [membrane, shear], [inertia, heights]),
             determinant,
             thickness,
             resultants: resultants(facts, &now, [normal, hoop, moment, hoop_moment, transverse], thickness),

@@ -6,7 +6,7 @@ use crate::contact::search;
 use crate::mesh::messages::SHELLS;
 use crate::model::messages::{LIST_LENGTH, OF_REVOLUTION, UNKNOWN_NAME};
 use crate::model::reference::{Reference, Wanted};
-use crate::model::{Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Partners, Penalty};
+use crate::model::{Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Part, Partners, Penalty};
 use crate::quantity::{Dimension, Range};
 use crate::vocabulary::excerpt;
 use std::collections::BTreeMap;
@@ -29,6 +29,16 @@ impl Check<'_> {
                 Partners::Bodies(bodies) => self.bodies(&path, bodies),
             }
             self.interface(&path, &contact.interface);
+            let parts: Vec<String> = match &contact.partners {
+                // Sides by their parts; groups of mesh files may be of any.
+                Partners::Between(between) => {
+                    let parts: Vec<String> = between.iter().map(|name| name.split('.').next().unwrap_or_default().to_string()).collect();
+                    let is_part = |name: &String| model.parts.iter().any(|part| part.name == *name);
+                    if parts.iter().all(is_part) { parts } else { Vec::new() }
+                }
+                Partners::Bodies(bodies) => bodies.clone(),
+            };
+            self.pushes_no_shells(&path, &contact.interface, &parts);
             self.formulation(&path, contact);
             if let Some(strength) = contact.tied.filter(|strength| *strength != f64::INFINITY) {
                 self.number(&format!("{path}.tie_strength"), strength);
@@ -187,8 +197,13 @@ impl Check<'_> {
             self.friction(path, friction);
         }
         self.window(path, ["birth", "death"], interface.active);
+    }
+
+    /// Shells among these parts (none: all) can't be pushed out.
+    pub(super) fn pushes_no_shells(&mut self, path: &str, interface: &Interface, parts: &[String]) {
+        let meets = |part: &&Part| part.is_of_shells() && (parts.is_empty() || parts.contains(&part.name));
         if interface.initial_penetration == InitialPenetration::PushOut
-            && let Some(part) = self.model.parts.iter().find(|part| part.is_of_shells())
+            && let Some(part) = self.model.parts.iter().find(meets)
         {
             let message = format!("nodes on the faces of `{}` go with its middle, and can't be pushed out one by one", excerpt(&part.name));
             self.fault(&SHELLS, format!("{path}.initial_penetration"), message, "move the parts apart, or let it be \"ignore\"");

@@ -201,6 +201,7 @@ impl Check<'_> {
             self.obstacle_shape(&path, &obstacle.shape);
             self.obstacle_motion(&path, obstacle);
             self.interface(&path, &obstacle.interface);
+            self.pushes_no_shells(&path, &obstacle.interface, &obstacle.parts);
             if drives(&obstacle.motion).iter().all(Option::is_some) && self.all_driven(&obstacle.parts) {
                 self.nothing_gives_way(format!("{path}.parts"));
             }
@@ -317,11 +318,15 @@ impl Check<'_> {
 
     /// A set whose nodes shall have rotations.
     pub(super) fn rotates(&mut self, path: &str, on: Option<&Reference>) {
-        if let Some(Reference::Part(part) | Reference::Side { part, .. }) = on
-            && !self.model.parts[*part].is_of_shells()
-        {
-            let message = format!("nodes of part `{}` have no rotations", excerpt(&self.model.parts[*part].name));
-            self.fault(&SHELLS, path, message, "name a set of a part of shells; on others couples are pairs of forces");
+        if let Some(Reference::Part(part) | Reference::Side { part, .. }) = on {
+            let part = &self.model.parts[*part];
+            if !part.is_of_shells() {
+                let message = format!("nodes of part `{}` have no rotations", excerpt(&part.name));
+                self.fault(&SHELLS, path, message, "name a set of a part of shells; on others couples are pairs of forces");
+            } else if part.rigid.is_some() {
+                let message = format!("part `{}` is rigid: its nodes rotate with it", excerpt(&part.name));
+                self.fault(&SHELLS, path, message, "prescribe its motion, or let a pair of forces act on it");
+            }
         }
     }
 

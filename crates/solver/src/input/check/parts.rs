@@ -154,7 +154,7 @@ impl Check<'_> {
             self.fault(&BARS, area, "bars need their cross-section", help);
         }
         if !part.stress_state.is_empty() && part.stress_state != STRESS_STATES[0].name {
-            let help = "leave `stress_state` out; in an axisymmetric body a line is a shell, for which there is no element";
+            let help = "leave `stress_state` out; in an axisymmetric body a line is a shell: take `element = \"shell2\"`";
             self.fault(&BARS, format!("{path}.stress_state"), "bars have a stress along their line and no other", help);
         }
         if let Some(material) = self.model.materials.get(&part.material)
@@ -182,6 +182,12 @@ impl Check<'_> {
                     "leave it out, or take `element = \"shell2\"`",
                 );
             }
+            return;
+        }
+        let is_line = part.shape.cell_kind().is_none_or(|kind| kind == CellKind::Line);
+        if !is_line || self.model.dimension() == 3 {
+            let message = "`shell2` is a line in 2D, but the part is not made of lines in a 2D model";
+            self.fault(&SHELLS, format!("{path}.element"), message, "take `line`, `arc`, `truss` or lines of a mesh file, in 2D");
             return;
         }
         let Some(section) = &part.section else {

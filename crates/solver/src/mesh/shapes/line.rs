@@ -54,9 +54,9 @@ impl BuiltIn<2> for Line {
         self.path().check_line(check);
     }
 
-    /// Of shells; bars have none.
+    /// Those of shells belong to the part.
     fn sides(&self) -> Vec<String> {
-        ["left", "right"].map(String::from).to_vec()
+        Vec::new()
     }
 
     fn points(&self) -> Vec<String> {

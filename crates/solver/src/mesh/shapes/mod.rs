@@ -19,6 +19,7 @@ pub use sweep::{Extrude, Revolve, Sweep};
 use super::Meshed;
 use super::cell::{Cell, CellKind};
 use super::messages::UNMESHABLE;
+use super::skin::FACES;
 use super::surface::Facet;
 use crate::error::Fault;
 use crate::model::{Part, Values};
@@ -377,7 +378,8 @@ impl Part {
     #[must_use]
     pub fn sides(&self) -> Vec<String> {
         let swept = self.sweep.as_ref().map_or(Vec::new(), Sweep::sides);
-        self.shape.sides().into_iter().chain(swept).collect()
+        let faces = if self.is_of_shells() { &FACES[..] } else { &[] };
+        self.shape.sides().into_iter().chain(swept).chain(faces.iter().map(|face| (*face).to_string())).collect()
     }
 
     /// What its built-in shape is made of, away from an axis that it is turned about; `None` for a group of a

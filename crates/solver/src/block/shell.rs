@@ -249,7 +249,7 @@ pub(super) struct Shells<K, const D: usize> {
     volume: Vec<f64>,
     stress: Vec<Batch>,
     history: Vec<Batch>,
-    /// Stress of the damping, Pa; empty without.
+    /// Stress of the damping, Pa; without it one batch per chunk, which stands for nothing.
     damped: Vec<Batch>,
     /// Squares of the stable steps when they were marked, s²; empty: not yet.
     marks: Vec<Batch>,
@@ -292,7 +292,7 @@ where
         }
         let mut history = scratch(points * facts.width);
         history.chunks_exact_mut(facts.width).for_each(|point| law.start(point));
-        let damped = if input.damping > 0.0 { scratch(points * components) } else { Vec::new() };
+        let damped = if input.damping > 0.0 { scratch(points * components) } else { vec![Batch::default(); batches.div_ceil(CHUNK)] };
         let mut shells = Self {
             damping: input.damping,
             failed_share: section.failed_points,
@@ -559,7 +559,9 @@ where
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        for list in [&mut self.state, &mut self.stress, &mut self.history, &mut self.damped, &mut self.marks] {
+        let mut nothing = Vec::new();
+        let damped = if self.damping > 0.0 { &mut self.damped } else { &mut nothing };
+        for list in [&mut self.state, &mut self.stress, &mut self.history, damped, &mut self.marks] {
             list.persist(archive)?;
         }
         self.elements[..].persist(archive)?;

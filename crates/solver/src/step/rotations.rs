@@ -192,7 +192,7 @@ impl NodalRotations {
 
     /// Whether moments of loads act, or rotations are held.
     pub(crate) fn is_acted_on(&self) -> bool {
-        !self.loads.is_empty() || self.groups.iter().any(|group| group.held.is_some())
+        self.has_loads() || self.groups.iter().any(|group| group.held.is_some())
     }
 
     /// Whether moments of loads act.

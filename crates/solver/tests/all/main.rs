@@ -65,6 +65,7 @@ mod run_control;
 mod search;
 mod segment_in_3d;
 mod self_contact;
+mod shell_models;
 mod shells;
 mod shocks;
 mod softening;

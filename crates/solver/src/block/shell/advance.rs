@@ -203,9 +203,7 @@ where
         while self.rooms.len() < team.threads() {
             self.rooms.push(Mutex::default());
         }
-        // Without damping there is one batch for each chunk, which stands for nothing.
-        let mut nothing = vec![Batch::default(); if self.damping > 0.0 { 0 } else { self.reports.len() }];
-        let (damped, damped_size) = if self.damping > 0.0 { (&mut self.damped, CHUNK * points * components) } else { (&mut nothing, 1) };
+        let damped_size = if self.damping > 0.0 { CHUNK * points * components } else { 1 };
         let common = Common {
             law: self.law.as_ref(),
             facts: &self.facts,
@@ -222,7 +220,7 @@ where
             Chunks::new(&mut self.state, CHUNK * K::STATE),
             Chunks::new(&mut self.elements, CHUNK),
             Chunks::new(&mut self.stress, CHUNK * points * components),
-            Chunks::new(damped, damped_size),
+            Chunks::new(&mut self.damped, damped_size),
             Chunks::new(&mut self.history, CHUNK * points * width),
             Chunks::new(pulls.forces, nodes),
             Chunks::new(pulls.moments, nodes),
@@ -343,11 +341,8 @@ fn summed(elements: &[ShellBatch], marks: &[Batch]) -> Report {
             }
             let squared = own.time_step_squared.0[lane];
             report.stored += own.stored.0[lane];
-            // Not a number stays.
-            report.time_step_squared =
-                if squared < report.time_step_squared || squared.is_nan() { squared } else { report.time_step_squared };
-            let determinant = own.determinant.0[lane];
-            report.determinant = if determinant < report.determinant || determinant.is_nan() { determinant } else { report.determinant };
+            report.time_step_squared = report.time_step_squared.min(squared);
+            report.determinant = report.determinant.min(own.determinant.0[lane]);
             if let Some(mark) = marks.get(batch) {
                 report.step_change = report.step_change.min(squared / mark.0[lane]);
             }

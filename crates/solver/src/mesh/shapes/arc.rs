@@ -1,12 +1,12 @@
 //! An arc: the middle of a round shell.
 
 use super::numbers::{cos_sin, quarters};
-use super::ring::Ring;
-use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Steps, Values, Wrong, chain, shape_key};
+use super::ring::{FROM, Ring, TO};
+use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Steps, Values, Wrong, chain, chain_count, chain_ends, shape_key};
 use crate::mesh::cell::CellKind;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
-use crate::vocabulary::Kind::{Angle, Integer, Quantity, Vector};
+use crate::vocabulary::Kind::{Integer, Quantity, Vector};
 use crate::vocabulary::Need::{Default as Written, Required};
 use crate::vocabulary::{Key, Section, key};
 
@@ -42,13 +42,8 @@ static SECTION: Section = Section {
     keys: &[
         key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius, to the middle of the shell."),
-        key("from", Angle(Dimension::NONE, Finite), Written("0"), "Angle at which it begins, counter-clockwise from the x axis."),
-        key(
-            "to",
-            Angle(Dimension::NONE, Finite),
-            Written("\"360 deg\""),
-            "Angle at which it ends: more than `from`, by at most a full turn.",
-        ),
+        FROM,
+        TO,
         key(ELEMENTS, Integer(1), Required, "Elements along it."),
         key(
             "grading",
@@ -101,12 +96,11 @@ impl BuiltIn<2> for CircularArc {
     }
 
     fn points(&self) -> Vec<String> {
-        if self.ring().is_closed() { Vec::new() } else { ["start", "end"].map(String::from).to_vec() }
+        chain_ends(self.ring().is_closed())
     }
 
     fn count(&self) -> Count {
-        let closed = self.ring().is_closed();
-        Count { nodes: self.elements.saturating_add(usize::from(!closed)), elements: self.elements, exact: true }
+        chain_count(self.elements, self.ring().is_closed())
     }
 
     fn cell_kind(&self) -> CellKind {

@@ -1,7 +1,7 @@
 //! A line along a path: the middle of a shell.
 
 use super::path::Path;
-use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, chain, shape_key};
+use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, chain, chain_count, chain_ends, shape_key};
 use crate::mesh::cell::CellKind;
 use crate::quantity::Dimension;
 use crate::quantity::Range::NotNegative;
@@ -60,11 +60,11 @@ impl BuiltIn<2> for Line {
     }
 
     fn points(&self) -> Vec<String> {
-        if self.closed { Vec::new() } else { ["start", "end"].map(String::from).to_vec() }
+        chain_ends(self.closed)
     }
 
     fn count(&self) -> Count {
-        Count { nodes: self.elements.saturating_add(usize::from(!self.closed)), elements: self.elements, exact: true }
+        chain_count(self.elements, self.closed)
     }
 
     fn cell_kind(&self) -> CellKind {

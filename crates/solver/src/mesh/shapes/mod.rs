@@ -471,6 +471,16 @@ fn unfolded(body: Body<2>, help: &str) -> Result<Body<2>, Wrong> {
     }
 }
 
+/// What [`chain`] makes.
+fn chain_count(elements: usize, closed: bool) -> Count {
+    Count { nodes: elements.saturating_add(usize::from(!closed)), elements, exact: true }
+}
+
+/// Names of the ends of a [`chain`].
+fn chain_ends(closed: bool) -> Vec<String> {
+    if closed { Vec::new() } else { ["start", "end"].map(String::from).to_vec() }
+}
+
 /// Lines one after the other through `at` each of their ends; `start` and `end` of one that does not close.
 fn chain(elements: usize, closed: bool, at: impl Fn(usize) -> [f64; 2]) -> Body<2> {
     let count = if closed { elements } else { elements + 1 };

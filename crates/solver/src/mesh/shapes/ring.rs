@@ -42,6 +42,12 @@ impl Ring {
     }
 }
 
+/// Angles of a ring, a sector or an arc.
+pub(super) const FROM: Key =
+    key("from", Angle(Dimension::NONE, Finite), Written("0"), "Angle at which it begins, counter-clockwise from the x axis.");
+pub(super) const TO: Key =
+    key("to", Angle(Dimension::NONE, Finite), Written("\"360 deg\""), "Angle at which it ends: more than `from`, by at most a full turn.");
+
 pub(super) const KEY: Key = shape_key("ring", &SECTION, "A ring or a sector of one.");
 
 static SECTION: Section = Section {
@@ -52,13 +58,8 @@ static SECTION: Section = Section {
         key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
         key("inner", Quantity(Dimension::LENGTH, Positive), Required, "Inner radius."),
         key("outer", Quantity(Dimension::LENGTH, Positive), Required, "Outer radius."),
-        key("from", Angle(Dimension::NONE, Finite), Written("0"), "Angle at which it begins, counter-clockwise from the x axis."),
-        key(
-            "to",
-            Angle(Dimension::NONE, Finite),
-            Written("\"360 deg\""),
-            "Angle at which it ends: more than `from`, by at most a full turn.",
-        ),
+        FROM,
+        TO,
         key(ELEMENTS, Integers(2, 1), Required, "Elements through the wall and around."),
         GRADING,
     ],

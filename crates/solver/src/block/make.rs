@@ -3,9 +3,9 @@
 use super::Block;
 use super::bar::Bars;
 use super::kernel::{Compiled, ElementKernel};
-use super::shell::{Line, Shells};
+use super::shell::{Line, Quad, Shells, Triangle};
 use super::store::ElementStore;
-use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, Registered, SHELL2, with_element};
+use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, Registered, SHELL2, SHELL3, SHELL4, with_element};
 use crate::material::points;
 use crate::material::points::PointLaw;
 use crate::model::{Material, ShellSection};
@@ -92,6 +92,15 @@ impl Blocks<2> for Dim<2> {
 
 impl Blocks<3> for Dim<3> {
     fn make(input: &BlockInput<'_, 3>) -> Option<Box<dyn Block<3>>> {
+        let shells = || Some((points::layer_in_space(input.material)?, [false; 2]));
+        if input.element == SHELL4.name {
+            let (law, state) = shells()?;
+            return Some(Box::new(Shells::<Quad, 3>::new(input, law, state)?));
+        }
+        if input.element == SHELL3.name {
+            let (law, state) = shells()?;
+            return Some(Box::new(Shells::<Triangle, 3>::new(input, law, state)?));
+        }
         if !input.stress_state.is_empty() && input.element != BAR2.name {
             return None;
         }

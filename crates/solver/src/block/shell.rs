@@ -16,9 +16,14 @@
 
 mod advance;
 mod line;
+mod quad;
 mod section;
+mod surface;
+mod triangle;
 
 pub(super) use line::Line;
+pub(super) use quad::Quad;
+pub(super) use triangle::Triangle;
 
 use super::initial::{self, Initial, Wrong};
 use super::make::BlockInput;
@@ -59,6 +64,8 @@ pub(super) struct Facts {
     width: usize,
     /// Components of a stress.
     components: usize,
+    /// K and µ at rest, Pa.
+    at_rest: [f64; 2],
 }
 
 impl Facts {
@@ -76,6 +83,20 @@ impl Facts {
         } else {
             L::splat(4.0) * shear * both / (three * bulk + L::splat(4.0) * shear)
         }
+    }
+
+    /// Moduli of a membrane, and of shear, at rest, Pa.
+    fn moduli(&self) -> [f64; 2] {
+        let [bulk, shear] = self.at_rest;
+        [self.membrane_modulus(bulk, shear), shear]
+    }
+
+    /// E, Pa, and ν at rest.
+    #[inline(always)]
+    fn elastic(&self) -> [f64; 2] {
+        let [bulk, shear] = self.at_rest;
+        let both = 3.0 * bulk + shear;
+        [9.0 * bulk * shear / both, (1.5 * bulk - shear) / both]
     }
 
     /// λ across of a point, and its product with that out of the plane, from its history.
@@ -134,8 +155,13 @@ pub(super) struct Strains<'a> {
     ratio: &'a mut [Batch],
     /// Rate: volume of the layer half way, with the thickness of the start. Hyperelastic: that at the start.
     volume: &'a mut [Batch],
+    /// Stress of each point, to turn with the material, Pa, and how far it turns (where the law wants to know).
+    stress: &'a mut [Batch],
+    rotation: &'a mut [Batch],
     /// Thickness now, and at the start, m.
     thickness: [&'a Batch; 2],
+    /// See [`Answer::flow`].
+    flow: &'a [Batch; 2],
     /// 1: it is there.
     live: &'a Batch,
 }
@@ -149,6 +175,11 @@ pub(super) struct Answer<L> {
     determinant: L,
     /// Present thickness, m.
     thickness: L,
+    /// Energy that hourglass control has stored and taken, J.
+    hourglass: L,
+    /// Part of the work of the last step that flow took, in the mean over the points and by the square of
+    /// their heights.
+    flow: [L; 2],
     /// See [`ElementState::shell`].
     resultants: [L; SHELL_VALUES],
 }
@@ -164,6 +195,8 @@ where
     const MOTION: usize;
     /// Batches that are kept of an element.
     const STATE: usize;
+    /// Whether the material of a layer may rotate against the frame of its element.
+    const ROTATES: bool = false;
     /// Batches of forces and moments of an element: of each node D of force, then three of moment.
     const PULLS: usize;
 
@@ -198,6 +231,8 @@ struct ShellBatch {
     stored: Batch,
     dissipated: Batch,
     damping: Batch,
+    hourglass: Batch,
+    flow: [Batch; 2],
     time_step_squared: Batch,
     /// See [`Answer::determinant`].
     determinant: Batch,
@@ -210,9 +245,10 @@ impl Persist for ShellBatch {
         #[rustfmt::skip]
         let Self {
             mass_least: _, thickness_initial: _, inertia: _,
-            thickness, stored, dissipated, damping, time_step_squared, determinant, live,
+            thickness, stored, dissipated, damping, hourglass, flow, time_step_squared, determinant, live,
         } = self;
-        crate::archive::persist_each!(archive; thickness, stored, dissipated, damping, time_step_squared, determinant, live);
+        flow[..].persist(archive)?;
+        crate::archive::persist_each!(archive; thickness, stored, dissipated, damping, hourglass, time_step_squared, determinant, live);
         Ok(())
     }
 }
@@ -223,6 +259,7 @@ struct Room {
     motion: Vec<Batch>,
     strain: Vec<Batch>,
     ratio: Vec<Batch>,
+    rotation: Vec<Batch>,
     volume: Vec<Batch>,
     response: Vec<Batch>,
     pulls: Vec<Batch>,
@@ -280,6 +317,7 @@ where
             ratios: law.ratios(),
             width: law.state_width(),
             components,
+            at_rest: law.stiffness(),
         };
         let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
         let (points, count) = (facts.section.count(), input.connectivity.len() / K::NODES);

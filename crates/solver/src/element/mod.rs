@@ -6,6 +6,8 @@
 
 mod bar2;
 mod shell2;
+mod shell3;
+mod shell4;
 mod of_part;
 mod hex8;
 mod hex8_assumed_strain;
@@ -23,6 +25,8 @@ pub use hex8_reduced::{Hex8Reduced, Hex8ReducedAssumedStrain, Hex8ReducedViscous
 pub use quad4::{Quad4, Quad4Full};
 pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
 pub use shell2::SHELL2;
+pub use shell3::SHELL3;
+pub use shell4::SHELL4;
 pub use tet4::{Tet4, Tet4Anp};
 pub use tri3::{Tri3, Tri3Anp};
 pub use wedge6::Wedge6;
@@ -381,7 +385,7 @@ pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENT
 pub const BARS: &[ElementKind] = &[BAR2];
 
 /// Elements of a mid surface, whose points are layers through the thickness: blocks of their own too.
-pub const SHELLS: &[ElementKind] = &[SHELL2];
+pub const SHELLS: &[ElementKind] = &[SHELL2, SHELL3, SHELL4];
 
 /// Every element: those in 2D, bars and shells too, then those in 3D.
 #[must_use]

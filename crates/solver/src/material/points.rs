@@ -154,6 +154,12 @@ pub fn layer(material: &Material, plane_stress: bool) -> Option<Box<dyn PointLaw
     })
 }
 
+/// The law of a material for layers of shells in space: z across the layer, where there is no stress.
+#[must_use]
+pub fn layer_in_space(material: &Material) -> Option<Box<dyn PointLaw>> {
+    Some(Box::new(super::stress_constrained::StressConstrained::layer_in_space(of::<3>(material)?)))
+}
+
 struct DynLaw<M, const D: usize> {
     law: M,
 }
@@ -261,5 +267,6 @@ where
     }
 }
 
-/// Components of a tensor in 2D.
+/// Components of a tensor in 2D, and in 3D.
 pub(in crate::material) const PLANE: usize = <Plane<f64> as SymmetricTensor<f64>>::COMPONENTS;
+pub(in crate::material) const SOLID: usize = <crate::tensor::Solid<f64> as SymmetricTensor<f64>>::COMPONENTS;

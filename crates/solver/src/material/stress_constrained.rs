@@ -1,5 +1,5 @@
 //! A law without load across: plane stress (σ_zz = 0), uniaxial stress (σ_yy = σ_zz = 0) and the layers of
-//! shells in 2D (σ_yy = 0, y across the layer) around any law. The strain across is found such that the
+//! shells (in 2D σ_yy = 0, y across the layer; in space σ_zz = 0) around any law. The strain across is found such that the
 //! stress across vanishes.
 //!
 //! The law is asked again and again with another Δε across (rate laws) or λ (hyperelastic laws: b = λ²
@@ -9,15 +9,17 @@
 //! cross-section (λ²) has become is part of the history. Source: the nested iteration of de Borst, Int. J.
 //! Numer. Meth. Engng 32 (1991) 1169-1180, with a secant for a law whose tangent is unknown.
 
-use super::points::{PLANE, PointLaw, Points, RESPONSE};
+use super::points::{PLANE, PointLaw, Points, RESPONSE, SOLID};
 use super::{Family, History};
 use embate_lanes::{BATCH, Batch, Level};
 
-/// Components xx, yy, zz and xy of a tensor in 2D.
+/// Components xx, yy, zz and xy of a tensor in 2D; yz and zx in 3D.
 const XX: usize = 0;
 const XY: usize = 3;
 const YY: usize = 1;
 const ZZ: usize = 2;
+const YZ: usize = 4;
+const ZX: usize = 5;
 /// Largest |σ_zz| over the stiffness K + 4µ/3.
 const TOLERANCE: f64 = 1e-12;
 /// Calls of the law; perfectly plastic points with a secant need about ten.
@@ -30,24 +32,32 @@ pub(super) struct StressConstrained {
     law: Box<dyn PointLaw>,
     /// Components without stress, which all have the same strain; the first decides.
     across: &'static [usize],
+    /// Components of its tensors.
+    components: usize,
     /// Of hyperelastic laws: whether b across is what shear makes of it and λ², not λ² alone.
     is_sheared: bool,
 }
 
 impl StressConstrained {
     pub(super) fn plane_stress(law: Box<dyn PointLaw>) -> Self {
-        Self { law, across: &[ZZ], is_sheared: false }
+        Self { law, across: &[ZZ], components: PLANE, is_sheared: false }
     }
 
     pub(super) fn uniaxial(law: Box<dyn PointLaw>) -> Self {
-        Self { law, across: &[ZZ, YY], is_sheared: false }
+        Self { law, across: &[ZZ, YY], components: PLANE, is_sheared: false }
     }
 
     /// Of a layer of a shell, y across it. Its fibres do not stretch for nothing: with F = [λ 0; γ μ] the
     /// energy is at its minimum over μ, which is σ_yy − σ_xy γ/λ = 0 (hyperelastic laws; the b that comes in
     /// has λ², γ² and λ γ). In rate form σ_yy = 0.
     pub(super) fn layer(law: Box<dyn PointLaw>) -> Self {
-        Self { law, across: &[YY], is_sheared: true }
+        Self { law, across: &[YY], components: PLANE, is_sheared: true }
+    }
+
+    /// The same in space, z across it: with F = [F̂ 0; γ μ] the energy is at its minimum where σ_zz − w·(σ_zx,
+    /// σ_zy) = 0, w = (F̂ F̂ᵀ)⁻¹ F̂ γ.
+    pub(super) fn layer_in_space(law: Box<dyn PointLaw>) -> Self {
+        Self { law, across: &[ZZ], components: SOLID, is_sheared: true }
     }
 
     fn uniaxial_stress(&self) -> bool {
@@ -67,6 +77,16 @@ impl StressConstrained {
             _ => strain[0].0[k],
         };
         Batch(std::array::from_fn(|k| -(lame * inside(k) + stress[self.across[0]].0[k]) / slope))
+    }
+
+    /// What the transverse shear stress has of the stress across of a hyperelastic layer, from stress and b.
+    fn pulled_along(&self, stress: impl Fn(usize) -> f64, b: impl Fn(usize) -> f64) -> f64 {
+        if self.components == PLANE {
+            return stress(XY) * (b(XY) / b(XX));
+        }
+        let determinant = b(XX) * b(YY) - b(XY) * b(XY);
+        let along = [(b(YY) * b(ZX) - b(XY) * b(YZ)) / determinant, (b(XX) * b(YZ) - b(XY) * b(ZX)) / determinant];
+        stress(ZX) * along[0] + stress(YZ) * along[1]
     }
 
     /// ∂σ_zz over the unknown strain of an elastic body: K + 4µ/3, or with both strains across 2K + 2µ/3.
@@ -202,17 +222,18 @@ impl PointLaw for StressConstrained {
 
     fn respond(&self, level: Level, points: Points<'_>) {
         let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, scratch } = points;
-        let (inner, count) = (self.law.state_width(), strain.len() / PLANE);
+        let components = self.components;
+        let (inner, count) = (self.law.state_width(), strain.len() / components);
         let width = inner + 1;
         let hyperelastic = self.law.family() == Family::Hyperelastic;
         // Strain, stress, state and ratio of the trial; then each point's search.
-        let (scratch, nested) = scratch.split(count * (2 * PLANE + inner + 1 + Search::WIDTH));
-        let (trial_strain, rest) = scratch.split_at_mut(count * PLANE);
-        let (trial_stress, rest) = rest.split_at_mut(count * PLANE);
+        let (scratch, nested) = scratch.split(count * (2 * components + inner + 1 + Search::WIDTH));
+        let (trial_strain, rest) = scratch.split_at_mut(count * components);
+        let (trial_stress, rest) = rest.split_at_mut(count * components);
         let (trial_state, rest) = rest.split_at_mut(count * inner);
         let (trial_ratio, searches) = rest.split_at_mut(count);
         for p in 0..count {
-            let guess = self.guess(&strain[p * PLANE..][..PLANE], &stress[p * PLANE..][..PLANE], &state[p * width + inner]);
+            let guess = self.guess(&strain[p * components..][..components], &stress[p * components..][..components], &state[p * width + inner]);
             Search::begin(&mut searches[p * Search::WIDTH..][..Search::WIDTH], guess, self.law.family());
         }
         for call in 0..CALLS {
@@ -224,7 +245,7 @@ impl PointLaw for StressConstrained {
                     let u = unknown.0[k];
                     let across = if hyperelastic { u * u } else { u };
                     for &component in self.across {
-                        let own = &mut trial_strain[p * PLANE + component].0[k];
+                        let own = &mut trial_strain[p * components + component].0[k];
                         *own = if hyperelastic && self.is_sheared { *own + across } else { across };
                     }
                     let ratio = volume_ratio.get(p).map_or(1.0, |ratio| ratio.0[k]);
@@ -249,11 +270,11 @@ impl PointLaw for StressConstrained {
             let mut found = true;
             for p in 0..count {
                 let out = &response[p * RESPONSE..];
-                let (trial, given) = (&trial_stress[p * PLANE..][..PLANE], &strain[p * PLANE..][..PLANE]);
+                let (trial, given) = (&trial_stress[p * components..][..components], &strain[p * components..][..components]);
                 let mut across = trial[self.across[0]];
                 if hyperelastic && self.is_sheared {
                     for k in 0..BATCH {
-                        across.0[k] += -(trial[XY].0[k] * (given[XY].0[k] / given[XX].0[k]));
+                        across.0[k] += -self.pulled_along(|c| trial[c].0[k], |c| given[c].0[k]);
                     }
                 }
                 let search = &mut searches[p * Search::WIDTH..][..Search::WIDTH];

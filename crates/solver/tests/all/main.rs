@@ -67,6 +67,7 @@ mod segment_in_3d;
 mod self_contact;
 mod shell_models;
 mod shells;
+mod shells_in_space;
 mod shocks;
 mod softening;
 mod space;

@@ -18,6 +18,8 @@ struct Strain<'a, K, const D: usize> {
     motion: &'a [Batch],
     state: &'a mut [Batch],
     elements: &'a [ShellBatch],
+    stress: &'a mut [Batch],
+    rotation: &'a mut [Batch],
     strain: &'a mut [Batch],
     ratio: &'a mut [Batch],
     volume: &'a mut [Batch],
@@ -37,11 +39,15 @@ where
     fn part<L: Lane>(&mut self, batch: usize, at: usize) {
         let (own, points) = (&self.elements[batch], batch * self.points..(batch + 1) * self.points);
         let components = self.facts.components;
+        let turn = self.rotation.len() / self.ratio.len();
         let mut strains = Strains {
             strain: &mut self.strain[points.start * components..points.end * components],
             ratio: &mut self.ratio[points.clone()],
-            volume: &mut self.volume[points],
+            volume: &mut self.volume[points.clone()],
+            stress: &mut self.stress[points.start * components..points.end * components],
+            rotation: &mut self.rotation[points.start * turn..points.end * turn],
             thickness: [&own.thickness, &own.thickness_initial],
+            flow: &own.flow,
             live: &own.live,
         };
         let motion = &self.motion[batch * K::MOTION..][..K::MOTION];
@@ -132,6 +138,10 @@ where
         let infinite = L::splat(f64::INFINITY);
         L::select(there, squared, infinite).store(&mut own.time_step_squared, at);
         L::select(there, answer.determinant, infinite).store(&mut own.determinant, at);
+        L::select(there, answer.hourglass, L::load(&own.hourglass, at)).store(&mut own.hourglass, at);
+        for (kept, new) in own.flow.iter_mut().zip(answer.flow) {
+            L::select(there, new, L::splat(0.0)).store(kept, at);
+        }
         L::select(there, answer.thickness, L::load(&own.thickness, at)).store(&mut own.thickness, at);
     }
 }
@@ -244,6 +254,8 @@ where
             let to = (from + STRIP).min(count);
             let batches = to - from;
             room.fit::<K, D>(batches, points, components);
+            let turns = if K::ROTATES && common.law.needs_rotation() { common.rotation.len() / STRIP * batches } else { 0 };
+            room.rotation.resize(turns, Batch::default());
             for batch in 0..batches {
                 let own = &mut room.motion[batch * K::MOTION..][..K::MOTION];
                 Self::gather(common, chunk.first + from + batch, own);
@@ -252,13 +264,15 @@ where
             let history = &mut chunk.history[from * points * width..to * points * width];
             let state = &mut chunk.state[from * K::STATE..to * K::STATE];
             let elements = &mut chunk.elements[from..to];
-            let Room { motion: moved, strain, ratio, volume, response, pulls, law } = &mut *room;
+            let Room { motion: moved, strain, ratio, rotation, volume, response, pulls, law } = &mut *room;
             level.run(ForEachBatch(Strain::<K, D> {
                 facts,
                 points,
                 motion: moved,
                 state: &mut *state,
                 elements: &*elements,
+                stress: &mut *stress,
+                rotation: &mut *rotation,
                 strain: &mut *strain,
                 ratio: &mut *ratio,
                 volume: &mut *volume,
@@ -269,7 +283,7 @@ where
                 Points {
                     time_step: motion.time_step,
                     strain: &*strain,
-                    rotation: &common.rotation[..common.rotation.len() / STRIP * batches],
+                    rotation: if rotation.is_empty() { &common.rotation[..common.rotation.len() / STRIP * batches] } else { &*rotation },
                     volume_ratio: &*ratio,
                     viscous_heat: &common.heat[..batches * points],
                     stress: &mut *stress,
@@ -336,6 +350,7 @@ fn summed(elements: &[ShellBatch], marks: &[Batch]) -> Report {
         for lane in 0..BATCH {
             report.dissipated += own.dissipated.0[lane];
             report.damping += own.damping.0[lane];
+            report.hourglass += own.hourglass.0[lane];
             if own.live.0[lane] == 0.0 {
                 continue;
             }

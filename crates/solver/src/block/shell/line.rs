@@ -373,6 +373,8 @@ impl ShellKernel<2> for Line {
             stiffness: bound(facts, &now, [normal, transverse], section, [membrane, shear], [inertia, heights]),
             determinant,
             thickness,
+            hourglass: zero,
+            flow: [zero; 2],
             resultants: resultants(facts, &now, [normal, hoop, moment, hoop_moment, transverse], thickness),
         }
     }

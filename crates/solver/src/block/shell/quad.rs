@@ -1,0 +1,412 @@
+//! `shell4`: a shell of four nodes in space with one point in the plane.
+//!
+//! Positions x_a and directors d_a = R_a D_a of the corners are all it knows of its nodes. With the patterns
+//! ξ = (−1, 1, 1, −1), η = (−1, −1, 1, 1), h = ξ η: g₁ = ¼ Σ ξ_a x_a, g₂ = ¼ Σ η_a x_a, q = ¼ Σ h_a x_a, d₀ =
+//! ¼ Σ d_a, d₁, d₂ and r likewise; frame, strain and stresses of the layers as in `surface.rs`.
+//!
+//! *Transverse shear* of MITC4 (Dvorkin and Bathe 1984) in scalar products: s₁ = g₁·d₀ + q·d₂, s₂ = g₂·d₀ +
+//! q·d₁ at the centre, and their linear variation a₁ = g₁·d₂ + q·d₀, a₂ = g₂·d₁ + q·d₀.
+//!
+//! *Stabilisation*, elastic with the stiffness at rest, a potential of the start (index 0): with q₀ = p₁ g₁ + p₂
+//! g₂ in the plane, γ = h − p₁ ξ − p₂ η, H_ij = (A/3) Σ_α (G₀⁻¹)_αi (G₀⁻¹)_αj, and amplitudes m_i = ê_i·(q − p₁
+//! g₁ − p₂ g₂), b_i = ê_i·(r − p₁ d₁ − p₂ d₂) less what they were and what has flowed:
+//!
+//! ```text
+//! W = ½ t E mᵀ K m + ½ (t³/12) E bᵀ K b + ½ k µ t (A/3) Σ_α g^αα (a_α − a_α,0)²
+//! K = [H_xx, −ν H_xy; −ν H_xy, H_yy],   g^αα = Σ_i (G₀⁻¹)_αi²
+//! ```
+//!
+//! that is the assumed strain of Belytschko and Bindeman (1991) in plane stress for the membrane and for
+//! bending, and what MITC4 has beside its mean. As the layers flow so do the amplitudes: of a step that
+//! drives one further against its force the part that flow took of the layers' work (the mean for m, by the
+//! square of the height for b) is no longer held. The work of the held and of the flown part is the energy of
+//! hourglass control.
+//!
+//! Forces are the gradient of the energy by x_a, moments m_a = −d_a × ∂W/∂d_a: momentum and angular momentum
+//! are kept to round-off, a rigid motion of any size is no strain, renumbering changes nothing. Nothing holds
+//! the spin about d_a, and nothing drives it.
+//!
+//! *Step*, with Λ the larger eigenvalue and T the trace of ¼ G⁻ᵀ G⁻¹, C = E/(1 − ν²), s = 2 µ/C and the mass
+//! m in quarters at the corners: membrane m ω² = 4 C V/t… see [`bound`]. α is chosen such that the membrane
+//! decides.
+
+use super::surface::{
+    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, largest, loaded, rotated, scaled, turn_at_start,
+};
+use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
+use crate::block::Motion;
+use crate::tensor::{Dim, Matrix, Space, cross, dot};
+use crate::vector::{minus, plus};
+use embate_lanes::{Batch, Lane};
+
+/// Patterns of the corners.
+const XI: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
+const ETA: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
+const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
+
+/// Places in the state, after what all shells in space have: directors of the corners at the start; p, a and b
+/// at the start; amplitudes m and b now, what of them has flowed, and the work of that, J; g₁ g₂ q d₀ d₁ d₂ r
+/// now.
+const DIRECTORS: usize = COMMON;
+const SKEW: usize = DIRECTORS + 12;
+const SHEARED: usize = SKEW + 2;
+const BENT: usize = SHEARED + 2;
+const AMPLITUDES: usize = BENT + 2;
+const FLOWN: usize = AMPLITUDES + 4;
+const LOST: usize = FLOWN + 4;
+const FORM: usize = LOST + 1;
+const STATE: usize = FORM + 21;
+
+/// A quadrilateral.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::block) struct Quad;
+
+/// g₁, g₂, q and d₀, d₁, d₂, r.
+#[derive(Clone, Copy)]
+struct Form<L> {
+    g: [Vector<L>; 2],
+    q: Vector<L>,
+    mean: Vector<L>,
+    d: [Vector<L>; 2],
+    r: Vector<L>,
+}
+
+/// ¼ Σ over the corners, plain and with each pattern: the mean, by ξ, by η, by h.
+#[inline(always)]
+fn parts<L: Lane>(v: &[Vector<L>; 4]) -> [Vector<L>; 4] {
+    let quarter = L::splat(0.25);
+    let mut out = [[L::splat(0.0); 3]; 4];
+    for k in 0..3 {
+        let (near, far) = (v[0][k] + v[1][k], v[3][k] + v[2][k]);
+        let (near_step, far_step) = (v[1][k] - v[0][k], v[2][k] - v[3][k]);
+        out[0][k] = quarter * (near + far);
+        out[1][k] = quarter * (near_step + far_step);
+        out[2][k] = quarter * (far - near);
+        out[3][k] = quarter * (far_step - near_step);
+    }
+    out
+}
+
+impl<L: Lane> Form<L> {
+    #[inline(always)]
+    fn new(x: &[Vector<L>; 4], d: &[Vector<L>; 4]) -> Self {
+        let ([_, g1, g2, q], [mean, d1, d2, r]) = (parts(x), parts(d));
+        Self { g: [g1, g2], q, mean, d: [d1, d2], r }
+    }
+
+    #[inline(always)]
+    fn load(state: &[Batch], at: usize) -> Self {
+        let mut v = [[L::splat(0.0); 3]; 7];
+        for k in 0..21 {
+            v[k / 3][k % 3] = L::load(&state[FORM + k], at);
+        }
+        Self { g: [v[0], v[1]], q: v[2], mean: v[3], d: [v[4], v[5]], r: v[6] }
+    }
+
+    #[inline(always)]
+    fn all(&self) -> [Vector<L>; 7] {
+        [self.g[0], self.g[1], self.q, self.mean, self.d[0], self.d[1], self.r]
+    }
+
+    #[inline(always)]
+    fn replace(&self, there: L::Mask, state: &mut [Batch], at: usize) {
+        let all = self.all();
+        for k in 0..21 {
+            L::select(there, all[k / 3][k % 3], L::load(&state[FORM + k], at)).store(&mut state[FORM + k], at);
+        }
+    }
+
+    #[inline(always)]
+    fn frame(&self, turn: [L; 2]) -> Frame<L> {
+        Frame::new(&self.g, self.mean, turn)
+    }
+
+    #[inline(always)]
+    fn measures(&self, frame: &Frame<L>) -> Measures<L> {
+        let slide = [dot(self.g[0], self.mean) + dot(self.q, self.d[1]), dot(self.g[1], self.mean) + dot(self.q, self.d[0])];
+        Measures { map: frame.matrix(&self.g), bend: frame.matrix(&self.d), slide }
+    }
+
+    /// a₁ and a₂.
+    #[inline(always)]
+    fn sheared(&self) -> [L; 2] {
+        let both = dot(self.q, self.mean);
+        [dot(self.g[0], self.d[1]) + both, dot(self.g[1], self.d[0]) + both]
+    }
+
+    /// q − p₁ g₁ − p₂ g₂ and r − p₁ d₁ − p₂ d₂.
+    #[inline(always)]
+    fn warped(&self, [p1, p2]: [L; 2]) -> [Vector<L>; 2] {
+        let less = |of: Vector<L>, by: &[Vector<L>; 2]| minus(minus(of, scaled(p1, by[0])), scaled(p2, by[1]));
+        [less(self.q, &self.g), less(self.r, &self.d)]
+    }
+}
+
+/// Stiffnesses of the stabilisation.
+#[derive(Clone, Copy)]
+struct Held<L> {
+    /// t E K and (t³/12) E K, N/m and N m.
+    membrane: Matrix<L, 2>,
+    bending: Matrix<L, 2>,
+    /// k µ t (A/3) g^αα.
+    shear: [L; 2],
+}
+
+impl<L: Lane> Held<L> {
+    #[inline(always)]
+    fn new(facts: &Facts, begin: &Measures<L>, thickness: L) -> Self {
+        let [young, poisson] = facts.elastic();
+        let third = L::splat(4.0 / 3.0) * Dim::<2>::determinant(&begin.map);
+        let g = begin.inverse();
+        let of = |i: usize, j: usize| g[0][i] * g[0][j] + g[1][i] * g[1][j];
+        let stiff = L::splat(young) * thickness * third;
+        let mixed = -(L::splat(poisson) * stiff * of(0, 1));
+        let membrane = [[stiff * of(0, 0), mixed], [mixed, stiff * of(1, 1)]];
+        let shear = L::splat(SHEAR * facts.at_rest[1]) * thickness * third;
+        let along = |k: usize| g[k][0] * g[k][0] + g[k][1] * g[k][1];
+        let bending = crate::tensor::scaled(membrane, thickness * thickness * L::splat(1.0 / 12.0));
+        Self { membrane, bending, shear: [shear * along(0), shear * along(1)] }
+    }
+}
+
+/// K v.
+#[inline(always)]
+fn times<L: Lane>(k: &Matrix<L, 2>, v: [L; 2]) -> [L; 2] {
+    [k[0][0] * v[0] + k[0][1] * v[1], k[1][0] * v[0] + k[1][1] * v[1]]
+}
+
+/// a·b.
+#[inline(always)]
+fn both<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+impl Quad {
+    const AREA: f64 = 4.0;
+
+    #[inline(always)]
+    fn kind<L: Lane>() -> Kind<L> {
+        Kind { area: Self::AREA, shear: L::splat(SHEAR.sqrt()) }
+    }
+
+    /// Lets amplitudes flow on their way to `new`, as the layers have done: see the head of the file.
+    #[inline(always)]
+    fn flow<L: Lane>(state: &mut [Batch], stiffness: &Matrix<L, 2>, which: usize, new: [L; 2], part: L, there: L::Mask, at: usize) -> L {
+        let (half, zero, one) = (L::splat(0.5), L::splat(0.0), L::splat(1.0));
+        let old = loaded::<L, 2>(state, AMPLITUDES + 2 * which, at);
+        let gone = loaded::<L, 2>(state, FLOWN + 2 * which, at);
+        let (step, held) = (minus(new, old), minus(old, gone));
+        let force = times(stiffness, held);
+        let part = L::select(zero.less(both(force, step)), part, zero);
+        let more = [part * step[0], part * step[1]];
+        let kept = [(one - part) * step[0], (one - part) * step[1]];
+        let after = plus(force, times(stiffness, kept));
+        let lost = half * both(plus(force, after), more);
+        for k in 0..2 {
+            L::select(there, new[k], old[k]).store(&mut state[AMPLITUDES + 2 * which + k], at);
+            L::select(there, gone[k] + more[k], gone[k]).store(&mut state[FLOWN + 2 * which + k], at);
+        }
+        L::select(there, lost, zero)
+    }
+}
+
+impl ShellKernel<3> for Quad {
+    const NODES: usize = 4;
+    const MOTION: usize = 28;
+    const STATE: usize = STATE;
+    const ROTATES: bool = true;
+    const PULLS: usize = 24;
+
+    fn directions(connectivity: &[u32], positions: &[[f64; 3]], fold: f64) -> Vec<[f64; 3]> {
+        surface::directions::<4>(connectivity, positions, fold)
+    }
+
+    fn start(facts: &Facts, positions: &[[f64; 3]], directions: &[[f64; 3]], thickness: f64, _: [f64; 2]) -> Start {
+        let x: [[f64; 3]; 4] = std::array::from_fn(|k| positions[k]);
+        let d: [[f64; 3]; 4] = std::array::from_fn(|k| directions[k]);
+        let form = Form::<f64>::new(&x, &d);
+        let turn = turn_at_start(&form.g, form.mean);
+        let frame = form.frame(turn);
+        let measures = form.measures(&frame);
+        let skew = times(&measures.inverse(), frame.seen(form.q));
+        let [_, bent] = form.warped(skew).map(|v| frame.seen(v));
+        let mut state = vec![Batch::default(); STATE];
+        measures.store(&mut state, BEGIN, 0);
+        measures.store(&mut state, NOW, 0);
+        let rest = turn.into_iter().chain(d.into_iter().flatten()).chain(skew).chain(form.sheared()).chain(bent);
+        state[TURN..].iter_mut().zip(rest).for_each(|(batch, value)| batch.0[0] = value);
+        (0..2).for_each(|k| state[AMPLITUDES + 2 + k].0[0] = bent[k]);
+        (0..2).for_each(|k| state[FLOWN + 2 + k].0[0] = bent[k]);
+        state[FORM..].iter_mut().zip(form.all().into_iter().flatten()).for_each(|(batch, value)| batch.0[0] = value);
+        let area = Dim::<2>::determinant(&measures.map);
+        let (along, across) = (dot(frame.axes[2], cross(form.g[0], form.q)), dot(frame.axes[2], cross(form.q, form.g[1])));
+        let areas = (0..4).map(|k| area + (XI[k] * along + ETA[k] * across) / 3.0).collect();
+        let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
+        let volume = volumes.iter().sum();
+        let inertia = surface::inertia(thickness, Self::AREA * area, 0.0, |inertia| {
+            bounds(facts, &form, [&measures, &measures], skew, [thickness; 2], facts.moduli(), inertia, volume)
+        });
+        Start { state: state.into_iter().map(|batch| batch.0[0]).collect(), areas, volumes, inertia }
+    }
+
+    fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
+        surface::gather(node, place, motion, to, lane);
+    }
+
+    #[inline(always)]
+    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+        let there = L::splat(0.5).less(L::load(strains.live, at));
+        let (mut x, mut d) = ([[L::splat(0.0); 3]; 4], [[L::splat(0.0); 3]; 4]);
+        for a in 0..4 {
+            let own = loaded::<L, 7>(motion, 7 * a, at);
+            x[a] = [own[0], own[1], own[2]];
+            d[a] = rotated([own[3], own[4], own[5], own[6]], loaded(state, DIRECTORS + 3 * a, at));
+        }
+        let form = Form::new(&x, &d);
+        let frame = form.frame(loaded(state, TURN, at));
+        let (begin, before) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
+        form.replace(there, state, at);
+        let now = form.measures(&frame);
+        now.replace(there, state, NOW, at);
+        surface::strain(facts, Self::kind(), [&begin, &before, &now], strains, at);
+        let held = Held::new(facts, &begin, L::load(strains.thickness[1], at));
+        let [warp, twist] = form.warped(loaded(state, SKEW, at));
+        let lost = Self::flow(state, &held.membrane, 0, frame.seen(warp), L::load(&strains.flow[0], at), there, at)
+            + Self::flow(state, &held.bending, 1, frame.seen(twist), L::load(&strains.flow[1], at), there, at);
+        (L::load(&state[LOST], at) + lost).store(&mut state[LOST], at);
+    }
+
+    #[inline(always)]
+    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L> {
+        let half = L::splat(0.5);
+        let (begin, now) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
+        let to = flux(facts, Self::kind(), [&begin, &now], layers, at);
+        let form = Form::<L>::load(state, at);
+        let frame = form.frame(loaded(state, TURN, at));
+        let skew = loaded::<L, 2>(state, SKEW, at);
+        let initial = L::load(layers.thickness, at);
+        let held = Held::new(facts, &begin, initial);
+        let amplitudes = loaded::<L, 4>(state, AMPLITUDES, at);
+        let flown = loaded::<L, 4>(state, FLOWN, at);
+        let m = [amplitudes[0] - flown[0], amplitudes[1] - flown[1]];
+        let b = [amplitudes[2] - flown[2], amplitudes[3] - flown[3]];
+        let (w, u) = (times(&held.membrane, m), times(&held.bending, b));
+        let (sheared, start) = (form.sheared(), loaded::<L, 2>(state, SHEARED, at));
+        let change = minus(sheared, start);
+        let a = [held.shear[0] * change[0], held.shear[1] * change[1]];
+        let hourglass = half * (both(w, m) + both(u, b) + both(a, change)) + L::load(&state[LOST], at);
+        pull(&form, &frame, &to, skew, [w, u, a], pulls, at);
+        let stiffness = bounds(facts, &form, [&begin, &now], skew, [initial, to.thickness], to.moduli, inertia, to.volume);
+        let inverse = now.inverse();
+        let tilted = surface::tilted(&frame, &form.g, &inverse, to.moduli[0] * to.volume, inertia);
+        Answer {
+            stiffness: surface::joined(stiffness, tilted)
+                + surface::taut(to.strained, surface::steepest(&surface::metric(&inverse)), inertia),
+            determinant: to.determinant,
+            thickness: to.thickness,
+            hourglass,
+            flow: to.flow,
+            resultants: to.resultants,
+        }
+    }
+
+    #[inline(always)]
+    fn elastic<L: Lane>(facts: &Facts, strain: &[Batch], stiffness: [L; 2], at: usize) -> [L; 6] {
+        surface::elastic(facts, strain, stiffness, at)
+    }
+
+    fn turned(state: &[Batch], stress: [f64; 6], lane: usize) -> [f64; 6] {
+        let frame = Form::<f64>::load(state, lane).frame(loaded(state, TURN, lane));
+        surface::turned(&frame.axes, stress)
+    }
+}
+
+/// Forces and moments of what pulls on G, D, s (`to`), and on the amplitudes and a (`held`): the transpose of
+/// all of the kinematics.
+#[inline(always)]
+fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [w, u, a]: [[L; 2]; 3], pulls: &mut [Batch], at: usize) {
+    let [warp, twist] = form.warped(skew);
+    let (seen, bent) = (frame.seen(warp), frame.seen(twist));
+    // The turn of the frame in its plane, which the stabilisation alone feels.
+    let turn = (w[0] * seen[1] - w[1] * seen[0] + u[0] * bent[1] - u[1] * bent[0]) / frame.trace;
+    let on = |column: usize| frame.vector([to.membrane[0][column], to.membrane[1][column]]);
+    let f1 = plus(on(0), scaled(turn, frame.natural[1]));
+    let f2 = minus(on(1), scaled(turn, frame.natural[0]));
+    let k1 = frame.vector([to.moment[0][0], to.moment[1][0]]);
+    let k2 = frame.vector([to.moment[0][1], to.moment[1][1]]);
+    let (v, bend) = (frame.vector(w), frame.vector(u));
+    // Its tilt with the mean director.
+    let normal = frame.axes[2];
+    let mut tilt = scaled(dot(normal, form.g[0]), f1);
+    for (height, by) in [(form.g[1], f2), (form.d[0], k1), (form.d[1], k2), (warp, v), (twist, bend)] {
+        tilt = plus(tilt, scaled(dot(normal, height), by));
+    }
+    let [q1, q2] = to.transverse;
+    let sum = a[0] + a[1];
+    let join = |a: Vector<L>, b: Vector<L>, c: Vector<L>| plus(a, plus(b, c));
+    let on_g1 = join(f1, scaled(q1, form.mean), scaled(a[0], form.d[1]));
+    let on_g2 = join(f2, scaled(q2, form.mean), scaled(a[1], form.d[0]));
+    let on_q = join(scaled(q1, form.d[1]), scaled(q2, form.d[0]), scaled(sum, form.mean));
+    let on_d1 = join(k1, scaled(q2, form.q), scaled(a[1], form.g[1]));
+    let on_d2 = join(k2, scaled(q1, form.q), scaled(a[0], form.g[0]));
+    let on_mean = minus(join(scaled(q1, form.g[0]), scaled(q2, form.g[1]), scaled(sum, form.q)), scaled(frame.shortening, tilt));
+    // By the patterns; γ = h − p₁ ξ − p₂ η.
+    let quarter = L::splat(0.25);
+    let x_xi = scaled(quarter, minus(on_g1, scaled(skew[0], v)));
+    let x_eta = scaled(quarter, minus(on_g2, scaled(skew[1], v)));
+    let x_h = scaled(quarter, plus(on_q, v));
+    let d_xi = scaled(quarter, minus(on_d1, scaled(skew[0], bend)));
+    let d_eta = scaled(quarter, minus(on_d2, scaled(skew[1], bend)));
+    let (d_h, d_mean) = (scaled(quarter, bend), scaled(quarter, on_mean));
+    for corner in 0..4 {
+        let (xi, eta, h) = (L::splat(XI[corner]), L::splat(ETA[corner]), L::splat(HOURGLASS[corner]));
+        let force = join(scaled(xi, x_xi), scaled(eta, x_eta), scaled(h, x_h));
+        let couple = plus(d_mean, join(scaled(xi, d_xi), scaled(eta, d_eta), scaled(h, d_h)));
+        let director = plus(form.mean, join(scaled(xi, form.d[0]), scaled(eta, form.d[1]), scaled(h, form.r)));
+        let moment = cross(couple, director);
+        for k in 0..3 {
+            (-force[k]).store(&mut pulls[6 * corner + k], at);
+            moment[k].store(&mut pulls[6 * corner + 3 + k], at);
+        }
+    }
+}
+
+/// m ω² of motion in the plane and across it, N/m, and the cosine between both: see the head of the file.
+#[inline(always)]
+fn bounds<L: Lane>(
+    facts: &Facts,
+    form: &Form<L>,
+    [begin, now]: [&Measures<L>; 2],
+    skew: [L; 2],
+    [initial, thickness]: [L; 2],
+    [membrane, shear]: [L; 2],
+    inertia: L,
+    volume: L,
+) -> [L; 3] {
+    let (one, half, two, four) = (L::splat(1.0), L::splat(0.5), L::splat(2.0), L::splat(4.0));
+    let g = now.inverse();
+    let upper = surface::metric(&g);
+    let along = surface::membrane(&upper, [membrane, shear], volume);
+    let held = Held::new(facts, begin, initial);
+    let [[a, b], [_, d]] = held.membrane;
+    let spread = one + skew[0] * skew[0] + skew[1] * skew[1];
+    let warping = half * (a + d + ((a - d) * (a - d) + four * b * b).sqrt()) * spread;
+    let bend = thickness * thickness / (L::splat(12.0) * inertia);
+    let bend_held = initial * initial / (L::splat(12.0) * inertia);
+    // Gram matrices of s and of a in the norm of the mass.
+    let turning = one / inertia;
+    let square = |v: Vector<L>| dot(v, v);
+    let (gram, q) = (|one: L, other: L, mixed: L| [[one, mixed], [mixed, other]], square(form.q));
+    let [d0, d1, d2] = [square(form.mean), square(form.d[0]), square(form.d[1])];
+    let [g1, g2] = [square(form.g[0]), square(form.g[1])];
+    let slid =
+        gram(d0 + d2 + turning * (g1 + q), d0 + d1 + turning * (g2 + q), dot(form.d[0], form.d[1]) + turning * dot(form.g[0], form.g[1]));
+    let varied = gram(d0 + d2 + turning * (g1 + q), d0 + d1 + turning * (g2 + q), d0 + turning * q);
+    let zero = L::splat(0.0);
+    let across = L::splat(SHEAR) * shear * volume * largest(&upper, &slid);
+    let across_held = largest(&[[held.shear[0], zero], [zero, held.shear[1]]], &varied);
+    let plane = along + warping;
+    let plate = across.max(along * bend + warping * bend_held) + across_held;
+    let cosine = one.min(two * (square(form.d[0]) + square(form.d[1])).sqrt());
+    [plane, plate, cosine]
+}

@@ -1,0 +1,516 @@
+//! What shells in space have in common: the frame of an element, the strain of its layers and what their
+//! stresses pull with, from positions and directors at the centre.
+//!
+//! g_α = ∂x/∂ξ_α and d_α = ∂d/∂ξ_α are derivatives at the centre with respect to natural coordinates, d₀ the
+//! mean director. n̂ = d₀/|d₀|; ê₁ and ê₂ turn with the natural axes such that the matrix ê_i·g_α, without
+//! the turn that was given at the start, is symmetric: so renumbering the corners changes nothing. At the
+//! start ê₁ is the projection of x on the shell (of z where x is normal to it).
+//!
+//! ```text
+//! layer at z: F = G + z D,   G_iα = ê_i·g_α,   D_iα = ê_i·d_α;   its area is |F| times that of the natural axes
+//! rate: Δε and the turn in the plane from F_old and F_new as in 2D (Hughes and Winget 1980)
+//! transverse: 2 Δε_i3 = √k Σ_α Δs_α (G⁻¹)_αi at mid-step,   k = 5/6
+//! hyperelastic: [F F₀⁻¹, 0; γ, λ] with γ_i = √k Σ_α (s_α − s_α,0) (G₀⁻¹)_αi
+//! N_iα = Σ V σ_ij (F⁻¹)_αj,   M_iα = Σ z V σ_ij (F⁻¹)_αj,   Q_α = √k Σ V σ_3i (G⁻¹)_αi
+//! ```
+//!
+//! V is the volume of a layer, s_α the covariant transverse shear of the kernel. Derived for this program;
+//! the lineage is Simo and Fox, Comput. Meth. Appl. Mech. Engng 72 (1989) 267-304.
+
+use super::{Facts, Layers, Strains, Tensor};
+use crate::block::{Motion, SHELL_VALUES};
+use crate::material::Family;
+use crate::material::points::RESPONSE;
+use crate::tensor::{Dim, Matrix, Plane, Space, SymmetricTensor, Turn, cross, dot, product};
+use crate::vector::{minus, plus};
+use embate_lanes::{Batch, Lane};
+
+/// A vector of lanes.
+pub(super) type Vector<L> = [L; 3];
+
+/// Shear factor of a rectangular section.
+pub(super) const SHEAR: f64 = 5.0 / 6.0;
+
+/// Places in the state of every shell in space: what is measured at the start and now, and the turn from the
+/// natural axes to ê₁ and ê₂, as cosine and sine.
+pub(super) const BEGIN: usize = 0;
+pub(super) const NOW: usize = Measures::<f64>::WIDTH;
+pub(super) const TURN: usize = 2 * Measures::<f64>::WIDTH;
+/// The first place after them.
+pub(super) const COMMON: usize = TURN + 2;
+
+/// a times a vector.
+#[inline(always)]
+pub(super) fn scaled<L: Lane>(a: L, v: Vector<L>) -> Vector<L> {
+    [a * v[0], a * v[1], a * v[2]]
+}
+
+/// Numbers of the state, one after the other.
+#[inline(always)]
+pub(super) fn loaded<L: Lane, const N: usize>(state: &[Batch], first: usize, at: usize) -> [L; N] {
+    let mut all = [L::splat(0.0); N];
+    for k in 0..N {
+        all[k] = L::load(&state[first + k], at);
+    }
+    all
+}
+
+/// A director where the quaternion w, x, y, z takes it: v + 2 w u × v + 2 u × (u × v).
+#[inline(always)]
+pub(super) fn rotated<L: Lane>([w, x, y, z]: [L; 4], v: Vector<L>) -> Vector<L> {
+    let u = [x, y, z];
+    let once = cross(u, v);
+    plus(v, scaled(L::splat(2.0), plus(scaled(w, once), cross(u, once))))
+}
+
+/// What an element is, as far as layers are concerned: G, D and s.
+#[derive(Clone, Copy)]
+pub(super) struct Measures<L> {
+    pub(super) map: Matrix<L, 2>,
+    pub(super) bend: Matrix<L, 2>,
+    pub(super) slide: [L; 2],
+}
+
+impl<L> Measures<L> {
+    pub(super) const WIDTH: usize = 10;
+}
+
+impl<L: Lane> Measures<L> {
+    #[inline(always)]
+    pub(super) fn load(state: &[Batch], first: usize, at: usize) -> Self {
+        let of = |k: usize| L::load(&state[first + k], at);
+        Self { map: [[of(0), of(1)], [of(2), of(3)]], bend: [[of(4), of(5)], [of(6), of(7)]], slide: [of(8), of(9)] }
+    }
+
+    #[inline(always)]
+    fn all(&self) -> [L; 10] {
+        let [[a, b], [c, d]] = self.map;
+        let [[e, f], [g, h]] = self.bend;
+        [a, b, c, d, e, f, g, h, self.slide[0], self.slide[1]]
+    }
+
+    #[inline(always)]
+    pub(super) fn store(&self, state: &mut [Batch], first: usize, at: usize) {
+        let all = self.all();
+        for k in 0..10 {
+            all[k].store(&mut state[first + k], at);
+        }
+    }
+
+    /// Replaces what is in the state where `there`.
+    #[inline(always)]
+    pub(super) fn replace(&self, there: L::Mask, state: &mut [Batch], first: usize, at: usize) {
+        let all = self.all();
+        for k in 0..10 {
+            L::select(there, all[k], L::load(&state[first + k], at)).store(&mut state[first + k], at);
+        }
+    }
+
+    /// F of the layer at a height.
+    #[inline(always)]
+    fn layer(&self, z: L) -> Matrix<L, 2> {
+        let (g, d) = (&self.map, &self.bend);
+        [[g[0][0] + z * d[0][0], g[0][1] + z * d[0][1]], [g[1][0] + z * d[1][0], g[1][1] + z * d[1][1]]]
+    }
+
+    /// G⁻¹.
+    #[inline(always)]
+    pub(super) fn inverse(&self) -> Matrix<L, 2> {
+        let inverse = L::splat(1.0) / Dim::<2>::determinant(&self.map);
+        crate::tensor::scaled(Dim::<2>::adjugate(&self.map), inverse)
+    }
+}
+
+/// The axes of an element.
+#[derive(Clone, Copy)]
+pub(super) struct Frame<L> {
+    /// ê₁, ê₂, n̂.
+    pub(super) axes: [Vector<L>; 3],
+    /// The natural axes, before the turn.
+    pub(super) natural: [Vector<L>; 2],
+    /// Trace of the natural axes' G, m.
+    pub(super) trace: L,
+    /// 1/|d₀|.
+    pub(super) shortening: L,
+}
+
+impl<L: Lane> Frame<L> {
+    #[inline(always)]
+    pub(super) fn new(g: &[Vector<L>; 2], director: Vector<L>, [cos, sin]: [L; 2]) -> Self {
+        let one = L::splat(1.0);
+        let shortening = one / dot(director, director).sqrt();
+        let normal = scaled(shortening, director);
+        let flat = |v: Vector<L>| minus(v, scaled(dot(normal, v), normal));
+        let sum = plus(flat(g[0]), cross(g[1], normal));
+        let trace = dot(sum, sum).sqrt();
+        let first = scaled(one / trace, sum);
+        let second = cross(normal, first);
+        let axes = [plus(scaled(cos, first), scaled(sin, second)), minus(scaled(cos, second), scaled(sin, first)), normal];
+        Self { axes, natural: [first, second], trace, shortening }
+    }
+
+    /// ê_i·v in the plane.
+    #[inline(always)]
+    pub(super) fn seen(&self, v: Vector<L>) -> [L; 2] {
+        [dot(self.axes[0], v), dot(self.axes[1], v)]
+    }
+
+    /// ê_i·v_α.
+    #[inline(always)]
+    pub(super) fn matrix(&self, v: &[Vector<L>; 2]) -> Matrix<L, 2> {
+        let [a, b] = [self.seen(v[0]), self.seen(v[1])];
+        [[a[0], b[0]], [a[1], b[1]]]
+    }
+
+    /// Σ_i c_i ê_i.
+    #[inline(always)]
+    pub(super) fn vector(&self, [a, b]: [L; 2]) -> Vector<L> {
+        plus(scaled(a, self.axes[0]), scaled(b, self.axes[1]))
+    }
+}
+
+/// Cosine and sine of the turn from the natural axes to those that a shell has at the start.
+pub(super) fn turn_at_start(g: &[[f64; 3]; 2], director: [f64; 3]) -> [f64; 2] {
+    let frame = Frame::<f64>::new(g, director, [1.0, 0.0]);
+    let normal = frame.axes[2];
+    // As good as normal to x: 0.1 degrees.
+    let along = if normal[0].abs() > 1.0 - 1.5e-6 { [0.0, 0.0, 1.0] } else { [1.0, 0.0, 0.0] };
+    let [a, b] = frame.seen(along);
+    let length = (a * a + b * b).sqrt();
+    [a / length, b / length]
+}
+
+/// What is the same of all elements of a kernel, or belongs to one of them: area of the natural axes' unit,
+/// and the square root of the factor of the transverse shear.
+#[derive(Clone, Copy)]
+pub(super) struct Kind<L> {
+    pub(super) area: f64,
+    pub(super) shear: L,
+}
+
+/// Strains the layers over the way from `before` to `now`.
+#[inline(always)]
+pub(super) fn strain<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, before, now]: [&Measures<L>; 3], strains: &mut Strains<'_>, at: usize) {
+    let (half, one, zero) = (L::splat(0.5), L::splat(1.0), L::splat(0.0));
+    let there = half.less(L::load(strains.live, at));
+    let is_rate = matches!(facts.family, Family::Rate);
+    let (thickness, initial) = (L::load(strains.thickness[0], at), L::load(strains.thickness[1], at));
+    let heights = if is_rate { thickness } else { initial };
+    let change = minus(now.slide, if is_rate { before.slide } else { begin.slide });
+    let base = if is_rate { Measures { map: mean(&before.map, &now.map), ..*now } } else { *begin };
+    let inverse = base.inverse();
+    let slip = [0, 1].map(|i| kind.shear * (change[0] * inverse[0][i] + change[1] * inverse[1][i]));
+    for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
+        let z = L::splat(height) * heights;
+        let (new, start) = (now.layer(z), begin.layer(z));
+        let (strain, mut volume, mut ratio);
+        if is_rate {
+            let old = before.layer(z);
+            let middle = mean(&old, &new);
+            let step = [minus(new[0], old[0]), minus(new[1], old[1])];
+            let determinant = Dim::<2>::determinant(&middle);
+            let (gradient, turns) = Dim::<2>::displaced(&step, &Dim::<2>::adjugate(&middle), determinant);
+            let flat = Dim::<2>::symmetric(&gradient).rotated(&turns[0]).0;
+            // Half a turn: the mean of what it was and what it is.
+            let whole = Dim::<2>::turned(slip, &turns);
+            let across = [0, 1].map(|i| L::splat(0.25) * (slip[i] + whole[i]));
+            strain = [flat[0], flat[1], zero, flat[3], across[1], across[0]];
+            turn::<L>(facts, strains, p, there, &turns, at);
+            volume = determinant;
+            ratio = one;
+            if facts.needs_ratio {
+                ratio = Dim::<2>::determinant(&new) / Dim::<2>::determinant(&start);
+            }
+        } else {
+            let determinant = Dim::<2>::determinant(&start);
+            let inverse = crate::tensor::scaled(Dim::<2>::adjugate(&start), one / determinant);
+            let f = product(&new, &inverse);
+            let b = Dim::<2>::left_cauchy_green(&f, one).0;
+            let across = [0, 1].map(|i| f[i][0] * slip[0] + f[i][1] * slip[1]);
+            strain = [b[0], b[1], slip[0] * slip[0] + slip[1] * slip[1], b[3], across[1], across[0]];
+            volume = determinant;
+            ratio = Dim::<2>::determinant(&f);
+        }
+        volume = volume * initial * L::splat(kind.area * weight);
+        ratio = L::select(there, ratio, one);
+        // What is not there, or only fills the batch up, is not strained.
+        let rest = if is_rate { zero } else { one };
+        let rests = [rest, rest, zero, zero, zero, zero];
+        let own = &mut strains.strain[p * facts.components..][..facts.components];
+        for k in 0..6 {
+            L::select(there, strain[k], rests[k]).store(&mut own[k], at);
+        }
+        L::select(there, volume, zero).store(&mut strains.volume[p], at);
+        ratio.store(&mut strains.ratio[p], at);
+    }
+}
+
+/// ½ (a + b).
+#[inline(always)]
+fn mean<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>) -> Matrix<L, 2> {
+    let half = L::splat(0.5);
+    [[half * (a[0][0] + b[0][0]), half * (a[0][1] + b[0][1])], [half * (a[1][0] + b[1][0]), half * (a[1][1] + b[1][1])]]
+}
+
+/// Turns the stress of a layer with the material, and says how far to laws that want to know.
+#[inline(always)]
+fn turn<L: Lane>(facts: &Facts, strains: &mut Strains<'_>, p: usize, there: L::Mask, turns: &crate::tensor::Turns<Plane<L>, L>, at: usize) {
+    let own = &mut strains.stress[p * facts.components..][..facts.components];
+    let old = Tensor::<3, L>::load(own, at).0;
+    let flat = Plane([old[0], old[1], old[2], old[3]]).rotated(&turns[1]).0;
+    let across = Dim::<2>::turned([old[5], old[4]], turns);
+    let new = [flat[0], flat[1], old[2], flat[3], across[1], across[0]];
+    for k in 0..6 {
+        L::select(there, new[k], old[k]).store(&mut own[k], at);
+    }
+    if !strains.rotation.is_empty() {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let [cos, sin] = turns[0].0;
+        let turn = <Matrix<L, 3> as Turn<L>>::about_z(L::select(there, cos, one), L::select(there, sin, zero));
+        turn.store(&mut strains.rotation[p * 9..][..9], at);
+    }
+}
+
+/// What the stresses of the layers pull with.
+#[derive(Clone, Copy)]
+pub(super) struct Flux<L> {
+    /// N, M and Q of the head of the file.
+    pub(super) membrane: Matrix<L, 2>,
+    pub(super) moment: Matrix<L, 2>,
+    pub(super) transverse: [L; 2],
+    /// Volume of all layers, m³, and of each times the norm of its stress, J.
+    pub(super) volume: L,
+    pub(super) strained: L,
+    /// Largest modulus of a membrane and shear modulus, Pa.
+    pub(super) moduli: [L; 2],
+    /// Present thickness, m.
+    pub(super) thickness: L,
+    /// Least area of a layer over that of the middle, and of the middle over that at the start.
+    pub(super) determinant: L,
+    /// Part of the last step's work that flow took: in the mean, and by the square of the height.
+    pub(super) flow: [L; 2],
+    /// See [`super::Answer::resultants`].
+    pub(super) resultants: [L; SHELL_VALUES],
+}
+
+/// Sums of the layers.
+#[inline(always)]
+pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measures<L>; 2], layers: &Layers<'_>, at: usize) -> Flux<L> {
+    let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
+    let is_rate = matches!(facts.family, Family::Rate);
+    let initial = L::load(layers.thickness, at);
+    let mut thickness = zero;
+    for (p, &weight) in facts.section.weights.iter().enumerate() {
+        let [across, _] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
+        thickness += L::splat(weight) * across;
+    }
+    let thickness = initial * thickness;
+    let heights = if is_rate { thickness } else { initial };
+    let area = Dim::<2>::determinant(&now.map);
+    let mut sums = [[zero; 3]; 2];
+    let mut to = Flux {
+        membrane: [[zero; 2]; 2],
+        moment: [[zero; 2]; 2],
+        transverse: [zero; 2],
+        volume: zero,
+        strained: zero,
+        moduli: [zero; 2],
+        thickness,
+        determinant: area / Dim::<2>::determinant(&begin.map),
+        flow: [zero; 2],
+        resultants: [zero; SHELL_VALUES],
+    };
+    let (mut across, mut squares) = ([zero; 2], 0.0);
+    for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
+        let [_, stretch] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
+        let stress = layers.stress_of::<Tensor<3, L>, L>(p, at).0;
+        let [xx, yy, _, xy, yz, zx] = stress;
+        let own = |k: usize| L::load(&layers.response[p * RESPONSE + k], at);
+        let z = L::splat(height) * heights;
+        let f = now.layer(z);
+        let (determinant, adjugate) = (Dim::<2>::determinant(&f), Dim::<2>::adjugate(&f));
+        let plate = initial * stretch * L::splat(kind.area * weight);
+        let volume = plate * determinant;
+        let pull = crate::tensor::scaled(Dim::<2>::flux(&Plane([xx, yy, zero, xy]), &adjugate), plate);
+        for i in 0..2 {
+            for k in 0..2 {
+                to.membrane[i][k] += pull[i][k];
+                to.moment[i][k] += z * pull[i][k];
+            }
+        }
+        let shear = [zx * plate, yz * plate];
+        if is_rate {
+            across = [across[0] + shear[0] * determinant, across[1] + shear[1] * determinant];
+        } else {
+            let start = begin.layer(z);
+            let back = [0, 1].map(|k| adjugate[k][0] * shear[0] + adjugate[k][1] * shear[1]);
+            across = [0, 1].map(|i| across[i] + start[i][0] * back[0] + start[i][1] * back[1]);
+        }
+        for (k, value) in [xx, yy, xy].into_iter().enumerate() {
+            sums[0][k] += value * volume;
+            sums[1][k] += value * volume * z;
+        }
+        let norm = xx * xx + yy * yy + L::splat(2.0) * (xy * xy + yz * yz + zx * zx);
+        to.strained += volume * norm.sqrt();
+        to.volume += volume;
+        to.moduli = [to.moduli[0].max(facts.membrane_modulus(own(2), own(3))), to.moduli[1].max(own(3))];
+        to.determinant = to.determinant.min(determinant / area);
+        if is_rate {
+            let (work, lost) = (half * own(0), own(1));
+            let part = L::select(zero.less(work), (lost / work).min(one).max(zero), zero);
+            to.flow[0] += L::splat(weight) * part;
+            to.flow[1] += L::splat(weight * height * height) * part;
+            squares += weight * height * height;
+        }
+    }
+    to.flow[1] = if squares > 0.0 { to.flow[1] * L::splat(1.0 / squares) } else { to.flow[0] };
+    let inverse = if is_rate { now.inverse() } else { begin.inverse() };
+    to.transverse = [0, 1].map(|k| kind.shear * (inverse[k][0] * across[0] + inverse[k][1] * across[1]));
+    // By width: over the area of the middle.
+    let over = one / (L::splat(kind.area) * area);
+    for k in 0..3 {
+        to.resultants[k] = sums[0][k] * over;
+        to.resultants[3 + k] = -(sums[1][k] * over);
+    }
+    let force = [0, 1].map(|i| now.map[i][0] * to.transverse[0] + now.map[i][1] * to.transverse[1]);
+    (to.resultants[6], to.resultants[7], to.resultants[8]) = (force[0] * over, force[1] * over, thickness);
+    to
+}
+
+/// Stress of an elastic body with K and µ, Pa, that is strained like a layer.
+#[inline(always)]
+pub(super) fn elastic<L: Lane>(facts: &Facts, strain: &[Batch], [bulk, shear]: [L; 2], at: usize) -> [L; 6] {
+    let [xx, yy, _, xy, yz, zx] = Tensor::<3, L>::load(strain, at).0;
+    let (zero, two) = (L::splat(0.0), L::splat(2.0));
+    let modulus = facts.membrane_modulus(bulk, shear);
+    // E/(1 − ν²) ν = E/(1 − ν²) − 2 µ.
+    let across = modulus - two * shear;
+    [modulus * xx + across * yy, modulus * yy + across * xx, zero, two * shear * xy, two * shear * yz, two * shear * zx]
+}
+
+/// A stress in the frame as the model sees it: xx yy zz xy yz zx.
+pub(super) fn turned(axes: &[[f64; 3]; 3], stress: [f64; 6]) -> [f64; 6] {
+    let columns = std::array::from_fn(|i| std::array::from_fn(|k| axes[k][i]));
+    crate::tensor::Solid(stress).rotated(&columns).0
+}
+
+/// Larger eigenvalue of the product of two symmetric matrices that are positive semidefinite.
+#[inline(always)]
+pub(super) fn largest<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>) -> L {
+    let half = L::splat(0.5);
+    let both = product(a, b);
+    let middle = half * (both[0][0] + both[1][1]);
+    let part = middle * middle - Dim::<2>::determinant(&both);
+    middle + part.max(L::splat(0.0)).sqrt()
+}
+
+/// The metric g^αβ = Σ_i (G⁻¹)_αi (G⁻¹)_βi.
+#[inline(always)]
+pub(super) fn metric<L: Lane>(g: &Matrix<L, 2>) -> Matrix<L, 2> {
+    let of = |a: usize, b: usize| g[a][0] * g[b][0] + g[a][1] * g[b][1];
+    let mixed = of(0, 1);
+    [[of(0, 0), mixed], [mixed, of(1, 1)]]
+}
+
+/// Larger eigenvalue of a symmetric matrix.
+#[inline(always)]
+pub(super) fn steepest<L: Lane>(m: &Matrix<L, 2>) -> L {
+    let difference = m[0][0] - m[1][1];
+    let root = (difference * difference + L::splat(4.0) * m[0][1] * m[0][1]).sqrt();
+    L::splat(0.5) * (m[0][0] + m[1][1] + root)
+}
+
+/// C V (max(1 − s, 0) T + s Λ) with the trace T and the larger eigenvalue Λ of the metric, s = 2 µ/C: what
+/// no strain in the plane has more of, N/m.
+#[inline(always)]
+pub(super) fn membrane<L: Lane>(metric: &Matrix<L, 2>, [modulus, shear]: [L; 2], volume: L) -> L {
+    let part = L::splat(2.0) * shear / modulus;
+    let trace = metric[0][0] + metric[1][1];
+    modulus * volume * ((L::splat(1.0) - part).max(L::splat(0.0)) * trace + part * steepest(metric))
+}
+
+/// From m ω² in the plane a and across it p, and the cosine c between both, that of all: ½ (a' + p + √((a' −
+/// p)² + 4 a' p c'²)). `tilted` is what the membrane adds to rotations where the mean director is not normal to
+/// the element, τ: a' = a + τ, c' = c + √(τ/a').
+#[inline(always)]
+pub(super) fn joined<L: Lane>([a, p, cosine]: [L; 3], tilted: L) -> L {
+    let a = a + tilted;
+    let cosine = L::splat(1.0).min(cosine + (tilted / a).sqrt());
+    let difference = a - p;
+    L::splat(0.5) * (a + p + (difference * difference + L::splat(4.0) * a * p * cosine * cosine).sqrt())
+}
+
+/// C V |t|²/(|d₀|² α) with the slope t_j = Σ_α n̂·g_α (G⁻¹)_αj of an element against its mean director: G
+/// changes by it when that rotates.
+#[inline(always)]
+pub(super) fn tilted<L: Lane>(frame: &Frame<L>, g: &[Vector<L>; 2], inverse: &Matrix<L, 2>, stiffness: L, inertia: L) -> L {
+    let normal = frame.axes[2];
+    let (one, two) = (dot(normal, g[0]), dot(normal, g[1]));
+    let (a, b) = (one * inverse[0][0] + two * inverse[1][0], one * inverse[0][1] + two * inverse[1][1]);
+    stiffness * (a * a + b * b) * frame.shortening * frame.shortening / inertia
+}
+
+/// m ω² that stresses add by turning with the nodes: S ½ (1/α + √(1/α² + 4 `gradient`/α)) with S = Σ V |σ| and
+/// the largest square of a gradient by the mass, N/m.
+#[inline(always)]
+pub(super) fn taut<L: Lane>(strained: L, gradient: L, inertia: L) -> L {
+    let turning = L::splat(1.0) / inertia;
+    L::splat(0.5) * strained * (turning + (turning * (turning + L::splat(4.0) * gradient)).sqrt())
+}
+
+/// Volumes of the layers at the start.
+pub(super) fn volumes(facts: &Facts, area: f64, begin: &Measures<f64>, thickness: f64) -> Vec<f64> {
+    let layers = facts.section.heights.iter().zip(&facts.section.weights);
+    layers.map(|(height, weight)| area * thickness * weight * Dim::<2>::determinant(&begin.layer(height * thickness))).collect()
+}
+
+/// Inertia of a corner by its mass, m²: the least above t²/12 with which the motion in the plane decides the
+/// step, at least the part `least` of the area (m²) and, where it does not follow, a quarter of that; `bounds`
+/// are those of [`joined`].
+pub(super) fn inertia(thickness: f64, area: f64, least: f64, bounds: impl Fn(f64) -> [f64; 3]) -> f64 {
+    let least = (thickness * thickness / 12.0).max(least * area);
+    let governs = |inertia: f64| {
+        let [plane, plate, _] = bounds(inertia);
+        plate <= plane
+    };
+    let most = least.max(0.25 * area);
+    if governs(least) || !governs(most) {
+        return if governs(least) { least } else { most };
+    }
+    let (mut low, mut high) = (least, most);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if governs(middle) { high = middle } else { low = middle }
+    }
+    high
+}
+
+/// Position and rotation of a node.
+pub(super) fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
+    let attitude = motion.rotations.attitudes.get(place).map_or([1.0, 0.0, 0.0, 0.0], |attitude| attitude.0);
+    let all = motion.positions[node].into_iter().chain(attitude);
+    to.iter_mut().zip(all).for_each(|(batch, value)| batch.0[lane] = value);
+}
+
+/// Directors of the corners of each element: the mean of the normals of the elements around a node, as far as
+/// these differ by less than an angle with the cosine `fold`.
+pub(super) fn directions<const N: usize>(connectivity: &[u32], positions: &[[f64; 3]], fold: f64) -> Vec<[f64; 3]> {
+    let unit = |v: [f64; 3]| scaled(1.0 / dot(v, v).sqrt(), v);
+    let corner = |k: usize| {
+        let (first, at) = (k / N * N, k % N);
+        let x = |a: usize| positions[connectivity[first + a % N] as usize];
+        unit(cross(minus(x(at + 1), x(at)), minus(x(at + N - 1), x(at))))
+    };
+    let own: Vec<[f64; 3]> = (0..connectivity.len()).map(corner).collect();
+    let mut at: Vec<(u32, usize)> = connectivity.iter().enumerate().map(|(k, &node)| (node, k)).collect();
+    at.sort_unstable();
+    let mut directions = own.clone();
+    for around in at.chunk_by(|a, b| a.0 == b.0) {
+        for &(_, k) in around {
+            // A neighbour may be turned over.
+            let signed = around.iter().map(|&(_, other)| scaled(if dot(own[k], own[other]) < 0.0 { -1.0 } else { 1.0 }, own[other]));
+            directions[k] = unit(signed.filter(|&other| dot(own[k], other) >= fold).fold([0.0; 3], plus));
+        }
+    }
+    directions
+}

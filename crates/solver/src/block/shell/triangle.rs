@@ -1,0 +1,268 @@
+//! `shell3`: a shell of three nodes in space.
+//!
+//! Natural coordinates are those of an equilateral triangle, g₁ = x₂ − x₁, g₂ = (2 x₃ − x₂ − x₁)/√3, likewise
+//! for the directors, d₀ their mean: so renumbering changes nothing. Membrane and bending are constant; frame,
+//! strain and stresses of the layers as in `surface.rs`.
+//!
+//! *Transverse shear* of MITC3 at the centre (Lee and Bathe 2004): with c_ij = (x_j − x_i)·½ (d_i + d_j) along
+//! the sides, s₁ = (2 c₁₂ + c₁₃ − c₂₃)/3 and s₂ = (2 c₁₃ + c₁₂ + c₂₃)/3 along x₂ − x₁ and x₃ − x₁; its stiffness
+//! times t²/(t² + 0.1 l²) with the longest side l (Lyly, Stenberg and Vihinen 1993), by the root of it on the
+//! strain and on the stress. One motion of a lone triangle is not held (a twist in the plane); in a mesh it is.
+//!
+//! Forces are the gradient of the energy by x_a, moments m_a = −d_a × ∂W/∂d_a. *Step*: as that of `shell4`
+//! without stabilisation, with the mass in thirds at the corners.
+
+use super::surface::{
+    self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, largest, loaded, rotated, scaled, turn_at_start,
+};
+use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
+use crate::block::Motion;
+use crate::tensor::{Dim, Space, cross, dot};
+use crate::vector::{minus, plus};
+use embate_lanes::{Batch, Lane};
+
+/// Weight of the longest side against the thickness.
+const STABILIZING: f64 = 0.1;
+
+/// Least inertia of a corner by its mass over the area: less would let the membrane rotate the nodes of thin
+/// shells that are not normal to their directors faster than it moves them.
+const INERTIA: f64 = 1.0 / 6.0;
+
+/// Places in the state, after what all shells in space have: directors of the corners at the start, root of the
+/// factor of the shear, positions and directors now.
+const DIRECTORS: usize = COMMON;
+const FACTOR: usize = DIRECTORS + 9;
+const FORM: usize = FACTOR + 1;
+const STATE: usize = FORM + 18;
+
+/// A triangle.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::block) struct Triangle;
+
+/// Positions (from the first) and directors of the corners.
+#[derive(Clone, Copy)]
+struct Form<L> {
+    x: [Vector<L>; 3],
+    d: [Vector<L>; 3],
+}
+
+/// Natural derivatives of a vector.
+#[inline(always)]
+fn natural<L: Lane>(v: &[Vector<L>; 3]) -> [Vector<L>; 2] {
+    let root = L::splat(1.0 / 3.0f64.sqrt());
+    [minus(v[1], v[0]), scaled(root, plus(minus(v[2], v[0]), minus(v[2], v[1])))]
+}
+
+impl<L: Lane> Form<L> {
+    #[inline(always)]
+    fn mean(&self) -> Vector<L> {
+        scaled(L::splat(1.0 / 3.0), plus(self.d[0], plus(self.d[1], self.d[2])))
+    }
+
+    #[inline(always)]
+    fn frame(&self, turn: [L; 2]) -> Frame<L> {
+        Frame::new(&natural(&self.x), self.mean(), turn)
+    }
+
+    /// Sides 12, 13 and 23, and their mean directors.
+    #[inline(always)]
+    fn sides(&self) -> [[Vector<L>; 2]; 3] {
+        let half = L::splat(0.5);
+        let side = |i: usize, j: usize| [minus(self.x[j], self.x[i]), scaled(half, plus(self.d[i], self.d[j]))];
+        [side(0, 1), side(0, 2), side(1, 2)]
+    }
+
+    #[inline(always)]
+    fn measures(&self, frame: &Frame<L>) -> Measures<L> {
+        let [c12, c13, c23] = self.sides().map(|[side, director]| dot(side, director));
+        let (third, two) = (L::splat(1.0 / 3.0), L::splat(2.0));
+        let (s1, s2) = (third * (two * c12 + c13 - c23), third * (two * c13 + c12 + c23));
+        let slide = [s1, L::splat(1.0 / 3.0f64.sqrt()) * (two * s2 - s1)];
+        Measures { map: frame.matrix(&natural(&self.x)), bend: frame.matrix(&natural(&self.d)), slide }
+    }
+
+    #[inline(always)]
+    fn load(state: &[Batch], at: usize) -> Self {
+        let mut v = [[L::splat(0.0); 3]; 6];
+        for k in 0..18 {
+            v[k / 3][k % 3] = L::load(&state[FORM + k], at);
+        }
+        Self { x: [v[0], v[1], v[2]], d: [v[3], v[4], v[5]] }
+    }
+
+    #[inline(always)]
+    fn replace(&self, there: L::Mask, state: &mut [Batch], at: usize) {
+        for k in 0..9 {
+            let (x, d) = (self.x[k / 3][k % 3], self.d[k / 3][k % 3]);
+            L::select(there, x, L::load(&state[FORM + k], at)).store(&mut state[FORM + k], at);
+            L::select(there, d, L::load(&state[FORM + 9 + k], at)).store(&mut state[FORM + 9 + k], at);
+        }
+    }
+
+    /// What the first, or the second, natural component of the shear feels of positions and directors.
+    #[inline(always)]
+    fn shear_rows(&self) -> [[[Vector<L>; 3]; 2]; 2] {
+        let (third, two) = (L::splat(1.0 / 3.0), L::splat(2.0));
+        let root = L::splat(1.0 / 3.0f64.sqrt());
+        let sides = self.sides();
+        // Weights of c₁₂, c₁₃, c₂₃ in s₁, and in (2 s₂ − s₁)/√3.
+        let first = [two * third, third, -third];
+        let second = [L::splat(0.0), root, root];
+        let mut rows = [[[[L::splat(0.0); 3]; 3]; 2]; 2];
+        for (row, weights) in [first, second].into_iter().enumerate() {
+            for (side, (i, j)) in [(0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
+                let [along, director] = sides[side];
+                let (x, d) = (scaled(weights[side], director), scaled(L::splat(0.5) * weights[side], along));
+                rows[row][0][j] = plus(rows[row][0][j], x);
+                rows[row][0][i] = minus(rows[row][0][i], x);
+                rows[row][1][i] = plus(rows[row][1][i], d);
+                rows[row][1][j] = plus(rows[row][1][j], d);
+            }
+        }
+        rows
+    }
+}
+
+impl Triangle {
+    /// Area of the natural axes' triangle over that of their square.
+    const AREA: f64 = 0.433_012_701_892_219_3;
+}
+
+impl ShellKernel<3> for Triangle {
+    const NODES: usize = 3;
+    const MOTION: usize = 21;
+    const STATE: usize = STATE;
+    const ROTATES: bool = true;
+    const PULLS: usize = 18;
+
+    fn directions(connectivity: &[u32], positions: &[[f64; 3]], fold: f64) -> Vec<[f64; 3]> {
+        surface::directions::<3>(connectivity, positions, fold)
+    }
+
+    fn start(facts: &Facts, positions: &[[f64; 3]], directions: &[[f64; 3]], thickness: f64, _: [f64; 2]) -> Start {
+        let form = Form::<f64> { x: std::array::from_fn(|k| minus(positions[k], positions[0])), d: std::array::from_fn(|k| directions[k]) };
+        let turn = turn_at_start(&natural(&form.x), form.mean());
+        let measures = form.measures(&form.frame(turn));
+        let square = |[side, _]: [[f64; 3]; 2]| dot(side, side);
+        let longest = form.sides().map(square).into_iter().fold(0.0, f64::max);
+        let factor = (SHEAR * thickness * thickness / (thickness * thickness + STABILIZING * longest)).sqrt();
+        let mut state = vec![Batch::default(); STATE];
+        measures.store(&mut state, BEGIN, 0);
+        measures.store(&mut state, NOW, 0);
+        let rest = turn.into_iter().chain(form.d.into_iter().flatten()).chain([factor]);
+        let rest = rest.chain(form.x.into_iter().flatten()).chain(form.d.into_iter().flatten());
+        state[TURN..].iter_mut().zip(rest).for_each(|(batch, value)| batch.0[0] = value);
+        let area = Self::AREA * Dim::<2>::determinant(&measures.map);
+        let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
+        let volume = volumes.iter().sum();
+        let inertia = surface::inertia(thickness, area, INERTIA, |inertia| {
+            bounds(&form, &measures, thickness, facts.moduli(), factor, inertia, volume)
+        });
+        Start { state: state.into_iter().map(|batch| batch.0[0]).collect(), areas: vec![area / 3.0; 3], volumes, inertia }
+    }
+
+    fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
+        surface::gather(node, place, motion, to, lane);
+    }
+
+    #[inline(always)]
+    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+        let there = L::splat(0.5).less(L::load(strains.live, at));
+        let (mut x, mut d) = ([[L::splat(0.0); 3]; 3], [[L::splat(0.0); 3]; 3]);
+        for a in 0..3 {
+            let own = loaded::<L, 7>(motion, 7 * a, at);
+            x[a] = [own[0], own[1], own[2]];
+            d[a] = rotated([own[3], own[4], own[5], own[6]], loaded(state, DIRECTORS + 3 * a, at));
+        }
+        let form = Form { x: [minus(x[0], x[0]), minus(x[1], x[0]), minus(x[2], x[0])], d };
+        let frame = form.frame(loaded(state, TURN, at));
+        let (begin, before) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
+        form.replace(there, state, at);
+        let now = form.measures(&frame);
+        now.replace(there, state, NOW, at);
+        let kind = Kind { area: Self::AREA, shear: L::load(&state[FACTOR], at) };
+        surface::strain(facts, kind, [&begin, &before, &now], strains, at);
+    }
+
+    #[inline(always)]
+    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L> {
+        let (begin, now) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
+        let factor = L::load(&state[FACTOR], at);
+        let to = flux(facts, Kind { area: Self::AREA, shear: factor }, [&begin, &now], layers, at);
+        let form = Form::<L>::load(state, at);
+        let frame = form.frame(loaded(state, TURN, at));
+        let (g, d) = (natural(&form.x), natural(&form.d));
+        let f = [0, 1].map(|k| frame.vector([to.membrane[0][k], to.membrane[1][k]]));
+        let k = [0, 1].map(|k| frame.vector([to.moment[0][k], to.moment[1][k]]));
+        // The tilt of the frame with the mean director.
+        let normal = frame.axes[2];
+        let mut tilt = scaled(dot(normal, g[0]), f[0]);
+        for (height, by) in [(g[1], f[1]), (d[0], k[0]), (d[1], k[1])] {
+            tilt = plus(tilt, scaled(dot(normal, height), by));
+        }
+        let tilt = scaled(L::splat(1.0 / 3.0) * frame.shortening, tilt);
+        let rows = form.shear_rows();
+        let root = L::splat(1.0 / 3.0f64.sqrt());
+        let [q1, q2] = to.transverse;
+        for corner in 0..3 {
+            // The transpose of `natural`.
+            let spread = |v: &[Vector<L>; 2]| match corner {
+                0 => minus(scaled(L::splat(-1.0), v[0]), scaled(root, v[1])),
+                1 => minus(v[0], scaled(root, v[1])),
+                _ => scaled(root + root, v[1]),
+            };
+            let force = plus(spread(&f), plus(scaled(q1, rows[0][0][corner]), scaled(q2, rows[1][0][corner])));
+            let couple = minus(plus(spread(&k), plus(scaled(q1, rows[0][1][corner]), scaled(q2, rows[1][1][corner]))), tilt);
+            let moment = cross(couple, form.d[corner]);
+            for k in 0..3 {
+                (-force[k]).store(&mut pulls[6 * corner + k], at);
+                moment[k].store(&mut pulls[6 * corner + 3 + k], at);
+            }
+        }
+        let stiffness = bounds(&form, &now, to.thickness, to.moduli, factor, inertia, to.volume);
+        let inverse = now.inverse();
+        let tilted = surface::tilted(&frame, &g, &inverse, to.moduli[0] * to.volume, inertia);
+        Answer {
+            stiffness: surface::joined(stiffness, tilted)
+                + surface::taut(to.strained, L::splat(6.0) * surface::steepest(&surface::metric(&inverse)), inertia),
+            determinant: to.determinant,
+            thickness: to.thickness,
+            hourglass: L::splat(0.0),
+            flow: [L::splat(0.0); 2],
+            resultants: to.resultants,
+        }
+    }
+
+    #[inline(always)]
+    fn elastic<L: Lane>(facts: &Facts, strain: &[Batch], stiffness: [L; 2], at: usize) -> [L; 6] {
+        surface::elastic(facts, strain, stiffness, at)
+    }
+
+    fn turned(state: &[Batch], stress: [f64; 6], lane: usize) -> [f64; 6] {
+        let frame = Form::<f64>::load(state, lane).frame(loaded(state, TURN, lane));
+        surface::turned(&frame.axes, stress)
+    }
+}
+
+/// m ω² of motion in the plane and across it, N/m, and the cosine between both.
+#[inline(always)]
+fn bounds<L: Lane>(form: &Form<L>, now: &Measures<L>, thickness: L, moduli: [L; 2], factor: L, inertia: L, volume: L) -> [L; 3] {
+    let metric = surface::metric(&now.inverse());
+    // Σ of the squares of the natural derivatives of the shape functions is 2, a corner has a third.
+    let plane = L::splat(6.0) * surface::membrane(&metric, moduli, volume);
+    let bend = thickness * thickness / (L::splat(12.0) * inertia);
+    let rows = form.shear_rows();
+    let turning = L::splat(1.0) / inertia;
+    let gram = |i: usize, j: usize| {
+        let mut sum = L::splat(0.0);
+        for corner in 0..3 {
+            sum += dot(rows[i][0][corner], rows[j][0][corner]) + turning * dot(rows[i][1][corner], rows[j][1][corner]);
+        }
+        L::splat(3.0) * sum
+    };
+    let mixed = gram(0, 1);
+    let across = factor * factor * moduli[1] * volume * largest(&metric, &[[gram(0, 0), mixed], [mixed, gram(1, 1)]]);
+    let d = natural(&form.d);
+    let cosine = L::splat(1.0).min(L::splat(2.0) * (dot(d[0], d[0]) + dot(d[1], d[1])).sqrt());
+    [plane, plane * bend + across, cosine]
+}

@@ -154,7 +154,7 @@ pub fn layer(material: &Material, plane_stress: bool) -> Option<Box<dyn PointLaw
     })
 }
 
-/// The law of a material for layers of shells in space: z across the layer, where there is no stress.
+/// The law of a material for layers of shells in 3D: z across the layer, where there is no stress.
 #[must_use]
 pub fn layer_in_space(material: &Material) -> Option<Box<dyn PointLaw>> {
     Some(Box::new(super::stress_constrained::StressConstrained::layer_in_space(of::<3>(material)?)))

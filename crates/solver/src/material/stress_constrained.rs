@@ -1,6 +1,6 @@
 //! A law without load across: plane stress (σ_zz = 0), uniaxial stress (σ_yy = σ_zz = 0) and the layers of
-//! shells (in 2D σ_yy = 0, y across the layer; in space σ_zz = 0) around any law. The strain across is found such that the
-//! stress across vanishes.
+//! shells (in 2D σ_yy = 0, y across the layer; in 3D σ_zz = 0) around any law. The strain across is found
+//! such that the stress across vanishes.
 //!
 //! The law is asked again and again with another Δε across (rate laws) or λ (hyperelastic laws: b = λ²
 //! across, J = det F times what the volume gains across) until the stress |σ_zz| is at most 1e-12 of the
@@ -54,7 +54,7 @@ impl StressConstrained {
         Self { law, across: &[YY], components: PLANE, is_sheared: true }
     }
 
-    /// The same in space, z across it: with F = [F̂ 0; γ μ] the energy is at its minimum where σ_zz − w·(σ_zx,
+    /// The same in 3D, z across it: with F = [F̂ 0; γ μ] the energy is at its minimum where σ_zz − w·(σ_zx,
     /// σ_zy) = 0, w = (F̂ F̂ᵀ)⁻¹ F̂ γ.
     pub(super) fn layer_in_space(law: Box<dyn PointLaw>) -> Self {
         Self { law, across: &[ZZ], components: SOLID, is_sheared: true }

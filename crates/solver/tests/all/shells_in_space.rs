@@ -1,4 +1,4 @@
-//! Shells in space: forces against the slope of the energy, momenta, turns without strain, renumbering, the
+//! Shells in 3D: forces against the slope of the energy, momenta, turns without strain, renumbering, the
 //! stable step against true frequencies, patches.
 
 use crate::patches::{Spread, YOUNG, eigenvalues, material, solids};

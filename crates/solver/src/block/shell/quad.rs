@@ -1,4 +1,4 @@
-//! `shell4`: a shell of four nodes in space with one point in the plane.
+//! `shell4`: a shell of four nodes in 3D with one point in the plane.
 //!
 //! Positions x_a and directors d_a = R_a D_a of the corners are all it knows of its nodes. With the patterns
 //! ξ = (−1, 1, 1, −1), η = (−1, −1, 1, 1), h = ξ η: g₁ = ¼ Σ ξ_a x_a, g₂ = ¼ Σ η_a x_a, q = ¼ Σ h_a x_a, d₀ =
@@ -7,9 +7,9 @@
 //! *Transverse shear* of MITC4 (Dvorkin and Bathe 1984) in scalar products: s₁ = g₁·d₀ + q·d₂, s₂ = g₂·d₀ +
 //! q·d₁ at the centre, and their linear variation a₁ = g₁·d₂ + q·d₀, a₂ = g₂·d₁ + q·d₀.
 //!
-//! *Stabilisation*, elastic with the stiffness at rest, a potential of the start (index 0): with q₀ = p₁ g₁ + p₂
-//! g₂ in the plane, γ = h − p₁ ξ − p₂ η, H_ij = (A/3) Σ_α (G₀⁻¹)_αi (G₀⁻¹)_αj, and amplitudes m_i = ê_i·(q − p₁
-//! g₁ − p₂ g₂), b_i = ê_i·(r − p₁ d₁ − p₂ d₂) less what they were and what has flowed:
+//! *Stabilisation*, elastic with the stiffness at rest, a potential of the start (index 0): with q₀ = p₁ g₁ +
+//! p₂ g₂ in the plane, γ = h − p₁ ξ − p₂ η, H_ij = (A/3) Σ_α (G₀⁻¹)_αi (G₀⁻¹)_αj, and amplitudes m_i = ê_i·(q
+//! − p₁ g₁ − p₂ g₂), b_i = ê_i·(r − p₁ d₁ − p₂ d₂) less what they were and what has flowed:
 //!
 //! ```text
 //! W = ½ t E mᵀ K m + ½ (t³/12) E bᵀ K b + ½ k µ t (A/3) Σ_α g^αα (a_α − a_α,0)²
@@ -44,7 +44,7 @@ const XI: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
 const ETA: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
 const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
-/// Places in the state, after what all shells in space have: directors of the corners at the start; p, a and b
+/// Places in the state, after what all shells in 3D have: directors of the corners at the start; p, a and b
 /// at the start; amplitudes m and b now, what of them has flowed, and the work of that, J; g₁ g₂ q d₀ d₁ d₂ r
 /// now.
 const DIRECTORS: usize = COMMON;

@@ -1,4 +1,4 @@
-//! What shells in space have in common: the frame of an element, the strain of its layers and what their
+//! What shells in 3D have in common: the frame of an element, the strain of its layers and what their
 //! stresses pull with, from positions and directors at the centre.
 //!
 //! g_α = ∂x/∂ξ_α and d_α = ∂d/∂ξ_α are derivatives at the centre with respect to natural coordinates, d₀ the
@@ -31,7 +31,7 @@ pub(super) type Vector<L> = [L; 3];
 /// Shear factor of a rectangular section.
 pub(super) const SHEAR: f64 = 5.0 / 6.0;
 
-/// Places in the state of every shell in space: what is measured at the start and now, and the turn from the
+/// Places in the state of every shell in 3D: what is measured at the start and now, and the turn from the
 /// natural axes to ê₁ and ê₂, as cosine and sine.
 pub(super) const BEGIN: usize = 0;
 pub(super) const NOW: usize = Measures::<f64>::WIDTH;
@@ -430,8 +430,8 @@ pub(super) fn membrane<L: Lane>(metric: &Matrix<L, 2>, [modulus, shear]: [L; 2],
 }
 
 /// From m ω² in the plane a and across it p, and the cosine c between both, that of all: ½ (a' + p + √((a' −
-/// p)² + 4 a' p c'²)). `tilted` is what the membrane adds to rotations where the mean director is not normal to
-/// the element, τ: a' = a + τ, c' = c + √(τ/a').
+/// p)² + 4 a' p c'²)). `tilted` is what the membrane adds to rotations where the mean director is not normal
+/// to the element, τ: a' = a + τ, c' = c + √(τ/a').
 #[inline(always)]
 pub(super) fn joined<L: Lane>([a, p, cosine]: [L; 3], tilted: L) -> L {
     let a = a + tilted;
@@ -450,8 +450,8 @@ pub(super) fn tilted<L: Lane>(frame: &Frame<L>, g: &[Vector<L>; 2], inverse: &Ma
     stiffness * (a * a + b * b) * frame.shortening * frame.shortening / inertia
 }
 
-/// m ω² that stresses add by turning with the nodes: S ½ (1/α + √(1/α² + 4 `gradient`/α)) with S = Σ V |σ| and
-/// the largest square of a gradient by the mass, N/m.
+/// m ω² that stresses add by turning with the nodes: S ½ (1/α + √(1/α² + 4 `gradient`/α)) with S = Σ V |σ|
+/// and the largest square of a gradient by the mass, N/m.
 #[inline(always)]
 pub(super) fn taut<L: Lane>(strained: L, gradient: L, inertia: L) -> L {
     let turning = L::splat(1.0) / inertia;
@@ -465,8 +465,8 @@ pub(super) fn volumes(facts: &Facts, area: f64, begin: &Measures<f64>, thickness
 }
 
 /// Inertia of a corner by its mass, m²: the least above t²/12 with which the motion in the plane decides the
-/// step, at least the part `least` of the area (m²) and, where it does not follow, a quarter of that; `bounds`
-/// are those of [`joined`].
+/// step, at least the part `least` of the area (m²) and, where it does not follow, a quarter of that;
+/// `bounds` are those of [`joined`].
 pub(super) fn inertia(thickness: f64, area: f64, least: f64, bounds: impl Fn(f64) -> [f64; 3]) -> f64 {
     let least = (thickness * thickness / 12.0).max(least * area);
     let governs = |inertia: f64| {

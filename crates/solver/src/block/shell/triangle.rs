@@ -1,13 +1,14 @@
-//! `shell3`: a shell of three nodes in space.
+//! `shell3`: a shell of three nodes in 3D.
 //!
 //! Natural coordinates are those of an equilateral triangle, g₁ = x₂ − x₁, g₂ = (2 x₃ − x₂ − x₁)/√3, likewise
-//! for the directors, d₀ their mean: so renumbering changes nothing. Membrane and bending are constant; frame,
-//! strain and stresses of the layers as in `surface.rs`.
+//! for the directors, d₀ their mean: so renumbering changes nothing. Membrane and bending are constant;
+//! frame, strain and stresses of the layers as in `surface.rs`.
 //!
-//! *Transverse shear* of MITC3 at the centre (Lee and Bathe 2004): with c_ij = (x_j − x_i)·½ (d_i + d_j) along
-//! the sides, s₁ = (2 c₁₂ + c₁₃ − c₂₃)/3 and s₂ = (2 c₁₃ + c₁₂ + c₂₃)/3 along x₂ − x₁ and x₃ − x₁; its stiffness
-//! times t²/(t² + 0.1 l²) with the longest side l (Lyly, Stenberg and Vihinen 1993), by the root of it on the
-//! strain and on the stress. One motion of a lone triangle is not held (a twist in the plane); in a mesh it is.
+//! *Transverse shear* of MITC3 at the centre (Lee and Bathe 2004): with c_ij = (x_j − x_i)·½ (d_i + d_j)
+//! along the sides, s₁ = (2 c₁₂ + c₁₃ − c₂₃)/3 and s₂ = (2 c₁₃ + c₁₂ + c₂₃)/3 along x₂ − x₁ and x₃ − x₁; its
+//! stiffness times t²/(t² + 0.1 l²) with the longest side l (Lyly, Stenberg and Vihinen 1993), by the root of
+//! it on the strain and on the stress. One motion of a lone triangle is not held (a twist in the plane); in a
+//! mesh it is.
 //!
 //! Forces are the gradient of the energy by x_a, moments m_a = −d_a × ∂W/∂d_a. *Step*: as that of `shell4`
 //! without stabilisation, with the mass in thirds at the corners.
@@ -28,7 +29,7 @@ const STABILIZING: f64 = 0.1;
 /// shells that are not normal to their directors faster than it moves them.
 const INERTIA: f64 = 1.0 / 6.0;
 
-/// Places in the state, after what all shells in space have: directors of the corners at the start, root of the
+/// Places in the state, after what all shells in 3D have: directors of the corners at the start, root of the
 /// factor of the shear, positions and directors now.
 const DIRECTORS: usize = COMMON;
 const FACTOR: usize = DIRECTORS + 9;

@@ -6,6 +6,8 @@
 
 mod bar2;
 mod shell2;
+mod shell3;
+mod shell4;
 mod of_part;
 mod hex8;
 mod hex8_assumed_strain;
@@ -23,6 +25,8 @@ pub use hex8_reduced::{Hex8Reduced, Hex8ReducedAssumedStrain, Hex8ReducedViscous
 pub use quad4::{Quad4, Quad4Full};
 pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
 pub use shell2::SHELL2;
+pub use shell3::SHELL3;
+pub use shell4::SHELL4;
 pub use tet4::{Tet4, Tet4Anp};
 pub use tri3::{Tri3, Tri3Anp};
 pub use wedge6::Wedge6;
@@ -57,10 +61,10 @@ impl ElementKind {
         self.cell.nodes()
     }
 
-    /// Whether `element_triangles` of a part names it.
+    /// Whether `element_triangles` of a part names it: triangles in 2D.
     #[must_use]
     pub const fn is_triangle(&self) -> bool {
-        matches!(self.cell, CellKind::Triangle)
+        matches!(self.cell, CellKind::Triangle) && self.dimension == 2
     }
 }
 
@@ -380,8 +384,9 @@ pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENT
 /// into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
-/// Elements of a mid surface, whose points are layers through the thickness: blocks of their own too.
-pub const SHELLS: &[ElementKind] = &[SHELL2];
+/// Elements of a mid surface, a line in 2D, whose points are layers through the thickness: blocks of their own
+/// too.
+pub const SHELLS: &[ElementKind] = &[SHELL2, SHELL4, SHELL3];
 
 /// Every element: those in 2D, bars and shells too, then those in 3D.
 #[must_use]

@@ -76,7 +76,7 @@ pub(super) fn mesh(bodies: Bodies, deck: &Deck, text: &Text, scale: f64) -> Resu
         return Err(vec![Fault::new(&DECK_MESH, source, "the deck has no elements of bodies", help)]);
     }
     let (used, dimension) = (used(deck), deck.dimension());
-    // Surfaces in space are as the deck has them.
+    // Surfaces in 3D are as the deck has them.
     let is_flat = dimension == 2 && bodies == Bodies::Highest;
     check_positions(deck, text, scale, &used, is_flat)?;
     check_volumes(deck, text)?;

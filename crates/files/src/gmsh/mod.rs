@@ -32,7 +32,7 @@ use version4::Entities;
 pub enum Bodies {
     /// Bodies of its highest dimension: solids, or surfaces in the plane z = 0.
     Highest,
-    /// Surfaces in space too, as shells: z and their direction are those of the file.
+    /// Surfaces in 3D too, as shells: z and their direction are those of the file.
     Sheets,
 }
 

@@ -384,8 +384,8 @@ pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENT
 /// into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
-/// Elements of a mid surface, a line in 2D, whose points are layers through the thickness: blocks of their own
-/// too.
+/// Elements of a mid surface, a line in 2D, whose points are layers through the thickness: blocks of their
+/// own too.
 pub const SHELLS: &[ElementKind] = &[SHELL2, SHELL4, SHELL3];
 
 /// Every element: those in 2D, bars and shells too, then those in 3D.

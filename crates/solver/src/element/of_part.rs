@@ -17,7 +17,7 @@ impl Part {
         SHELLS.iter().any(|kind| kind.name == self.element)
     }
 
-    /// Whether it consists of shells in space: surfaces, and the model is in 3D.
+    /// Whether it consists of shells in 3D: surfaces, and the model is in 3D.
     #[must_use]
     pub fn is_of_sheets(&self) -> bool {
         SHELLS.iter().any(|kind| kind.name == self.element && kind.dimension == 3)

@@ -5,7 +5,7 @@
 //! kind.
 
 use super::Mesh;
-use super::cell::{Cell, CellKind};
+use super::cell::{Cell, CellKind, MOST_NODES};
 use super::shapes::Body;
 use super::surface::{Corners, PlaneSurface, Sided, SpaceSurface};
 use crate::error::Fault;
@@ -182,9 +182,10 @@ impl Meshed<3> for Dim<3> {
             return has_no_length(places);
         }
         if kind.dimension() == 2 {
-            let whole = corner_normals(kind, places).fold([0.0; 3], plus);
+            let normals = || corner_normals(kind, places.iter().copied());
+            let whole = normals().fold([0.0; 3], plus);
             // NaN too.
-            let is_sound = corner_normals(kind, places).all(|normal| dot(normal, whole) > 0.0);
+            let is_sound = normals().all(|normal| dot(normal, whole) > 0.0);
             return (!is_sound).then_some([DEGENERATE, MEND]);
         }
         let volumes = || corner_volumes(kind, places);
@@ -234,10 +235,12 @@ fn has_no_length<const D: usize>(ends: &[[f64; D]]) -> Option<[&'static str; 2]>
 }
 
 /// Areas times normals that the edges from each corner of a surface span, m²: of a triangle twice its area.
-pub(in crate::mesh) fn corner_normals(kind: CellKind, places: &[[f64; 3]]) -> impl Iterator<Item = [f64; 3]> {
+pub(in crate::mesh) fn corner_normals(kind: CellKind, places: impl Iterator<Item = [f64; 3]>) -> impl Iterator<Item = [f64; 3]> {
+    let mut all = [[0.0; 3]; MOST_NODES];
+    places.zip(&mut all).for_each(|(x, place)| *place = x);
     let two = kind.facts().neighbours.iter().map_while(|neighbours| neighbours.first_chunk::<2>());
-    places.iter().zip(two).map(|(x, neighbours)| {
-        let [a, b] = neighbours.map(|k| minus(places[usize::from(k)], *x));
+    two.enumerate().map(move |(corner, neighbours)| {
+        let [a, b] = neighbours.map(|k| minus(all[usize::from(k)], all[corner]));
         cross(a, b)
     })
 }

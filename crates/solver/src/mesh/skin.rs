@@ -271,7 +271,7 @@ impl Mesh<2> {
 /// Names of the faces, of who walks along a line.
 pub(super) const FACES: [&str; 2] = ["left", "right"];
 
-/// Names of the faces of shells in space: that which the normal looks from, then the other one. Seen from the
+/// Names of the faces of shells in 3D: that which the normal looks from, then the other one. Seen from the
 /// first, nodes run counter-clockwise.
 pub(super) const FACES_IN_SPACE: [&str; 2] = ["upper", "lower"];
 

@@ -69,7 +69,7 @@ section! {
         "More bodies of the same shape, in a row or around a point.";
     /// Where its elements come from; of a group of a mesh file the reader of the file says which.
     shape: Shape, read shape;
-    /// How a shape in 2D becomes a solid, or lines a shell in space; `None`: it stays as it is.
+    /// How a shape in 2D becomes a solid, or lines a shell in 3D; `None`: it stays as it is.
     sweep: Option<Sweep>, read |part| part.tables().into_iter().find_map(|(name, table)| Sweep::read(name, table));
     /// Where the body of a built-in shape goes.
     placement: Placement, read Placement::read;
@@ -88,7 +88,7 @@ impl Part {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.state.is_axisymmetric)
     }
 
-    /// 3 where it is swept, has a solid shape or is a shell in space, else 2; of other groups of mesh files
+    /// 3 where it is swept, has a solid shape or is a shell in 3D, else 2; of other groups of mesh files
     /// its model knows ([`super::Model::dimension_of`]).
     #[must_use]
     pub fn dimension(&self) -> usize {

@@ -58,7 +58,7 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
     model
 }
 
-/// Mesh files whose surfaces are shells in space.
+/// Mesh files whose surfaces are shells in 3D.
 fn sheets(document: &Document) -> BTreeSet<String> {
     let file = |record: &Record| {
         let part = Part::read(record);
@@ -122,7 +122,7 @@ pub(super) struct Meshes<'a> {
     folder: &'a Path,
     bounds: Bounds,
     given: &'a GivenMeshes,
-    /// Those that are read for shells in space.
+    /// Those that are read for shells in 3D.
     sheets: BTreeSet<String>,
     read: Vec<(PathBuf, u64, Option<usize>)>,
     loaded: Vec<Arc<ImportedMesh>>,

@@ -396,7 +396,7 @@ impl Part {
     }
 
     /// What its built-in shape is made of, away from an axis that it is turned about; `None` for a group of a
-    /// mesh file, for bars that are swept, and for shapes of which no shell in space can be that is one.
+    /// mesh file, for bars that are swept, and for shapes of which no shell in 3D can be that is one.
     pub(crate) fn cell_kind(&self) -> Option<CellKind> {
         let kind = self.shape.cell_kind()?;
         let is_solid = self.shape.solid().is_some();

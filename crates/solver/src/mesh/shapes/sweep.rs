@@ -354,9 +354,10 @@ impl Sweep {
         Ok(body)
     }
 
-    /// The mesh that a mesh in 2D becomes: groups of surfaces become volumes, of lines surfaces (on the right of
-    /// who walks along them where a part is made of them), of points sets of nodes. Nodes that groups share, they still share. With it the two ends of each group of
-    /// surfaces, by its place among the groups.
+    /// The mesh that a mesh in 2D becomes: groups of surfaces become volumes, of lines surfaces (on the right
+    /// of who walks along them where a part is made of them), of points sets of nodes. Nodes that groups
+    /// share, they still share. With it the two ends of each group of surfaces, by its place among the
+    /// groups.
     pub(in crate::mesh) fn swept_mesh(&self, section: &ImportedMesh, wanted: &[&str]) -> Result<SweptMesh, Wrong> {
         let plane: Vec<[f64; 2]> = section.positions.iter().map(|&[x, y, _]| [x, y]).collect();
         let (layers, positions) = self.layers(&plane)?;

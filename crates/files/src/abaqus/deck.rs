@@ -8,6 +8,7 @@
 use super::element_kind::{self, ElementKind, Found};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{DECK_MESH, SYNTAX, UNKNOWN};
+use crate::gmsh::Bodies;
 use embate_solver::error::Fault;
 use embate_solver::mesh::cell::MOST_NODES;
 use std::collections::BTreeMap;
@@ -149,7 +150,7 @@ pub(super) struct Deck {
 
 impl Deck {
     /// Reads the geometry of all blocks.
-    pub(super) fn read(text: &Text) -> Result<Self, Fault> {
+    pub(super) fn read(text: &Text, bodies: Bodies) -> Result<Self, Fault> {
         let mut deck = Self::default();
         deck.instances.push(Instance::default());
         deck.find_scopes(text)?;
@@ -157,7 +158,7 @@ impl Deck {
             deck.read_nodes(text, instance)?;
             deck.read_elements(text, instance)?;
         }
-        deck.check_dimension(text)?;
+        deck.check_dimension(text, bodies)?;
         deck.read_sets(text)?;
         Ok(deck)
     }
@@ -168,14 +169,14 @@ impl Deck {
     }
 
     /// What of the plane does not go with solids, and the other way round.
-    fn check_dimension(&self, text: &Text) -> Result<(), Fault> {
+    fn check_dimension(&self, text: &Text, bodies: Bodies) -> Result<(), Fault> {
         let dimension = self.dimension();
         if let Some(flat) = self.elements.iter().find(|element| element.kind.dimension() != dimension) {
             let message = format!("element {} is a {}, beside solids", flat.tag, flat.kind.name);
             let help = "bodies are all 2D or all solid; shells and membranes in 3D are not computed";
             return Err(text.fault(&DECK_MESH, flat.line, message, help));
         }
-        for instance in &self.instances {
+        for instance in self.instances.iter().filter(|_| bodies == Bodies::Highest) {
             if let (2, Some(Turn::Out(_, _, _, line))) = (dimension, instance.turn) {
                 let help = "bodies lie in the plane of x and y: an axis of rotation is parallel to z";
                 return Err(text.fault(&DECK_MESH, line, format!("instance {} is turned out of the plane", shown(&instance.name)), help));

@@ -6,6 +6,7 @@
 use super::deck::{Deck, Element, Surface};
 use super::text::Text;
 use crate::abaqus::messages::DECK_MESH;
+use crate::gmsh::Bodies;
 use crate::gmsh::faults::Faults;
 use crate::gmsh::form;
 use crate::gmsh::messages::{CELL, NODE};
@@ -68,28 +69,30 @@ pub(super) fn used(deck: &Deck) -> Vec<bool> {
 }
 
 /// The mesh of a deck; positions are multiplied by `scale`.
-pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+pub(super) fn mesh(bodies: Bodies, deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     let source = text.shown_name();
     if deck.elements.is_empty() {
         let help = "known are CPE4R, CPE4, CPE3, CPS4R, CAX4R and their like, and C3D8R, C3D8, C3D6, C3D4, of first order";
         return Err(vec![Fault::new(&DECK_MESH, source, "the deck has no elements of bodies", help)]);
     }
     let (used, dimension) = (used(deck), deck.dimension());
-    check_positions(deck, text, scale, &used, dimension)?;
+    // Surfaces in 3D are as the deck has them.
+    let is_flat = dimension == 2 && bodies == Bodies::Highest;
+    check_positions(deck, text, scale, &used, is_flat)?;
     check_volumes(deck, text)?;
     let mut dense = vec![u32::MAX; deck.nodes.len()];
     let mut positions = Vec::new();
     for (node, _) in used.iter().enumerate().filter(|(_, used)| **used) {
         dense[node] = positions.len() as u32;
         let [x, y, z] = deck.nodes[node].position;
-        positions.push([x * scale, y * scale, if dimension == 3 { z * scale } else { 0.0 }]);
+        positions.push([x * scale, y * scale, if is_flat { 0.0 } else { z * scale }]);
     }
     let names = names(deck);
     let mut groups = Vec::new();
     let cell = |element: &u32| {
         let element = &deck.elements[*element as usize];
         let mut nodes: Vec<u32> = element.nodes().iter().map(|&node| dense[node as usize]).collect();
-        if form::is_turned(element.kind.cell, &corners(deck, element)) {
+        if (is_flat || dimension == 3) && form::is_turned(element.kind.cell, &corners(deck, element)) {
             element.kind.cell.reflect(&mut nodes);
         }
         nodes
@@ -142,7 +145,7 @@ fn check_volumes(deck: &Deck, text: &Text) -> Result<(), Vec<Fault>> {
     if faults.is_empty() { Ok(()) } else { Err(faults.into_list(text.shown_name())) }
 }
 
-fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool], dimension: u8) -> Result<(), Vec<Fault>> {
+fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool], is_flat: bool) -> Result<(), Vec<Fault>> {
     let mut faults = Faults::default();
     let nodes = || deck.nodes.iter().zip(used).filter(|(_, used)| **used).map(|(node, _)| node);
     let extent = |axis: usize| {
@@ -152,13 +155,13 @@ fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool], dimensio
     let size = extent(0).max(extent(1));
     for node in nodes() {
         let [x, y, z] = node.position;
-        if !(x * scale).is_finite() || !(y * scale).is_finite() || (dimension == 3 && !(z * scale).is_finite()) {
+        if !(x * scale).is_finite() || !(y * scale).is_finite() || (!is_flat && !(z * scale).is_finite()) {
             faults.add("nodes that are nowhere", || {
-                let place = if dimension == 3 { format!("{x:e}, {y:e}, {z:e}") } else { format!("{x:e}, {y:e}") };
+                let place = if is_flat { format!("{x:e}, {y:e}") } else { format!("{x:e}, {y:e}, {z:e}") };
                 let message = format!("node {} is at ({place}): not a place", node.tag);
                 text.fault(&NODE, node.line, message, "coordinates are finite numbers; check the file and its unit in the model")
             });
-        } else if dimension == 2 && z.abs() > OFF_PLANE * size {
+        } else if is_flat && z.abs() > OFF_PLANE * size {
             faults.add("nodes off the plane z = 0", || {
                 let message = format!("node {} is at z = {z:e}, off the plane z = 0", node.tag);
                 text.fault(&NODE, node.line, message, "bodies lie in the plane of x and y: move the geometry there")

@@ -13,6 +13,7 @@ mod mesh;
 mod sets;
 mod text;
 
+use crate::gmsh::Bodies;
 use crate::gmsh::messages::MESH_FILE;
 use crate::path_policy::{Bounds, PathPolicy};
 use deck::Deck;
@@ -26,13 +27,13 @@ use text::Text;
 /// # Errors
 /// The file can't be read, or what [`parse`] finds.
 pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
-    read_within(path, scale, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", PathPolicy::Folder))
+    read_within(Bodies::Highest, path, scale, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", PathPolicy::Folder))
 }
 
-/// [`read`] with the folder that included files must lie in.
-pub(crate) fn read_within(path: &Path, scale: f64, bounds: &Bounds) -> Result<ImportedMesh, Vec<Fault>> {
+/// [`read`] for bodies of a kind, with the folder that included files must lie in.
+pub(crate) fn read_within(bodies: Bodies, path: &Path, scale: f64, bounds: &Bounds) -> Result<ImportedMesh, Vec<Fault>> {
     let text = Text::read(path, &path.display().to_string(), bounds).map_err(|fault| vec![fault])?;
-    mesh(&text, scale)
+    mesh(bodies, &text, scale)
 }
 
 /// Makes a mesh from the bytes of a deck (.inp), in 3D if it has solids, else 2D; what it
@@ -57,15 +58,23 @@ pub(crate) fn read_within(path: &Path, scale: f64, bounds: &Bounds) -> Result<Im
 /// twice, elements of second order, shells in 3D or elements of unknown type, keywords that generate nodes
 /// or elements; or all nodes that are off the plane, or all solids without volume.
 pub fn parse(bytes: &[u8], source: &str, folder: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
-    let text = Text::parse(bytes, source, folder, &Bounds::of(folder, "deck's", PathPolicy::Folder)).map_err(|fault| vec![fault])?;
-    mesh(&text, scale)
+    parse_for(Bodies::Highest, bytes, source, folder, scale)
 }
 
-fn mesh(text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+/// [`parse`] for bodies of a kind.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_for(bodies: Bodies, bytes: &[u8], source: &str, folder: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+    let text = Text::parse(bytes, source, folder, &Bounds::of(folder, "deck's", PathPolicy::Folder)).map_err(|fault| vec![fault])?;
+    mesh(bodies, &text, scale)
+}
+
+fn mesh(bodies: Bodies, text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     if !(scale.is_finite() && scale > 0.0) {
         let message = format!("the mesh's unit is {scale} m");
         return Err(vec![Fault::new(&MESH_FILE, text.shown_name(), message, "it is a finite number greater than 0")]);
     }
-    let deck = Deck::read(text).map_err(|fault| vec![fault])?;
-    mesh::mesh(&deck, text, scale)
+    let deck = Deck::read(text, bodies).map_err(|fault| vec![fault])?;
+    mesh::mesh(bodies, &deck, text, scale)
 }

@@ -40,7 +40,7 @@ impl<'a> Check<'a> {
         if let Some(node) = (1..nodes.len()).find(|&k| nodes[..k].contains(&nodes[k])).map(|k| tag(nodes[k])) {
             return self.fault("elements with a node twice", cell, || format!("has node {node} twice"), AGAIN);
         }
-        if cell.file.kind.dimension < self.nodes.dimension
+        if cell.file.kind.dimension < self.nodes.least
             && let Some(node) = nodes.iter().find(|node| !self.nodes.used[**node as usize]).map(|node| tag(*node))
         {
             return self.away(cell, node);
@@ -86,7 +86,8 @@ impl<'a> Check<'a> {
             self.fault("points and lines away from every surface", cell, message, help);
         } else {
             let help = "put the volume that it bounds into a physical group too, or take it out of this group";
-            let message = || format!("lies at node {node}, which no volume of a physical group has");
+            let bodies = if self.nodes.least == 2 { "no volume and no surface" } else { "no volume" };
+            let message = || format!("lies at node {node}, which {bodies} of a physical group has");
             self.fault("points, lines and surfaces away from every volume", cell, message, help);
         }
     }

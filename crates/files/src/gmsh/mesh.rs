@@ -3,6 +3,7 @@
 //!
 //! [`super::parse`] calls [`mesh`] once the whole file is read; what comes out goes into the model.
 
+use super::Bodies;
 use super::check::Check;
 use super::contents::{Contents, FileCell, FileNode, GroupKey, Occurrence};
 use super::faults::Faults;
@@ -19,7 +20,7 @@ const OFF_PLANE: f64 = 1e-9;
 pub(super) const AGAIN: &str = "the file is damaged; export the mesh again";
 
 /// The mesh that `contents` describes; positions are multiplied by `scale`.
-pub(super) fn mesh(contents: &Contents, reader: &Reader, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+pub(super) fn mesh(bodies: Bodies, contents: &Contents, reader: &Reader, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     let source = reader.source();
     let mut faults = Faults::default();
     let groups = groups(contents, reader, &mut faults);
@@ -29,12 +30,13 @@ pub(super) fn mesh(contents: &Contents, reader: &Reader, scale: f64) -> Result<I
         return Err(faults.into_list(source));
     }
     let mut used = vec![false; contents.nodes.len()];
-    // In 3D, if there is a volume.
-    let dimension = groups.iter().map(|group| group.dimension).max().unwrap_or(2).max(2);
-    for cell in resolved.iter().flatten().filter(|cell| cell.file.kind.dimension == dimension) {
+    // In 3D, if there is a volume or surfaces are meant to be shells.
+    let highest = groups.iter().map(|group| group.dimension).max().unwrap_or(2).max(2);
+    let (dimension, least) = if bodies == Bodies::Sheets { (3, 2) } else { (highest, highest) };
+    for cell in resolved.iter().flatten().filter(|cell| cell.file.kind.dimension >= least) {
         cell.nodes().iter().for_each(|&node| used[node as usize] = true);
     }
-    let nodes = Nodes::new(contents, &used, dimension, scale);
+    let nodes = Nodes::new(contents, &used, [dimension, least], scale);
     nodes.check(reader, &mut faults);
     for (group, cells) in groups.iter().zip(&resolved) {
         let mut check = Check::new(&group.name, &nodes, reader, &mut faults);
@@ -203,6 +205,8 @@ pub(super) struct Nodes<'a> {
     pub(super) used: &'a [bool],
     /// 2 or 3.
     pub(super) dimension: u8,
+    /// Least dimension of bodies.
+    pub(super) least: u8,
     /// x, y, z, m; z is that of the file in 2D too.
     positions: Vec<[f64; 3]>,
     /// Longer side of the box around the used nodes in x and y, m.
@@ -210,7 +214,7 @@ pub(super) struct Nodes<'a> {
 }
 
 impl<'a> Nodes<'a> {
-    fn new(contents: &'a Contents, used: &'a [bool], dimension: u8, scale: f64) -> Self {
+    fn new(contents: &'a Contents, used: &'a [bool], [dimension, least]: [u8; 2], scale: f64) -> Self {
         let positions: Vec<_> = contents.nodes.iter().map(|node| node.position.map(|x| x * scale)).collect();
         let mut size = 0.0_f64;
         for axis in 0..2 {
@@ -218,7 +222,7 @@ impl<'a> Nodes<'a> {
             let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
             size = size.max(high - low);
         }
-        Self { file: &contents.nodes, used, dimension, positions, size }
+        Self { file: &contents.nodes, used, dimension, least, positions, size }
     }
 
     fn check(&self, reader: &Reader, faults: &mut Faults) {
@@ -232,7 +236,7 @@ impl<'a> Nodes<'a> {
                 faults.add("nodes off the plane z = 0", || {
                     let message = format!("node {} is at z = {:e} m, off the plane z = 0", node.tag, x[2]);
                     let help = "bodies lie in the plane of x and y: move the geometry there; of solids put the \
-                        volumes into physical groups (Physical Volume)";
+                        volumes into physical groups (Physical Volume); of shells take `element = \"shell4\"`";
                     reader.fault(&NODE, node.at, message, help)
                 });
             }

@@ -27,12 +27,29 @@ use reader::{Encoding, Reader, shown};
 use std::path::Path;
 use version4::Entities;
 
+/// What a mesh file is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bodies {
+    /// Bodies of its highest dimension: solids, or surfaces in the plane z = 0.
+    Highest,
+    /// Surfaces in 3D too, as shells: z and their direction are those of the file.
+    Sheets,
+}
+
 /// Reads a Gmsh mesh file; see [`parse`]. `scale` is the length of the file's unit in metres, 1e-3 for a mesh
 /// drawn in millimetres.
 ///
 /// # Errors
 /// The file can't be read, or what [`parse`] finds.
 pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+    read_for(Bodies::Highest, path, scale)
+}
+
+/// [`read`] for bodies of a kind.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_for(bodies: Bodies, path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     let source = path.display().to_string();
     let bytes = plain::read(path).map_err(|error| {
         vec![Fault::new(
@@ -42,7 +59,7 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
             "check its path, which starts at the model file's folder",
         )]
     })?;
-    parse(&bytes, &source, scale)
+    parse_for(bodies, &bytes, &source, scale)
 }
 
 /// Makes a mesh from the bytes of a Gmsh mesh file (.msh 2.2 or 4.1, text or binary of either byte order): in
@@ -71,12 +88,20 @@ pub fn read(path: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
 /// group; elements without area or volume, with crossing sides, or there twice; points, lines and surfaces
 /// away from every body; two groups of one name.
 pub fn parse(bytes: &[u8], source: &str, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+    parse_for(Bodies::Highest, bytes, source, scale)
+}
+
+/// [`parse`] for bodies of a kind.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_for(bodies: Bodies, bytes: &[u8], source: &str, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     if !(scale.is_finite() && scale > 0.0) {
         return Err(vec![Fault::new(&MESH_FILE, source, format!("the mesh's unit is {scale} m"), "it is a finite number greater than 0")]);
     }
     let mut reader = Reader::new(bytes, source);
     let contents = read_contents(&mut reader).map_err(|fault| vec![fault])?;
-    mesh::mesh(&contents, &reader, scale)
+    mesh::mesh(bodies, &contents, &reader, scale)
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use super::diagnostics::Faults;
 use super::tree::{Entry, Node, Place, Value};
 use super::value::{self, Wrong};
 use crate::model_file::messages::{FORM, MISSING_KEY, MISSING_SECTION, UNKNOWN_KEY};
-use embate_solver::element::elements_of;
+use embate_solver::element::registry;
 use embate_solver::input::sections::{MOVED, SECTIONS, TOP};
 use embate_solver::mesh::shapes::Shape;
 use embate_solver::model::Values;
@@ -190,7 +190,7 @@ fn extent(root: &Node) -> Extent {
     });
     let keys = || parts.clone().flatten().filter_map(|part| if let Value::Table(keys) = &part.value { Some(keys) } else { None }).flatten();
     let is_solid = |key: &Entry| match &key.node.value {
-        Value::Text(name) if key.key == "element" => elements_of(3).iter().any(|kind| kind.name == name),
+        Value::Text(name) if key.key == "element" => registry().iter().any(|kind| kind.name == name && kind.dimension == 3),
         _ => Shape::is_solid_key(&key.key),
     };
     let is_round = |key: &Entry| {

@@ -17,7 +17,13 @@ impl Part {
         SHELLS.iter().any(|kind| kind.name == self.element)
     }
 
-    /// Whether its elements are lines in a model of so many dimensions.
+    /// Whether it consists of shells in 3D: surfaces, and the model is in 3D.
+    #[must_use]
+    pub fn is_of_sheets(&self) -> bool {
+        SHELLS.iter().any(|kind| kind.name == self.element && kind.dimension == 3)
+    }
+
+    /// Whether its elements are lines.
     #[must_use]
     pub fn is_of_lines(&self) -> bool {
         BARS.iter().chain(SHELLS).any(|kind| kind.name == self.element && kind.cell == CellKind::Line)
@@ -29,20 +35,22 @@ impl Part {
     #[must_use]
     pub fn element_in(&self, dimension: usize, cell: CellKind) -> Option<&'static ElementKind> {
         let is_named = |kind: &&ElementKind| [&self.element, &self.element_triangles].iter().any(|name| *name == kind.name);
-        let kinds = || elements_of(dimension).iter().chain(BARS).chain(SHELLS).filter(|kind| kind.cell == cell);
+        let shells = || SHELLS.iter().filter(|kind| kind.dimension <= dimension);
+        let kinds = || elements_of(dimension).iter().chain(BARS).chain(shells()).filter(|kind| kind.cell == cell);
         let stands_in = |kind: &&ElementKind| dimension == 3 && ELEMENTS.iter().filter(is_named).any(|own| own.extruded == Some(kind.name));
         kinds().find(|kind| is_named(kind) || stands_in(kind)).or_else(|| kinds().find(|kind| kind.is_default))
     }
 }
 
 impl Model {
-    /// Dimension of the cells of a mesh file that a part is made of.
+    /// Dimension of the cells of a mesh file that a part is made of, as the file has them.
     #[must_use]
     pub fn cells_dimension(&self, part: &Part) -> u8 {
+        let made = if part.is_of_sheets() { 2 } else { self.dimension_of(part) as u8 };
         match (part.is_of_lines(), &part.sweep) {
             (true, _) => 1,
-            (false, Some(_)) => 2,
-            (false, None) => self.dimension_of(part) as u8,
+            (false, Some(_)) => made - 1,
+            (false, None) => made,
         }
     }
 }

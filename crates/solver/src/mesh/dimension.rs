@@ -5,12 +5,13 @@
 //! kind.
 
 use super::Mesh;
-use super::cell::{Cell, CellKind};
+use super::cell::{Cell, CellKind, MOST_NODES};
 use super::shapes::Body;
 use super::surface::{Corners, PlaneSurface, Sided, SpaceSurface};
 use crate::error::Fault;
 use crate::model::{Model, Part};
-use crate::tensor::Dim;
+use crate::tensor::{Dim, cross};
+use crate::vector::{dot, minus, plus};
 
 /// A dimension in which there are meshes.
 pub trait Meshed<const D: usize> {
@@ -75,6 +76,7 @@ pub trait Meshed<const D: usize> {
 }
 
 const MEND: &str = "fix the mesh there";
+const DEGENERATE: &str = "is degenerate or folds over at a corner";
 
 impl Meshed<2> for Dim<2> {
     type Facet = [u32; 2];
@@ -174,10 +176,17 @@ impl Meshed<3> for Dim<3> {
     }
 
     /// The edges from every corner must span a positive volume: then the Jacobian is positive at the corners,
-    /// and in a tetrahedron everywhere.
+    /// and in a tetrahedron everywhere. Those of a surface must turn like the whole of it.
     fn wrong_form(kind: CellKind, places: &[[f64; 3]]) -> Option<[&'static str; 2]> {
         if kind.dimension() == 1 {
             return has_no_length(places);
+        }
+        if kind.dimension() == 2 {
+            let normals = || corner_normals(kind, places.iter().copied());
+            let whole = normals().fold([0.0; 3], plus);
+            // NaN too.
+            let is_sound = normals().all(|normal| dot(normal, whole) > 0.0);
+            return (!is_sound).then_some([DEGENERATE, MEND]);
         }
         let volumes = || corner_volumes(kind, places);
         if volumes().all(|volume| volume > 0.0) {
@@ -186,7 +195,7 @@ impl Meshed<3> for Dim<3> {
             Some(["has negative volume: its nodes run the wrong way round", "exchange its lower and its upper nodes"])
         } else {
             // NaN too.
-            Some(["is degenerate or folds over at a corner", MEND])
+            Some([DEGENERATE, MEND])
         }
     }
 
@@ -198,7 +207,7 @@ impl Meshed<3> for Dim<3> {
 
     fn add_around(cell: Cell<'_>, sums: &mut [u64]) {
         // A facet inside is seen once from each side: what it adds for one cell it takes for the other.
-        for facet in cell.faces() {
+        for facet in cell.faces().filter(|_| cell.kind.dimension() == 3) {
             let [lowest, next, c, d] = facet.canonical();
             let (opposite, before) = if c == d { (0, c) } else { (c, d) };
             let mixed = [lowest, next.min(before), opposite, next.max(before)].iter().fold(0, |mixed, &node| mix(mixed ^ u64::from(node)));
@@ -223,6 +232,17 @@ fn has_no_length<const D: usize>(ends: &[[f64; D]]) -> Option<[&'static str; 2]>
     let length: f64 = (0..D).map(|k| (ends[1][k] - ends[0][k]) * (ends[1][k] - ends[0][k])).sum();
     // NaN too.
     if length > 0.0 { None } else { Some(["has no length", MEND]) }
+}
+
+/// Areas times normals that the edges from each corner of a surface span, m²: of a triangle twice its area.
+pub(in crate::mesh) fn corner_normals(kind: CellKind, places: impl Iterator<Item = [f64; 3]>) -> impl Iterator<Item = [f64; 3]> {
+    let mut all = [[0.0; 3]; MOST_NODES];
+    places.zip(&mut all).for_each(|(x, place)| *place = x);
+    let two = kind.facts().neighbours.iter().map_while(|neighbours| neighbours.first_chunk::<2>());
+    two.enumerate().map(move |(corner, neighbours)| {
+        let [a, b] = neighbours.map(|k| minus(all[usize::from(k)], all[corner]));
+        cross(a, b)
+    })
 }
 
 /// Volume a · (b × c) that the edges from each corner of a cell span, m³: of a hexahedron eight times, of a
@@ -277,5 +297,16 @@ mod tests {
         let flat: Vec<[f64; 3]> = CellKind::Tetrahedron.facts().reference.iter().map(|&[x, y, _]| [x, y, 0.0]).collect();
         assert!(Dim::<3>::wrong_form(CellKind::Tetrahedron, &flat).is_some());
         assert!(Dim::<3>::wrong_form(CellKind::Tetrahedron, &[[f64::NAN; 3]; 4]).is_some());
+    }
+
+    #[test]
+    fn a_surface_in_space_may_be_warped_but_not_folded() {
+        let square = CellKind::Quadrilateral.facts().reference;
+        let with = |corner: [f64; 3]| [square[0], square[1], corner, square[3]];
+        let is_wrong = |x: &[[f64; 3]]| Dim::<3>::wrong_form(CellKind::of(2, x.len()).unwrap(), x).is_some();
+        assert!(!is_wrong(square) && !is_wrong(&with([1.0, 1.0, 0.4])) && !is_wrong(&with([1.0, 1.0, 0.0]).map(|[x, y, z]| [z, y, x])));
+        assert!(is_wrong(&with([0.2, 0.2, 0.0])) && is_wrong(&with([0.5, 0.5, 0.0])) && is_wrong(&with(square[1])));
+        assert!(is_wrong(&[square[0], square[2], square[1], square[3]]) && is_wrong(&with([f64::NAN; 3])));
+        assert!(!is_wrong(&[square[2], square[1], square[0]]) && is_wrong(&[square[0], square[1], [2.0, 0.0, 0.0]]));
     }
 }

@@ -12,20 +12,21 @@ use crate::tensor::Dim;
 /// Geometry of cells.
 pub trait CellGeometry<const D: usize>: Meshed<D> + Tributary<D> {
     /// Smallest Jacobian determinant of a cell, times that of its natural corner, over its corners (m², in
-    /// 3D m³): positive in all of them where the cell is sound; `None` of lines.
+    /// 3D m³, of surfaces m²): positive in all of them where the cell is sound; `None` of lines.
     fn min_corner_jacobian(cell: Cell<'_>, positions: &[[f64; D]]) -> Option<f64>;
-    /// That over the square (in 3D: the third power) of the longest side: 1 of squares and cubes, less of
-    /// what is long, sheared or folded; lines have the best.
+    /// That over the square (of volumes: the third power) of the longest side: 1 of squares and cubes, less
+    /// of what is long, sheared or folded; lines have the best.
     fn shape_quality(cell: Cell<'_>, positions: &[[f64; D]]) -> f64;
     /// One over the height of a cell over a piece of its outside, 1/m: its length over the area, in 3D its
     /// area over the volume.
     fn inverse_height(facet: Facet<D>, cell: Cell<'_>, positions: &[[f64; D]]) -> f64
     where
         Dim<D>: Meshed<D>;
-    /// Length of a line, area of what has more corners; in 3D the volume of a cell; m, m², m³.
+    /// Length of a line, area of a surface, volume of a cell in 3D that is one; m, m², m³.
     fn size(cell: Cell<'_>, positions: &[[f64; D]]) -> f64;
     /// Largest and smallest principal logarithmic strain at the centre of a cell, from the positions at the
-    /// start to those now: half the logarithms of the eigenvalues of FᵀF. Of a line its one strain twice.
+    /// start to those now: half the logarithms of the eigenvalues of FᵀF. Of a line its one strain twice, of
+    /// a surface in 3D those in it.
     fn principal_strains(cell: Cell<'_>, from: &[[f64; D]], to: &[[f64; D]]) -> [f64; 2];
     /// The pieces of the outside that a cell alone would have: in 2D they run against its own
     /// direction; in the form in which surfaces have them.

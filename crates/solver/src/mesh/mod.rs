@@ -304,7 +304,11 @@ where
     fn add_group(&mut self, source: &ImportedMesh, group: &str, part: &Part, numbers: &mut Vec<u32>, faults: &mut Vec<Fault>) {
         numbers.resize(source.positions.len(), u32::MAX);
         let path = format!("part[{}]", self.parts.len());
-        let dimension = if part.is_of_lines() { 1 } else { D as u8 };
+        let dimension = match part {
+            part if part.is_of_lines() => 1,
+            part if part.is_of_sheets() => 2,
+            _ => D as u8,
+        };
         let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == dimension) else {
             let kind = ["zero", "one", "two", "three"][usize::from(dimension)];
             faults.push(Fault::new(
@@ -357,6 +361,12 @@ where
                 self.sides.insert(format!("{}.{side}", part.name), facets);
             }
         }
+        let number = |node: &u32| numbers[*node as usize];
+        for (_, rims) in made.rims.iter().filter(|(name, _)| name == group) {
+            for (side, nodes) in sweep.sides().into_iter().zip(rims) {
+                self.points.insert(format!("{}.{side}", part.name), sorted(nodes.iter().map(number)));
+            }
+        }
     }
 
     /// Elements of a part.
@@ -377,7 +387,8 @@ where
     }
 
     fn add_named_groups(&mut self, source: &ImportedMesh, numbers: &[u32], faults: &mut Vec<Fault>) {
-        let outside_of = |part| surface::exterior::<D>(self.groups_of(part).flat_map(ElementGroup::cells)).ok();
+        let bodies = |part| self.groups_of(part).filter(|group| group.is_body(D));
+        let outside_of = |part| surface::exterior::<D>(bodies(part).flat_map(ElementGroup::cells)).ok();
         let outside: Vec<Facet<D>> = (0..self.parts.len()).filter_map(outside_of).flatten().collect();
         for group in &source.groups {
             let nodes = || group.cells.iter().flatten().map(|&node| numbers.get(node as usize).copied().unwrap_or(u32::MAX));
@@ -389,7 +400,7 @@ where
             let facets: Option<Vec<Facet<D>>> = group.cells.iter().map(facet).collect();
             match facets.filter(|_| usize::from(group.dimension) + 1 == D).map(|facets| surface::oriented(&facets, &outside)) {
                 Some(Ok(facets)) => drop(self.sides.insert(group.name.clone(), facets)),
-                // A line inside a body is no surface, but still a set of nodes.
+                // A line inside a body, and what is not on one, is no surface, but still a set of nodes.
                 _ => drop(self.points.insert(group.name.clone(), sorted(nodes()))),
             }
         }

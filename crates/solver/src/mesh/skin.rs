@@ -271,6 +271,10 @@ impl Mesh<2> {
 /// Names of the faces, of who walks along a line.
 pub(super) const FACES: [&str; 2] = ["left", "right"];
 
+/// Names of the faces of shells in 3D: that which the normal looks from, then the other one. Seen from the
+/// first, nodes run counter-clockwise.
+pub(super) const FACES_IN_SPACE: [&str; 2] = ["upper", "lower"];
+
 /// The image of an element beyond a symmetry line.
 fn mirrored(spoke: &Spoke, normal: [f64; 2]) -> Spoke {
     let away = minus(spoke.away, times(2.0 * dot(spoke.away, normal), normal));

@@ -121,9 +121,17 @@ impl Model {
     #[must_use]
     pub fn dimension_of(&self, part: &Part) -> usize {
         match &part.shape {
-            Shape::Group { mesh, .. } if part.sweep.is_none() => self.meshes.get(*mesh).map_or(2, |imported| imported.dimension()),
+            Shape::Group { mesh, .. } if part.sweep.is_none() && !part.is_of_sheets() => {
+                self.meshes.get(*mesh).map_or(2, |imported| imported.dimension())
+            }
             _ => part.dimension(),
         }
+    }
+
+    /// Dimension of a mesh file: 3 also where a part is made of its surfaces as shells in 3D.
+    pub(crate) fn dimension_of_mesh(&self, mesh: usize) -> usize {
+        let is_sheet = |part: &Part| part.sweep.is_none() && part.is_of_sheets() && part.shape.group_of(mesh).is_some();
+        if self.parts.iter().any(is_sheet) { 3 } else { self.meshes.get(mesh).map_or(2, |imported| imported.dimension()) }
     }
 }
 

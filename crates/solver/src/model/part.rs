@@ -30,9 +30,10 @@ section! {
     name: String = Name, Required, "Unique name.";
     material: String = Reference, Required, "Name of a `[material.NAME]` section.";
     element: String = Choice(Choices::Elements), Default("\"quad4\""),
-        "Kind of element: what quadrilaterals are; `bar2` for bars, `shell2` for shells in 2D.";
+        "Kind of element: what quadrilaterals are; `bar2` for bars, `shell2` for shells in 2D, \
+            `shell4` for those in 3D (`shell3` where they are of triangles only).";
     element_triangles: String = Choice(Choices::Triangles), Optional("`tri3`"),
-        "What triangles are, where the part has some.",
+        "What triangles are, where the part has some; those of shells in 3D are `shell3`.",
         read |values| values.or("element_triangles", "tri3".to_string());
     area: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("only with bars"),
         "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre; \
@@ -59,16 +60,16 @@ section! {
         "A line, in 3D a plane, that the shape is mirrored on, before it is turned.";
     "rotation" = Table(&ROTATION), Optional("not turned"),
         "An angle by which the shape is turned, before it is moved.";
-    "extrude" = Table(&EXTRUDE), Optional("the part stays 2D"),
-        "Extrudes a 2D shape along z: the part becomes a solid.";
-    "revolve" = Table(&REVOLVE), Optional("the part stays 2D"),
-        "Revolves a 2D shape about a line: the part becomes a solid.";
+    "extrude" = Table(&EXTRUDE), Optional("the part stays as it is"),
+        "Extrudes a 2D shape along z: the part becomes a solid, lines become a shell (`shell4`).";
+    "revolve" = Table(&REVOLVE), Optional("the part stays as it is"),
+        "Revolves a 2D shape about a line: the part becomes a solid, lines become a shell (`shell4`).";
     "translation" = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape is moved.";
     "copies" = Table(&COPIES), Optional("one body"),
         "More bodies of the same shape, in a row or around a point.";
     /// Where its elements come from; of a group of a mesh file the reader of the file says which.
     shape: Shape, read shape;
-    /// How a shape in 2D becomes a solid; `None`: it stays in 2D, or is a solid as it is.
+    /// How a shape in 2D becomes a solid, or lines a shell in 3D; `None`: it stays as it is.
     sweep: Option<Sweep>, read |part| part.tables().into_iter().find_map(|(name, table)| Sweep::read(name, table));
     /// Where the body of a built-in shape goes.
     placement: Placement, read Placement::read;
@@ -87,10 +88,10 @@ impl Part {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.state.is_axisymmetric)
     }
 
-    /// 3 where it is swept or has a solid shape, else 2; of a group of a mesh file its model knows
-    /// ([`super::Model::dimension_of`]).
+    /// 3 where it is swept, has a solid shape or is a shell in 3D, else 2; of other groups of mesh files
+    /// its model knows ([`super::Model::dimension_of`]).
     #[must_use]
     pub fn dimension(&self) -> usize {
-        if self.sweep.is_some() || self.shape.solid().is_some() { 3 } else { 2 }
+        if self.sweep.is_some() || self.shape.solid().is_some() || self.is_of_sheets() { 3 } else { 2 }
     }
 }

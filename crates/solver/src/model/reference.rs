@@ -3,7 +3,7 @@
 //! Names come from contacts, constraints and probes; the answer goes to [`Model::check`] and to the mesh
 //! builder, so that both understand a name in the same way.
 
-use super::{ImportedMesh, MeshGroup, Model};
+use super::{MeshGroup, Model};
 use crate::vocabulary::{excerpt, nearest, suggestion};
 
 /// What a name stands for.
@@ -37,9 +37,9 @@ pub enum Wanted {
 }
 
 impl Wanted {
-    /// Whether a group of a mesh will do.
-    fn is_met_by(self, mesh: &ImportedMesh, group: &MeshGroup) -> bool {
-        self == Self::Nodes || usize::from(group.dimension) + 1 == mesh.dimension()
+    /// Whether a group of a mesh of so many dimensions will do.
+    fn is_met_by(self, dimension: usize, group: &MeshGroup) -> bool {
+        self == Self::Nodes || usize::from(group.dimension) + 1 == dimension
     }
 }
 
@@ -85,11 +85,12 @@ impl Model {
         let mut found = Vec::new();
         let mut other = None;
         for (mesh, imported) in self.meshes.iter().enumerate() {
+            let dimension = self.dimension_of_mesh(mesh);
             for (group, it) in imported.groups.iter().enumerate().filter(|(_, it)| it.name == name) {
-                if wanted.is_met_by(imported, it) {
+                if wanted.is_met_by(dimension, it) {
                     found.push((mesh, group));
                 } else {
-                    other = Some((it.dimension, if imported.dimension() == 3 { "surfaces" } else { "lines" }));
+                    other = Some((it.dimension, if dimension == 3 { "surfaces" } else { "lines" }));
                 }
             }
         }
@@ -110,8 +111,9 @@ impl Model {
     /// Help for a name that nothing has.
     fn near(&self, name: &str, wanted: Wanted) -> String {
         let mut known: Vec<String> = self.parts.iter().map(|part| part.name.clone()).collect();
-        for imported in &self.meshes {
-            known.extend(imported.groups.iter().filter(|group| wanted.is_met_by(imported, group)).map(|group| group.name.clone()));
+        for (mesh, imported) in self.meshes.iter().enumerate() {
+            let dimension = self.dimension_of_mesh(mesh);
+            known.extend(imported.groups.iter().filter(|group| wanted.is_met_by(dimension, group)).map(|group| group.name.clone()));
         }
         let plain: Vec<&str> = known.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
         let sides: Vec<String> =

@@ -17,7 +17,7 @@ section! {
     #[derive(Clone, Debug, PartialEq)]
     pub struct ShellSection in SHELL_SECTION = Section {
         name: "section",
-        doc: "The section of shells (`shell2`): thickness, and layers of points through it. Two Gauss points are exact while \
+        doc: "The section of shells (`shell2`, in 3D `shell4` and `shell3`): thickness, and layers of points through it. Two Gauss points are exact while \
             the material is elastic; odd numbers of them are a little weak in plastic hinges, even ones a little stiff.",
         ..Section::EMPTY
     };

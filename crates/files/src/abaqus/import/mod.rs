@@ -22,6 +22,7 @@ use super::deck::Deck;
 use super::mesh::{self, Names};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{SYNTAX, UNKNOWN};
+use crate::gmsh::Bodies;
 use crate::path_policy::{Bounds, PathPolicy};
 use embate_solver::error::Fault;
 use std::collections::{BTreeMap, BTreeSet};
@@ -50,8 +51,8 @@ pub fn import(path: &Path, units: &Units, reach: PathPolicy) -> Result<Imported,
     let shown = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
     let text =
         Text::read(path, &shown, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", reach)).map_err(|fault| vec![fault])?;
-    let deck = Deck::read(&text).map_err(|fault| vec![fault])?;
-    mesh::mesh(&deck, &text, 1.0)?;
+    let deck = Deck::read(&text, Bodies::Highest).map_err(|fault| vec![fault])?;
+    mesh::mesh(Bodies::Highest, &deck, &text, 1.0)?;
     let mut importer = Importer::new(&text, &deck, units.clone());
     importer.read().map_err(|fault| vec![fault])?;
     let model = importer.write().map_err(|fault| vec![fault])?;

@@ -14,6 +14,7 @@ use super::diagnostics::Faults;
 use super::reader::{Document, Record};
 use super::tree::Place;
 use super::units::shorten;
+use crate::gmsh::Bodies;
 use crate::gmsh::messages::MESH_FILE;
 use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
@@ -29,6 +30,7 @@ use std::sync::Arc;
 /// The model of a file; `meshes` are its mesh files.
 pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Model {
     document.records().for_each(|record| follow::cover(record, faults));
+    meshes.sheets = sheets(document);
     document.section("curve").iter().filter_map(|record| record.table("sine")).for_each(|sine| follow::sine(sine, faults));
     let parts = document.section("part").iter().map(|record| part(record, meshes, faults)).collect();
     let obstacles = document.section("obstacle").iter().map(|record| obstacle(record, meshes, faults)).collect();
@@ -54,6 +56,16 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
     };
     name_the_nameless(&mut model);
     model
+}
+
+/// Mesh files whose surfaces are shells in 3D.
+fn sheets(document: &Document) -> BTreeSet<String> {
+    let file = |record: &Record| {
+        let part = Part::read(record);
+        let table = record.table("mesh").filter(|_| part.is_of_sheets() && part.sweep.is_none())?;
+        Some(table.text("file"))
+    };
+    document.section("part").iter().filter_map(file).collect()
 }
 
 /// What the tables of a section describe.
@@ -110,6 +122,8 @@ pub(super) struct Meshes<'a> {
     folder: &'a Path,
     bounds: Bounds,
     given: &'a GivenMeshes,
+    /// Those that are read for shells in 3D.
+    sheets: BTreeSet<String>,
     read: Vec<(PathBuf, u64, Option<usize>)>,
     loaded: Vec<Arc<ImportedMesh>>,
 }
@@ -117,7 +131,7 @@ pub(super) struct Meshes<'a> {
 impl<'a> Meshes<'a> {
     /// Those of a file in `folder`, none of them read yet; some may be given instead of a file.
     pub(super) fn new(folder: &'a Path, reach: PathPolicy, given: &'a GivenMeshes) -> Self {
-        Self { folder, bounds: Bounds::of(folder, "model's", reach), given, read: Vec::new(), loaded: Vec::new() }
+        Self { folder, bounds: Bounds::of(folder, "model's", reach), given, sheets: BTreeSet::new(), read: Vec::new(), loaded: Vec::new() }
     }
 
     /// Files that could not be read are tried again, so that their faults are reported again.
@@ -136,10 +150,11 @@ impl<'a> Meshes<'a> {
         let given = self.given.get(&file);
         let index = if given.is_some() || self.is_there(&path, &file, (record, place), faults) {
             let is_deck = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
+            let bodies = if self.sheets.contains(&file) { Bodies::Sheets } else { Bodies::Highest };
             let mesh = match given {
-                Some(bytes) => gmsh::parse(bytes, &file, scale),
-                None if is_deck => abaqus::read_within(&path, scale, &self.bounds),
-                None => gmsh::read(&path, scale),
+                Some(bytes) => gmsh::parse_for(bodies, bytes, &file, scale),
+                None if is_deck => abaqus::read_within(bodies, &path, scale, &self.bounds),
+                None => gmsh::read_for(bodies, &path, scale),
             };
             match mesh {
                 Ok(mesh) => {

@@ -336,3 +336,41 @@ fn parts_of_2d_and_of_3d_from_files_do_not_go_together() {
     let extruded = format!("{MODEL}{part}extrude = {{ from = 9, length = 1, elements = 1 }}\n");
     assert_eq!(load_text("m", &extruded, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}")).dimension(), 3);
 }
+
+#[test]
+fn a_group_of_surfaces_is_a_shell_in_space_beside_solids_or_alone() {
+    let folder = folder();
+    let shell = "element = \"shell4\"\nsection = { thickness = \"1 mm\" }\n";
+    let both = MODEL.replace("group = \"tetrahedra\"", "group = \"upper\"").replace("element = \"tet4\"\n", shell);
+    let both = both.replace("[[load]]\npressure = 1e6\non = \"upper\"\n[[contact]]\nbetween = [\"upper\", \"b\"]\n", "");
+    let model = load_text("m", &both, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let mesh = Mesh::<3>::new(&model).unwrap_or_else(|faults| panic!("{faults:#?}"));
+    assert_eq!((mesh.elements_of(0), mesh.elements_of(1), mesh.bodies().into_iter().max()), (3, 3, Some(0)));
+    // Alone, out of the plane, clockwise as the file has it.
+    let tent = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 2 \"ridge\"\n2 1 \"tent\"\n$EndPhysicalNames\n\
+        $Nodes\n5\n1 0 0 0\n2 1 0 2\n3 1 1 2\n4 0 1 0\n5 2 0 0\n$EndNodes\n\
+        $Elements\n3\n1 3 2 1 1 1 4 3 2\n2 2 2 1 1 2 3 5\n3 1 2 2 1 2 3\n$EndElements\n";
+    std::fs::write(folder.path().join("tent.msh"), tent).unwrap();
+    let part = format!("[[part]]\nname = \"a\"\nmaterial = \"steel\"\n{shell}mesh = {{ file = \"tent.msh\", group = \"tent\" }}\n");
+    let alone = format!("run.end = 1\n[material.steel]\nlaw = \"elastic\"\ndensity = 1\nyoung = 1\npoisson = 0\n{part}");
+    let model = load_text("m", &alone, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let mesh = Mesh::<3>::new(&model).unwrap_or_else(|faults| panic!("{faults:#?}"));
+    assert_eq!((mesh.positions.len(), mesh.groups.len(), mesh.nodes("ridge").map(|nodes| nodes.len())), (5, 2, Some(2)));
+    assert!(mesh.positions.iter().any(|x| x[2] == 2.0));
+    let [a, b, c] = [0, 1, 2].map(|k| mesh.positions[mesh.groups[0].nodes_of(0)[k] as usize]);
+    assert!((b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0]), "clockwise seen along z");
+    // Without shells the plane has to be one.
+    let plane = alone.replace(shell, "");
+    let found = load_text("m", &plane, folder.path(), &[]).unwrap_err();
+    assert!(
+        found.entries.iter().any(|it| it.message.contains("off the plane z = 0") && it.help.contains("`element = \"shell4\"`")),
+        "{found}"
+    );
+    // So are those of a deck.
+    let deck = "*NODE\n1, 0, 0, 0\n2, 1, 0, 2\n3, 1, 1, 2\n4, 0, 1, 0\n5, 2, 0, 0\n*ELEMENT, TYPE=S4R, ELSET=tent\n1, 1, 4, 3, 2\n\
+        *ELEMENT, TYPE=S3, ELSET=tent\n2, 2, 3, 5\n";
+    std::fs::write(folder.path().join("tent.inp"), deck).unwrap();
+    let model =
+        load_text("m", &alone.replace("tent.msh", "tent.inp"), folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    assert_eq!(Mesh::<3>::new(&model).unwrap_or_else(|faults| panic!("{faults:#?}")).positions, mesh.positions);
+}

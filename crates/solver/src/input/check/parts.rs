@@ -179,15 +179,17 @@ impl Check<'_> {
                     &SHELLS,
                     at,
                     "`section` is that of shells, but the part has none",
-                    "leave it out, or take `element = \"shell2\"`",
+                    if self.model.dimension_of(part) == 3 {
+                        "leave it out, or take `element = \"shell4\"`"
+                    } else {
+                        "leave it out, or take `element = \"shell2\"`"
+                    },
                 );
             }
             return;
         }
-        let is_line = part.shape.cell_kind().is_none_or(|kind| kind == CellKind::Line);
-        if !is_line || self.model.dimension() == 3 {
-            let message = "`shell2` is a line in 2D, but the part is not made of lines in a 2D model";
-            self.fault(&SHELLS, format!("{path}.element"), message, "take `line`, `arc`, `truss` or lines of a mesh file, in 2D");
+        if let Some((message, help)) = self.no_shell(part) {
+            self.fault(&SHELLS, format!("{path}.element"), message, help);
             return;
         }
         let Some(section) = &part.section else {
@@ -223,11 +225,38 @@ impl Check<'_> {
         }
     }
 
+    /// Why a part can't be the shell that its element says, and what to do.
+    fn no_shell(&self, part: &Part) -> Option<(String, &'static str)> {
+        if !part.is_of_sheets() {
+            let is_line = part.shape.cell_kind().is_none_or(|kind| kind == CellKind::Line);
+            return (!is_line || self.model.dimension() == 3).then(|| {
+                let message = "`shell2` is a line in 2D, but the part is not made of lines in a 2D model";
+                let help = "take `line`, `arc`, `truss` or lines of a mesh file, in 2D; in 3D `shell4`, lines with `extrude` or `revolve`";
+                (message.to_string(), help)
+            });
+        }
+        let is_line = part.shape.cell_kind() == Some(CellKind::Line);
+        let (what, help) = match (part.shape.solid(), part.shape.built_in()) {
+            _ if part.makes_sheet() => return None,
+            (Some(_), _) if is_line => {
+                ("made of lines in 3D", "take `cylinder`, `sphere` or `box`, whose skin a shell can be, or a plane shape")
+            }
+            (Some(_), _) => ("a solid with two skins", "take `cylinder`, whose side `outer` a shell can be, or `arc` with `extrude`"),
+            _ if is_line => ("made of lines that are not swept", "add `extrude` or `revolve`, or take `shell2` in a 2D model"),
+            _ => ("a solid", "leave its sweep out, or sweep `line` or `arc`"),
+        };
+        Some((format!("`{}` is a surface, but the part is {what}", part.element), help))
+    }
+
     fn shape(&mut self, path: &str, part: &Part) {
+        // What can't be the shell that it should be has its own fault.
+        let kind = part.cell_kind().filter(|_| !part.is_of_sheets() || part.makes_sheet());
         if let Some((shape, key)) = part.shape.solid() {
             let key = format!("{path}.{key}");
             shape.check(&mut Table { check: self, path: &key });
-            self.takes(path, part, shape.cell_kind(), &key, &made_of(shape.cell_kind()));
+            if let Some(kind) = kind {
+                self.takes(path, part, kind, &key, &made_of(kind));
+            }
             self.placement(path, &part.placement);
             return;
         }
@@ -243,7 +272,7 @@ impl Check<'_> {
         };
         let key = format!("{path}.{key}");
         shape.check(&mut Table { check: self, path: &key });
-        if let Some(kind) = part.cell_kind() {
+        if let Some(kind) = kind {
             self.takes(path, part, kind, &key, &made_of(kind));
         }
         self.placement(path, &part.placement);
@@ -259,12 +288,14 @@ impl Check<'_> {
             let lines = |part: &Part| part.shape.cell_kind() == Some(CellKind::Line) || part.is_of_lines();
             let word = |dimension: usize, part: &Part| match (dimension, lines(part)) {
                 (2, _) => "2D",
+                _ if part.is_of_sheets() => "a shell in 3D",
                 (_, true) => "of bars in 3D",
                 _ => "a solid",
             };
             let other = self.model.parts.iter().find(known).map_or("", |first| word(dimension, first));
             let own = word(self.model.dimension_of(part), part);
             let help = match (lines(part), dimension) {
+                (true, 3) if part.is_of_shells() => "take `extrude` or `revolve` with `element = \"shell4\"`: shells in 3D",
                 (true, 2) => "take `truss`: bars in 2D; or make the other parts solids, such as by `extrude`",
                 (true, _) => "take `space_truss` with `element = \"bar2\"`: bars in 3D",
                 _ => "make all parts solids, such as by `extrude`, or none",
@@ -277,8 +308,9 @@ impl Check<'_> {
         let path = format!("{path}.{}", sweep.key());
         if part.shape.solid().is_some() {
             self.fault(&CLASH, path.as_str(), "the shape is a solid as it is", "leave it out, or take a 2D shape");
-        } else if part.is_of_lines() || part.shape.cell_kind() == Some(CellKind::Line) {
-            self.fault(&CLASH, path.as_str(), "lines have no area that could become a solid", "leave it out");
+        } else if !part.is_of_sheets() && (part.is_of_lines() || part.shape.cell_kind() == Some(CellKind::Line)) {
+            let help = "leave it out, or take `element = \"shell4\"`";
+            self.fault(&CLASH, path.as_str(), "lines have no area that could become a solid", help);
         }
         match sweep {
             Sweep::Extrude(Extrude { from, length, elements, grading }) => {
@@ -406,8 +438,9 @@ impl Check<'_> {
                 self.fault(&NO_ELEMENT, path.as_str(), message, "the mesh has to be made again");
                 continue;
             };
-            // Bars that are swept have their own fault.
-            let Some(kind) = part.sweep.as_ref().map_or(Some(kind), |_| kind.facts().extruded) else { continue };
+            // Lines that are swept are quadrilaterals of shells; those of bars have their own fault.
+            let swept = if part.is_of_sheets() { Some(CellKind::Quadrilateral) } else { kind.facts().extruded };
+            let Some(kind) = part.sweep.as_ref().map_or(Some(kind), |_| swept) else { continue };
             let what = match kind {
                 CellKind::Line | CellKind::Triangle => kind.facts().plural.to_string(),
                 _ => format!("cells of {} nodes", kind.nodes()),

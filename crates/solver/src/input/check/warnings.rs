@@ -98,6 +98,9 @@ impl Model {
 
     /// Whether some elements of a part are of this kind.
     fn has_elements(&self, part: &Part, name: &str) -> bool {
+        if part.is_of_sheets() {
+            return false;
+        }
         let is = |cell| part.element_in(2, cell).is_some_and(|kind| kind.name == name);
         match &part.shape {
             Shape::Group { mesh, group } => {

@@ -34,11 +34,12 @@ impl Default for CircularArc {
     }
 }
 
-pub(super) const KEY: Key = shape_key("arc", &SECTION, "An arc: the middle of a round shell, with `element = \"shell2\"`.");
+pub(super) const KEY: Key =
+    shape_key("arc", &SECTION, "An arc: the middle of a round shell, with `element = \"shell2\"`, and swept with `shell4`.");
 
 static SECTION: Section = Section {
     name: "arc",
-    doc: "An arc, counter-clockwise from `from` to `to`, for `element = \"shell2\"` (or `bar2`). Unless it is closed, its ends can be named as `start` and `end`; the faces of a shell are `left` (inside) and `right`.",
+    doc: "An arc, counter-clockwise from `from` to `to`, for `element = \"shell2\"` (or `bar2`), or with `extrude` or `revolve` for `shell4`. Unless it is closed, its ends can be named as `start` and `end`; the faces of a `shell2` are `left` (inside) and `right`.",
     keys: &[
         key("centre", Vector(Dimension::LENGTH, Finite), Required, "Centre."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius, to the middle of the shell."),

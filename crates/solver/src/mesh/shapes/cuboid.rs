@@ -1,6 +1,6 @@
 //! An axis-parallel box.
 
-use super::{Body, BuiltIn, Count, ELEMENTS, Rectangle, ShapeCheck, Values, Wrong, shape_key};
+use super::{Body, BuiltIn, Count, ELEMENTS, Rectangle, ShapeCheck, Skin, Values, Wrong, shape_key};
 use super::{Extrude, Sweep};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
@@ -33,7 +33,7 @@ pub(super) const KEY: Key = shape_key("box", &SECTION, "An axis-parallel box: a 
 static SECTION: Section = Section {
     name: "box",
     doc: "An axis-parallel box of hexahedra; its sides are `left` and `right` (along x), `bottom` and `top` (along \
-        y), `back` and `front` (along z).",
+        y), `back` and `front` (along z). With `shell4` the shell of all six.",
     keys: &[
         key("corner", Spatial(Dimension::LENGTH, Finite), Required, "Corner with the lowest coordinates."),
         key("size", Spatial(Dimension::LENGTH, Positive), Required, "Lengths along x, y and z."),
@@ -67,6 +67,16 @@ impl BuiltIn<3> for Cuboid {
 
     fn count(&self) -> Count {
         self.sweep().count(self.section().count())
+    }
+
+    fn skin(&self) -> Option<Skin> {
+        let [a, b, c] = self.elements;
+        let product = |[a, b, c]: [usize; 3]| a.saturating_mul(b).saturating_mul(c);
+        let inside = product(self.elements.map(|n| n.saturating_sub(1)));
+        let nodes = product(self.elements.map(|n| n.saturating_add(1))).saturating_sub(inside);
+        let sides = [[a, b], [b, c], [c, a]].map(|[a, b]| a.saturating_mul(b).saturating_mul(2));
+        let elements = sides.into_iter().fold(0, usize::saturating_add);
+        Some(Skin { sides: &["left", "right", "bottom", "top", "back", "front"], count: Count { nodes, elements, exact: true } })
     }
 
     /// Nodes run along x first, then along y.

@@ -44,7 +44,7 @@ where
     Dim<D>: Meshed<D>,
 {
     /// Takes the positions of the nodes that elements have, in their order, and numbers everything so.
-    fn only_used(&mut self, positions: &[[f64; D]]) {
+    pub(super) fn only_used(&mut self, positions: &[[f64; D]]) {
         let mut used = vec![false; positions.len()];
         self.cells().flat_map(|cell| cell.nodes).for_each(|&node| used[node as usize] = true);
         let mut numbers = vec![0; positions.len()];
@@ -59,5 +59,6 @@ where
         for (_, facets) in &mut self.sides {
             facets.iter_mut().for_each(|facet| *facet = facet.renamed(|node| numbers[node as usize]));
         }
+        self.points.iter_mut().flat_map(|(_, nodes)| nodes).for_each(number);
     }
 }

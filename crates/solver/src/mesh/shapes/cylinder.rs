@@ -1,7 +1,7 @@
 //! A full cylinder along any axis, or a part of one, without degenerate elements.
 
 use super::axes::Axes;
-use super::{Body, BuiltIn, Count, Disk, ELEMENTS, Extrude, ShapeCheck, Sweep, Values, Wrong, cut, shape_key};
+use super::{Body, BuiltIn, Count, Disk, ELEMENTS, Extrude, ShapeCheck, Skin, Sweep, Values, Wrong, cut, shape_key};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 use crate::vocabulary::Kind::{Angle, Integers, Quantity, Spatial};
@@ -41,7 +41,8 @@ pub(super) const KEY: Key = shape_key("cylinder", &SECTION, "A full cylinder, or
 static SECTION: Section = Section {
     name: "cylinder",
     doc: "A full cylinder of hexahedra, or one, two or three quarters of one; its sides are `outer`, of a part of \
-        one also `start` and `end`, and `bottom` and `top` where its axis begins and ends.",
+        one also `start` and `end`, and `bottom` and `top` where its axis begins and ends. With `shell4` the shell of \
+        its side `outer`, without lids.",
     keys: &[
         key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre of the bottom."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
@@ -124,6 +125,13 @@ impl BuiltIn<3> for Cylinder {
             }
         };
         self.sweep().count(section)
+    }
+
+    fn skin(&self) -> Option<Skin> {
+        let quarters = self.quarters().unwrap_or(4);
+        let around = self.elements[0].saturating_mul(quarters);
+        let rim = Count { nodes: around.saturating_add(usize::from(quarters < 4)), elements: around, exact: true };
+        Some(Skin { sides: &["outer"], count: self.sweep().count(rim) })
     }
 
     fn body(&self) -> Result<Body<3>, Wrong> {

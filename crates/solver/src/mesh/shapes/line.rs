@@ -23,11 +23,12 @@ pub struct Line {
     pub elements: usize,
 }
 
-pub(super) const KEY: Key = shape_key("line", &SECTION, "A line along a path: the middle of a shell, with `element = \"shell2\"`.");
+pub(super) const KEY: Key =
+    shape_key("line", &SECTION, "A line along a path: the middle of a shell, with `element = \"shell2\"`, and swept with `shell4`.");
 
 static SECTION: Section = Section {
     name: "line",
-    doc: "A line along a path from point to point, for `element = \"shell2\"` (or `bar2`). Unless it is closed, its ends can be named as `start` and `end`; the faces of a shell are `left` and `right` of who walks along it.",
+    doc: "A line along a path from point to point, for `element = \"shell2\"` (or `bar2`), or with `extrude` or `revolve` for `shell4`. Unless it is closed, its ends can be named as `start` and `end`; the faces of a `shell2` are `left` and `right` of who walks along it.",
     keys: &[
         key("points", Points(2), Required, "Points of the path."),
         key("radius", Quantity(Dimension::LENGTH, NotNegative), Written("0"), "Radius of its bends; 0: sharp."),

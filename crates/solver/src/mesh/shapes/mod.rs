@@ -9,6 +9,7 @@ mod coons;
 mod cut;
 mod delaunay;
 mod numbers;
+mod sheet;
 pub(crate) mod sweep;
 
 pub(super) use axes::unit;
@@ -19,7 +20,7 @@ pub use sweep::{Extrude, Revolve, Sweep};
 use super::Meshed;
 use super::cell::{Cell, CellKind};
 use super::messages::UNMESHABLE;
-use super::skin::FACES;
+use super::skin::{FACES, FACES_IN_SPACE};
 use super::surface::Facet;
 use crate::error::Fault;
 use crate::model::{Part, Values};
@@ -29,6 +30,7 @@ use crate::tensor::Dim;
 use crate::vocabulary::{Form, Group, Key, Kind, Need, Rule, Section, key};
 use cut::cut;
 use numbers::Steps;
+use sheet::Skin;
 use std::collections::BTreeMap;
 
 /// The mesh of one body: nodes, elements, and named sides. Elements are numbered kind by kind, those of the
@@ -185,6 +187,10 @@ where
     /// What it is made of.
     fn cell_kind(&self) -> CellKind {
         if D == 2 { CellKind::Quadrilateral } else { CellKind::Hexahedron }
+    }
+    /// Of a solid: the skin of which a shell can be made, if there is one.
+    fn skin(&self) -> Option<Skin> {
+        None
     }
     /// The mesh.
     fn body(&self) -> Result<Body<D>, Wrong>;
@@ -351,7 +357,8 @@ impl Part {
     /// How large its mesh will be, where it has a built-in shape.
     #[must_use]
     pub fn count(&self) -> Option<Count> {
-        let shape = self.shape.count()?;
+        let skin = self.shape.solid().filter(|_| self.is_of_sheets()).and_then(|(shape, _)| shape.skin());
+        let shape = skin.map(|skin| skin.count).or_else(|| self.shape.count())?;
         let one = self.sweep.as_ref().map_or(shape, |sweep| sweep.count(shape));
         Some(one.times(self.placement.copies.map_or(1, |copies| copies.count)))
     }
@@ -364,7 +371,9 @@ impl Part {
 
     /// Its body in 3D, placed; `None` for a group of a mesh file.
     pub(super) fn solid_body(&self) -> Option<Result<Body<3>, Fault>> {
-        let body = if let Some((shape, key)) = self.shape.solid() {
+        let body = if self.is_of_sheets() {
+            self.sheet()?
+        } else if let Some((shape, key)) = self.shape.solid() {
             shape.body().map_err(|wrong| wrong.at(key))
         } else {
             let (shape, key) = self.shape.built_in()?;
@@ -378,15 +387,24 @@ impl Part {
     #[must_use]
     pub fn sides(&self) -> Vec<String> {
         let swept = self.sweep.as_ref().map_or(Vec::new(), Sweep::sides);
-        let faces = if self.is_of_shells() { &FACES[..] } else { &[] };
+        let faces = match self {
+            part if part.is_of_sheets() => &FACES_IN_SPACE[..],
+            part if part.is_of_shells() => &FACES,
+            _ => &[],
+        };
         self.shape.sides().into_iter().chain(swept).chain(faces.iter().map(|face| (*face).to_string())).collect()
     }
 
     /// What its built-in shape is made of, away from an axis that it is turned about; `None` for a group of a
-    /// mesh file, and for bars that are swept.
+    /// mesh file, for bars that are swept, and for shapes of which no shell in 3D can be that is one.
     pub(crate) fn cell_kind(&self) -> Option<CellKind> {
         let kind = self.shape.cell_kind()?;
-        if self.sweep.is_some() && self.shape.solid().is_none() { kind.facts().extruded } else { Some(kind) }
+        let is_solid = self.shape.solid().is_some();
+        if self.is_of_sheets() {
+            let made = if is_solid || self.sweep.is_some() { CellKind::Quadrilateral } else { kind };
+            return self.makes_sheet().then_some(made);
+        }
+        if self.sweep.is_some() && !is_solid { kind.facts().extruded } else { Some(kind) }
     }
 }
 
@@ -409,7 +427,7 @@ const MESH: Key = shape_key("mesh", &MESH_SECTION, "A group of a mesh file.");
 
 static MESH_SECTION: Section = Section {
     name: "mesh",
-    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1, 3D if it has a group of volumes; Abaqus or CalculiX \
+    doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1, 3D if it has a group of volumes, or a part is made of its surfaces as a shell with `shell4`; Abaqus or CalculiX \
         `.inp`), triangles, wedges and tetrahedra too. Its other groups can be named in contacts, constraints and \
         probes.",
     form: Form::Inline,
@@ -420,7 +438,7 @@ static MESH_SECTION: Section = Section {
             "group",
             Kind::Text,
             Need::Required,
-            "Name of a physical group of surfaces (of solids of volumes, of bars of lines), or of an element set.",
+            "Name of a physical group of surfaces (of solids of volumes, of bars and of shells in 2D of lines), or of an element set.",
         ),
         key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file."),
     ],

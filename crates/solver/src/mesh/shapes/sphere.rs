@@ -1,7 +1,7 @@
 //! A full sphere, or a part of one, without degenerate elements.
 
 use super::numbers::{between, cos_sin};
-use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, cut, node, shape_key};
+use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Skin, Values, Wrong, cut, node, shape_key};
 use crate::mesh::cell::CellKind;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
@@ -44,7 +44,7 @@ pub(super) const KEY: Key = shape_key("sphere", &SECTION, "A full sphere, or a h
 static SECTION: Section = Section {
     name: "sphere",
     doc: "A full sphere of hexahedra, or a part of one; its side is `outer`, where it is cut also `left` (across x), \
-        `bottom` (across y) and `back` (across z).",
+        `bottom` (across y) and `back` (across z). With `shell4` the shell of its surface.",
     keys: &[
         key("centre", Spatial(Dimension::LENGTH, Finite), Required, "Centre."),
         key("radius", Quantity(Dimension::LENGTH, Positive), Required, "Radius."),
@@ -86,12 +86,16 @@ impl BuiltIn<3> for Sphere {
     fn count(&self) -> Count {
         let (n, cuts) = (self.elements, self.cuts().unwrap_or(0));
         let layers = layers_of(n);
-        let product = |of: &dyn Fn(bool) -> usize| (0..3).map(|d| of(d < cuts)).fold(1, usize::saturating_mul);
-        let lattice = product(&|cut| if cut { n / 2 } else { n }.saturating_add(1));
-        let inside = product(&|cut| if cut { n / 2 } else { n.saturating_sub(1) });
+        let [lattice, inside] = self.lattice();
         let shell = lattice.saturating_sub(inside).saturating_mul(layers);
         let elements = n.saturating_mul(n).saturating_mul(n.saturating_add(layers.saturating_mul(6)));
         Count { nodes: lattice.saturating_add(shell), elements: elements >> cuts, exact: true }
+    }
+
+    fn skin(&self) -> Option<Skin> {
+        let [lattice, inside] = self.lattice();
+        let elements = self.elements.saturating_mul(self.elements).saturating_mul(6) >> self.cuts().unwrap_or(0);
+        Some(Skin { sides: &["outer"], count: Count { nodes: lattice.saturating_sub(inside), elements, exact: true } })
     }
 
     /// Nodes: the core's lattice, along x first, then the layers outwards, each in the order of the lattice.
@@ -126,6 +130,14 @@ impl Sphere {
     /// Across how many of x, y and z it is cut; `None` for another portion than there are.
     fn cuts(&self) -> Option<usize> {
         PORTIONS.iter().position(|portion| *portion == self.portion)
+    }
+
+    /// Nodes of the core, and how many of them are not on its outside.
+    fn lattice(&self) -> [usize; 2] {
+        let (n, cuts) = (self.elements, self.cuts().unwrap_or(0));
+        let product = |of: &dyn Fn(bool) -> usize| (0..3).map(|d| of(d < cuts)).fold(1, usize::saturating_mul);
+        let lattice = product(&|cut| if cut { n / 2 } else { n }.saturating_add(1));
+        [lattice, product(&|cut| if cut { n / 2 } else { n.saturating_sub(1) })]
     }
 }
 

@@ -2,11 +2,13 @@
 //! plane.
 //!
 //! Sections come from the shapes and mesh files; bodies of hexahedra, wedges and tetrahedra go back to where
-//! the section would have gone.
+//! the section would have gone, and of lines sheets of quadrilaterals and triangles.
 
 use super::numbers::{Steps, cos_sin, dot, minus, quarters};
 use super::{Body, Count, ELEMENTS, Values, Wrong};
 use crate::mesh::cell::{Cell, CellKind};
+use crate::mesh::sorted;
+use crate::mesh::surface::Corners;
 use crate::model::{ImportedMesh, MeshGroup};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive, UpTo};
@@ -69,7 +71,9 @@ impl Default for Revolve {
 pub(crate) static EXTRUDE: Section = Section {
     name: "extrude",
     doc: "The 2D shape becomes a solid: it is extruded along z. Quadrilaterals become hexahedra, triangles become \
-        wedges. Its sides keep their names; the section at `from` is the side `back`, the other end `front`.",
+        wedges. Its sides keep their names; the section at `from` is the side `back`, the other end `front`. Lines \
+        become a shell of quadrilaterals (`shell4`), whose face `upper` is on the right of who walks along them; its \
+        edges are sets of nodes with these names.",
     keys: &[
         key("length", Quantity(Dimension::LENGTH, Positive), Required, "Length along z."),
         key(ELEMENTS, Integer(1), Required, "Elements along z."),
@@ -83,7 +87,8 @@ pub(crate) static REVOLVE: Section = Section {
     name: "revolve",
     doc: "The 2D shape becomes a solid: it is revolved about a line of the x-y plane, towards z first. Where it has \
         an edge on the line, quadrilaterals become wedges and triangles tetrahedra. Its sides keep their names; \
-        unless it is turned all around, the section as it is drawn is the side `back`, the other end `front`.",
+        unless it is turned all around, the section as it is drawn is the side `back`, the other end `front`. Lines \
+        become a shell (`shell4`) as by `extrude`, of triangles where they end on the line.",
     keys: &[
         key("angle", Angle(Dimension::NONE, UpTo(0.0, TAU + 1e-9)), Written("\"360 deg\""), "Angle by which it is turned."),
         key(ELEMENTS, Integer(1), Required, "Elements around; at least 3 all around."),
@@ -103,6 +108,9 @@ struct Layers<'p> {
     rank: Vec<u32>,
     moving: u32,
 }
+
+/// What becomes of a line on the axis.
+const NO_SURFACE: &str = "lies on the axis, where it becomes no surface";
 
 /// Of a node that stays where it is.
 const FIXED: u32 = u32::MAX;
@@ -166,6 +174,17 @@ impl Layers<'_> {
             (false, true) => Some([here(b), here(a), next(a), next(a)]),
             (true, true) => None,
         }
+    }
+
+    /// The quadrilateral between a section and the next that a line becomes, on the right of who walks along
+    /// it; a triangle (its last node twice) where one end is on the axis, nothing where both are.
+    fn strip(&self, [a, b]: [u32; 2], layer: usize) -> Option<[u32; 4]> {
+        self.facet([b, a], layer)
+    }
+
+    /// All nodes of the first and of the last section that nodes become, ascending.
+    fn end_columns(&self, nodes: impl Iterator<Item = u32> + Clone) -> [Vec<u32>; 2] {
+        [0, self.elements].map(|layer| sorted(nodes.clone().map(|node| self.number(node, layer))))
     }
 
     /// Cells of the first and of the last section as facets counter-clockwise seen from outside.
@@ -319,14 +338,31 @@ impl Sweep {
         Ok(body)
     }
 
-    /// The mesh that a mesh in 2D becomes: groups of surfaces become volumes, of lines surfaces, of
-    /// points sets of nodes. Nodes that groups share, they still share. With it the two ends of each group of
-    /// surfaces, by its place among the groups.
+    /// The sheet that lines become; their ends, and the first and the last section, are sets of nodes.
+    pub(crate) fn sheet(&self, lines: &Body<2>) -> Result<Body<3>, Wrong> {
+        let (layers, positions) = self.layers(&lines.positions)?;
+        let mut body = Body { positions, ..Body::default() };
+        for layer in 0..layers.elements {
+            for cell in lines.cells() {
+                let strip = layers.strip([cell.nodes[0], cell.nodes[1]], layer);
+                let strip = strip.ok_or_else(|| axis_touched(&lines.positions, cell, NO_SURFACE))?;
+                body.add(Cell::of(2, strip.corners()));
+            }
+        }
+        body.points = lines.points.iter().map(|(name, nodes)| (name.clone(), layers.columns(nodes))).collect();
+        body.points.extend(self.sides().into_iter().zip(layers.end_columns(0..lines.positions.len() as u32)));
+        Ok(body)
+    }
+
+    /// The mesh that a mesh in 2D becomes: groups of surfaces become volumes, of lines surfaces (on the right
+    /// of who walks along them where a part is made of them), of points sets of nodes. Nodes that groups
+    /// share, they still share. With it the two ends of each group of surfaces, by its place among the
+    /// groups.
     pub(in crate::mesh) fn swept_mesh(&self, section: &ImportedMesh, wanted: &[&str]) -> Result<SweptMesh, Wrong> {
         let plane: Vec<[f64; 2]> = section.positions.iter().map(|&[x, y, _]| [x, y]).collect();
         let (layers, positions) = self.layers(&plane)?;
         let mut swept =
-            SweptMesh { mesh: ImportedMesh { source: section.source.clone(), positions, groups: Vec::new() }, ends: Vec::new() };
+            SweptMesh { mesh: ImportedMesh { source: section.source.clone(), positions, groups: Vec::new() }, ..SweptMesh::default() };
         for group in &section.groups {
             let cells = || group.elements().flatten();
             let each = |make: &Made| -> Vec<Vec<u32>> {
@@ -339,13 +375,16 @@ impl Sweep {
                     cells().try_for_each(touched)?;
                     (3, each(&|cell, layer| layers.cell(cell, layer).ok().map(|(_, nodes)| nodes)))
                 }
-                1 => {
-                    let facet = |cell: Cell<'_>, layer| {
-                        let facet = layers.facet([cell.nodes[0], cell.nodes[1]], layer)?;
-                        Some(if facet[2] == facet[3] { facet[..3].to_vec() } else { facet.to_vec() })
-                    };
-                    (2, each(&facet))
+                1 if wanted.contains(&group.name.as_str()) => {
+                    let nodes: Vec<u32> = group.cells.concat();
+                    swept.rims.push((group.name.clone(), layers.end_columns(nodes.into_iter())));
+                    let strip = |cell: Cell<'_>, layer| layers.strip([cell.nodes[0], cell.nodes[1]], layer);
+                    if let Some(cell) = cells().find(|&cell| strip(cell, 0).is_none()) {
+                        return Err(axis_touched(&plane, cell, NO_SURFACE));
+                    }
+                    (2, each(&|cell, layer| Some(strip(cell, layer)?.corners().to_vec())))
                 }
+                1 => (2, each(&|cell, layer| Some(layers.facet([cell.nodes[0], cell.nodes[1]], layer)?.corners().to_vec()))),
                 _ => (0, layers.columns(&group.cells.concat()).into_iter().map(|node| vec![node]).collect()),
             };
             swept.mesh.groups.push(MeshGroup { name: group.name.clone(), dimension, cells });
@@ -360,15 +399,14 @@ pub(in crate::mesh) struct SweptMesh {
     pub(in crate::mesh) mesh: ImportedMesh,
     /// Facets at the two ends of each group of volumes, by its name.
     pub(in crate::mesh) ends: Vec<(String, [Vec<[u32; 4]>; 2])>,
+    /// Nodes at the two ends of each group of lines that became a sheet, by its name.
+    pub(in crate::mesh) rims: Vec<(String, [Vec<u32>; 2])>,
 }
 
 impl Layers<'_> {
     /// All nodes that nodes of the section become, ascending.
     fn columns(&self, nodes: &[u32]) -> Vec<u32> {
-        let mut all: Vec<u32> = nodes.iter().flat_map(|&node| (0..=self.elements).map(move |layer| self.number(node, layer))).collect();
-        all.sort_unstable();
-        all.dedup();
-        all
+        sorted(nodes.iter().flat_map(|&node| (0..=self.elements).map(move |layer| self.number(node, layer))))
     }
 }
 

@@ -15,7 +15,8 @@ const SAME: f64 = 1.0 - 1e-9;
 /// Cosine above which the foot of a wall runs along the piece that it stands on.
 const ALONG: f64 = 0.99;
 
-/// A smooth piece of a shell at one of its nodes: direction to one of its faces, and half of its thickness, m.
+/// A smooth piece of a shell at one of its nodes: direction to one of its faces, and half of its thickness,
+/// m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
     pub(super) to_face: [f64; 3],

@@ -1,5 +1,5 @@
 //! What is around a node of the middle of shells in 3D: corners of elements, how they follow each other
-//! around the edges there, which of their sides look into the same sector of space, and which of them are a
+//! around the edges there, which of their sides look into the same sector, and which of them are a
 //! smooth shell.
 //!
 //! Beyond symmetry planes are the images of the elements: each corner is there once for each operation of
@@ -131,14 +131,12 @@ impl<'a> Hub<'a> {
                 let direction = unit(frame.map(|axis| dot(axis, inward))).unwrap_or_default();
                 let (place, angle) = ((number * self.own.len() + own) as u32, crate::angle::angle_of(direction));
                 let blade = Blade { place, is_along: wing.is_along != is_mirrored(&operation), direction, angle };
-                let same = fan.iter().find(|other| number > 0 && dot(other.direction, direction) > SAME_PLACE).copied();
-                match same {
-                    Some(same) => [true, false].map(|ahead| self.join_sides(same.side(ahead), blade.side(ahead), true)),
-                    None => {
-                        fan.push(blade);
-                        [(); 2]
-                    }
-                };
+                let same = fan.iter().find(|other| number > 0 && dot(other.direction, direction) > SAME_PLACE);
+                if let Some(same) = same {
+                    [true, false].into_iter().for_each(|ahead| self.join_sides(same.side(ahead), blade.side(ahead), true));
+                } else {
+                    fan.push(blade);
+                }
             }
         }
         fan.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.place.cmp(&b.place)));
@@ -218,9 +216,20 @@ impl<'a> Hub<'a> {
         self.planes.iter().filter(is_own_image).fold(vector, |vector, &plane| within(vector, plane))
     }
 
-    /// The smooth face that a side belongs to: the mean direction of its corners, weighted by their angles.
-    fn piece(&self, faces: &Sets, side: u32) -> Piece {
-        let sides = faces.of(side);
+    /// The smooth face that each side belongs to.
+    fn pieces(&self, faces: &Sets) -> Vec<Piece> {
+        let mut pieces: Vec<Piece> = Vec::with_capacity(faces.all.len());
+        for side in 0..faces.all.len() as u32 {
+            let all = faces.of(side);
+            let is_known = all[0] < side && !all.contains(&(side ^ 1));
+            pieces.push(if is_known { pieces[all[0] as usize] } else { self.piece(all, side) });
+        }
+        pieces
+    }
+
+    /// The smooth face of some sides as one of them sees it: the mean direction of its corners, weighted by
+    /// their angles.
+    fn piece(&self, sides: &[u32], side: u32) -> Piece {
         let outward = |side: u32| if side % 2 == 1 { self.normal(side / 2) } else { times(-1.0, self.normal(side / 2)) };
         let (mut sum, mut weight, mut excess) = ([0.0; 3], 0.0, 0.0);
         let first = self.shell(side / 2).half;
@@ -238,7 +247,7 @@ impl<'a> Hub<'a> {
     /// Puts the nodes of the faces around the node.
     pub(super) fn faces(mut self) -> Faces {
         let (sectors, smooth) = (Sets::new(&mut self.sectors), Sets::new(&mut self.smooth));
-        let pieces: Vec<Piece> = (0..smooth.all.len() as u32).map(|side| self.piece(&smooth, side)).collect();
+        let pieces = self.pieces(&smooth);
         let own = self.own.len();
         let mut made = Faces::default();
         let mut arms = vec![usize::MAX; 2 * own];
@@ -327,7 +336,7 @@ fn reflection(normal: [f64; 3]) -> Square<3> {
     columns // symmetric
 }
 
-/// What reflections in planes make of space, one after the other; first nothing.
+/// The operations that reflections in planes generate; the first one changes nothing.
 fn operations(planes: &[[f64; 3]]) -> Vec<Square<3>> {
     let mut all = vec![unit_matrix()];
     let mut next = 0;

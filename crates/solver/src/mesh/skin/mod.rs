@@ -2,8 +2,8 @@
 //! them, which bound a body as those of solids do.
 //!
 //! Around a node of the middle its elements divide the plane, in 3D space, into sectors. Each sector has a
-//! node where the faces around it meet. So contact, pressure and pictures see a body of the shell's thickness,
-//! whose faces bend with it, and nothing of them knows of shells.
+//! node where the faces around it meet. So contact, pressure and pictures see a body of the shell's
+//! thickness, whose faces bend with it, and nothing of them knows of shells.
 
 mod arm;
 mod around;

@@ -119,7 +119,8 @@ impl Mesh<3> {
         for index in 0..self.parts.len() {
             let groups = || self.groups.iter().filter(move |group| group.part == index && !group.outer.is_empty());
             let cells = || groups().flat_map(|group| group.outer_cells().map(|cell| cell.nodes.split_at(group.kind.nodes())));
-            let lower: Vec<[u32; 4]> = cells().filter_map(|(nodes, _)| <[u32; 4]>::of_cell(nodes)).map(|it| it.reversed().canonical()).collect();
+            let lower: Vec<[u32; 4]> =
+                cells().filter_map(|(nodes, _)| <[u32; 4]>::of_cell(nodes)).map(|it| it.reversed().canonical()).collect();
             let upper: Vec<[u32; 4]> = cells().filter_map(|(_, nodes)| <[u32; 4]>::of_cell(nodes)).map(Corners::canonical).collect();
             let nodes = sorted(cells().flat_map(|(lower, upper)| lower.iter().chain(upper)).copied());
             if nodes.is_empty() {

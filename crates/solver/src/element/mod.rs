@@ -384,14 +384,9 @@ pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENT
 /// into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
-<<<<<<< HEAD
-/// Elements of a mid surface, whose points are layers through the thickness: blocks of their own too.
-pub const SHELLS: &[ElementKind] = &[SHELL2, SHELL3, SHELL4];
-=======
 /// Elements of a mid surface, a line in 2D, whose points are layers through the thickness: blocks of their
 /// own too.
 pub const SHELLS: &[ElementKind] = &[SHELL2, SHELL4, SHELL3];
->>>>>>> sheets
 
 /// Every element: those in 2D, bars and shells too, then those in 3D.
 #[must_use]

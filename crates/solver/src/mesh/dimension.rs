@@ -199,7 +199,9 @@ impl Meshed<3> for Dim<3> {
         }
     }
 
-    fn add_skins(_: &mut Mesh<3>, _: &Model) {}
+    fn add_skins(mesh: &mut Mesh<3>, model: &Model) {
+        mesh.add_skins_of_surfaces(model, Part::is_of_shells);
+    }
 
     fn along_curve(cell: [u32; 3]) -> u64 {
         super::order::hilbert_in_3d(cell)

@@ -193,8 +193,9 @@ where
     pub revision: u32,
     /// Nodes on the faces of shells: the last ones of all.
     pub skins: Vec<SkinNode<D>>,
-    /// Nodes where three or more elements of shells meet, ascending, and how many.
-    pub(super) joints: Vec<(u32, u32)>,
+    /// Joints: where three or more elements of shells meet, ascending, and how many. A node twice in 2D, the
+    /// nodes of an edge in 3D.
+    pub(super) joints: Vec<([u32; 2], u32)>,
     /// Of each group of shells the directions of the nodes of each element: tangents in 2D, normals in 3D.
     pub directions: Vec<Vec<[f64; D]>>,
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are

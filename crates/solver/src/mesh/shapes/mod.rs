@@ -20,7 +20,7 @@ pub use sweep::{Extrude, Revolve, Sweep};
 use super::Meshed;
 use super::cell::{Cell, CellKind};
 use super::messages::UNMESHABLE;
-use super::skin::{FACES, FACES_IN_SPACE};
+use super::skin::{FACES, SURFACE_FACES};
 use super::surface::Facet;
 use crate::error::Fault;
 use crate::model::{Part, Values};
@@ -388,7 +388,7 @@ impl Part {
     pub fn sides(&self) -> Vec<String> {
         let swept = self.sweep.as_ref().map_or(Vec::new(), Sweep::sides);
         let faces = match self {
-            part if part.is_of_sheets() => &FACES_IN_SPACE[..],
+            part if part.is_of_sheets() => &SURFACE_FACES[..],
             part if part.is_of_shells() => &FACES,
             _ => &[],
         };

@@ -1,32 +1,16 @@
-//! The surfaces of shells: nodes on both faces, which go with the nodes of the middle, and the cells between
-//! them, which bound a body as those of solids do.
+//! Faces of shells in 2D.
 //!
 //! Around a node of the middle its elements divide the plane into sectors. Each sector has a node where the
 //! faces on its two sides meet: of a smooth shell at half of the thickness from the middle, at a fold at half
-//! of it from both elements, as far as that is within twice the half; a free end has two, side by side. So
-//! contact, pressure and pictures see a body of the shell's thickness, whose faces bend with it, and nothing
-//! of them knows of shells.
+//! of it from both elements, as far as that is within twice the half; a free end has two, side by side.
 
-use super::cell::CellKind;
-use super::messages::SHELLS;
-use super::surface::{Corners, Facet};
-use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh};
-use crate::error::Fault;
-use crate::model::{Model, Symmetry};
-use crate::vector::{dot, first, minus, plus, times, unit};
+use super::{FACES, MITRE};
+use crate::mesh::cell::CellKind;
+use crate::mesh::surface::Corners;
+use crate::mesh::{ElementGroup, Mesh, sorted};
+use crate::model::Model;
+use crate::vector::{dot, minus, plus, times, unit};
 use std::collections::BTreeMap;
-
-/// Farthest that a node of a face is from the middle, in half thicknesses.
-const MITRE: f64 = 2.0;
-
-/// A node of a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SkinNode<const D: usize> {
-    /// The node of the middle that it goes with.
-    pub owner: u32,
-    /// Where it is from there at the start, m.
-    pub arm: [f64; D],
-}
 
 /// An element at a node of the middle: group and element, which end of it, direction away from the node, and
 /// half of its thickness, m.
@@ -56,77 +40,9 @@ fn bisector(from: [f64; 2], to: [f64; 2]) -> ([f64; 2], f64) {
     (along, dot(along, begin).max(1.0 / MITRE))
 }
 
-impl<const D: usize> Mesh<D>
-where
-    Dim<D>: Meshed<D>,
-{
-    /// Nodes on a symmetry line (in 3D: plane), ascending.
-    #[must_use]
-    pub fn on_symmetry(&self, symmetry: &Symmetry) -> Vec<u32> {
-        let Some(normal) = unit(first(symmetry.normal)) else { return Vec::new() };
-        let (point, tolerance) = (first(symmetry.point), super::tolerance(&self.positions));
-        let near = |&node: &u32| dot(minus(self.positions[node as usize], point), normal).abs() <= tolerance;
-        let parts = self.parts.iter().filter(|part| symmetry.parts.is_empty() || symmetry.parts.contains(&part.name));
-        super::sorted(parts.flat_map(PartMesh::with_faces).filter(near))
-    }
-
-    /// Number of the first node of a face: they come after all others.
-    #[must_use]
-    pub fn first_skin_node(&self) -> usize {
-        self.positions.len() - self.skins.len()
-    }
-
-    /// Shells that are too thick where they are bent: one face folds over.
-    pub(super) fn check_thickness(&self, faults: &mut Vec<Fault>) {
-        let shells = self.groups.iter().filter(|group| !group.outer.is_empty());
-        for (part, group) in shells.map(|group| (group.part, group)) {
-            let folded = group.outer_cells().position(|cell| self.what_is_wrong_with(cell).is_some());
-            if let Some(element) = folded.filter(|_| faults.iter().all(|fault| fault.path != format!("part[{part}].section.thickness"))) {
-                let at = crate::vector::place(self.positions[group.nodes_of(element)[0] as usize]);
-                let message = format!("the shell is too thick for its bend or fold at {at} m: one of its faces folds over there");
-                let help = "take a smaller thickness, a larger radius, or elements longer than half of the thickness at folds";
-                faults.push(Fault::new(&SHELLS, format!("part[{part}].section.thickness"), message, help));
-            }
-        }
-    }
-
-    /// Nodes where three or more elements of shells meet and all are there.
-    pub(super) fn whole_joints(&self) -> Vec<u32> {
-        let mut left: Vec<(u32, u32)> = self.joints.clone();
-        if left.is_empty() {
-            return Vec::new();
-        }
-        let shells = self.groups.iter().filter(|group| !group.outer.is_empty());
-        for node in shells.flat_map(ElementGroup::live_cells).flat_map(|cell| cell.nodes) {
-            if let Ok(at) = left.binary_search_by_key(node, |joint| joint.0) {
-                left[at].1 -= 1;
-            }
-        }
-        left.into_iter().filter(|joint| joint.1 == 0).map(|joint| joint.0).collect()
-    }
-
-    /// Whether a piece of the outside bounds the hole between the faces of three or more elements at one of
-    /// these nodes: nothing comes there.
-    pub(super) fn is_within_joint(&self, facet: Facet<D>, joints: &[u32]) -> bool {
-        let first = self.first_skin_node();
-        let owner = |&node: &u32| self.skins.get((node as usize).checked_sub(first)?).map(|skin| skin.owner);
-        let mut owners = facet.corners().iter().map(owner);
-        let Some(Some(one)) = owners.next() else { return false };
-        joints.binary_search(&one).is_ok() && owners.all(|owner| owner == Some(one))
-    }
-
-    /// Adds a node of a face.
-    fn add_skin_node(&mut self, owner: u32, arm: [f64; D]) -> u32 {
-        self.positions.push(plus(self.positions[owner as usize], arm));
-        self.user_nodes.push(self.user_nodes.len() as u32);
-        self.skins.push(SkinNode { owner, arm });
-        self.positions.len() as u32 - 1
-    }
-}
-
 impl Mesh<2> {
     /// Gives shells their faces and the directions of their nodes.
-    pub(super) fn add_skins_of_lines(&mut self, model: &Model) {
+    pub(in crate::mesh) fn add_skins_of_lines(&mut self, model: &Model) {
         let is_shell = |group: &ElementGroup| group.kind == CellKind::Line && model.parts[group.part].is_of_shells();
         if !self.groups.iter().any(is_shell) {
             return;
@@ -157,27 +73,12 @@ impl Mesh<2> {
             spokes.extend(images);
             let own = spokes.iter().filter(|spoke| !spoke.is_image).count();
             if own > 2 {
-                self.joints.push((node, own as u32));
+                self.joints.push(([node; 2], own as u32));
             }
             self.direct(model, &spokes);
             self.surround(model, node, spokes);
         }
         self.name_faces(model);
-    }
-
-    /// Normals of the symmetry lines that each node is on.
-    fn symmetry_normals(&self, model: &Model) -> BTreeMap<u32, Vec<[f64; 2]>> {
-        let mut normals: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
-        for symmetry in &model.symmetries {
-            let Some(normal) = unit(first::<2>(symmetry.normal)) else { continue };
-            self.on_symmetry(symmetry).into_iter().for_each(|node| normals.entry(node).or_default().push(normal));
-        }
-        if model.is_axisymmetric() {
-            let tolerance = super::tolerance(&self.positions);
-            let at_axis = (0..).zip(&self.positions).filter(|(_, x)| x[0].abs() <= tolerance);
-            at_axis.for_each(|(node, _)| normals.entry(node).or_default().push([1.0, 0.0]));
-        }
-        normals
     }
 
     /// Whether one element continues another as a smooth shell.
@@ -259,7 +160,7 @@ impl Mesh<2> {
             // Segments have the body on their right.
             let right: Vec<[u32; 2]> = cells().map(|&[a, b, ..]| [b, a].canonical()).collect();
             let left: Vec<[u32; 2]> = cells().map(|&[.., c, d]| [d, c].canonical()).collect();
-            let nodes = super::sorted(cells().flatten().copied());
+            let nodes = sorted(cells().flatten().copied());
             for (face, facets) in FACES.into_iter().zip([left, right]) {
                 self.sides.insert(format!("{}.{face}", part.name), facets);
             }
@@ -267,13 +168,6 @@ impl Mesh<2> {
         }
     }
 }
-
-/// Names of the faces, of who walks along a line.
-pub(super) const FACES: [&str; 2] = ["left", "right"];
-
-/// Names of the faces of shells in 3D: that which the normal looks from, then the other one. Seen from the
-/// first, nodes run counter-clockwise.
-pub(super) const FACES_IN_SPACE: [&str; 2] = ["upper", "lower"];
 
 /// The image of an element beyond a symmetry line.
 fn mirrored(spoke: &Spoke, normal: [f64; 2]) -> Spoke {
@@ -302,7 +196,7 @@ mod tests {
         let count = |mesh: &Mesh<2>| mesh.outside_without(&[], |_| false).unwrap().facets().len();
         // Two faces of each of 15 elements, three ends.
         assert_eq!((mesh.joints.len(), count(&mesh)), (1, 33));
-        let joint = mesh.joints[0].0;
+        let joint = mesh.joints[0].0[0];
         let group = &mut mesh.groups[0];
         let element = (0..15).find(|&element| group.nodes_of(element).contains(&joint)).unwrap();
         group.erode(element);

@@ -66,6 +66,7 @@ mod search;
 mod segment_in_3d;
 mod self_contact;
 mod shell_models;
+mod shell_benchmarks;
 mod shells;
 mod shells_in_space;
 mod shocks;

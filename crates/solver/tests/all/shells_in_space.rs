@@ -27,7 +27,7 @@ fn unit(a: Vector) -> Vector {
 }
 
 /// Some shells, driven by places and rotation vectors of their nodes.
-struct Sheet {
+pub(crate) struct Sheet {
     block: Box<dyn Block<3>>,
     connectivity: Vec<u32>,
     forces: Vec<Vector>,
@@ -39,7 +39,7 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new(
+    pub(crate) fn new(
         element: &str,
         material: &Material,
         section: &ShellSection,
@@ -64,7 +64,7 @@ impl Sheet {
     }
 
     /// A step to places and rotations.
-    fn go(&mut self, positions: &[Vector], turns: &[Attitude]) {
+    pub(crate) fn go(&mut self, positions: &[Vector], turns: &[Attitude]) {
         let velocities: Vec<Vector> =
             positions.iter().zip(&self.positions).map(|(x, old)| minus(*x, *old).map(|d| d / self.time_step)).collect();
         self.rotations.attitudes.copy_from_slice(turns);
@@ -75,7 +75,7 @@ impl Sheet {
     }
 
     /// Force and moment of each node, summed over its slots.
-    fn pulls(&self) -> Vec<f64> {
+    pub(crate) fn pulls(&self) -> Vec<f64> {
         let mut all = vec![0.0; 6 * self.positions.len()];
         for (slot, &node) in self.connectivity.iter().enumerate() {
             for k in 0..3 {

@@ -332,8 +332,7 @@ impl Sets {
 
 /// The reflection in a plane with a unit normal.
 fn reflection(normal: [f64; 3]) -> Square<3> {
-    let columns = unit_matrix::<3>().map(|axis| minus(axis, times(2.0 * dot(axis, normal), normal)));
-    columns // symmetric
+    unit_matrix::<3>().map(|axis| minus(axis, times(2.0 * dot(axis, normal), normal)))
 }
 
 /// The operations that reflections in planes generate; the first one changes nothing.

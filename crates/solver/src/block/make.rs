@@ -92,7 +92,7 @@ impl Blocks<2> for Dim<2> {
 
 impl Blocks<3> for Dim<3> {
     fn make(input: &BlockInput<'_, 3>) -> Option<Box<dyn Block<3>>> {
-        let shells = || Some((points::layer_in_space(input.material)?, [false; 2]));
+        let shells = || Some((points::layer_in_3d(input.material)?, [false; 2]));
         if input.element == SHELL4.name {
             let (law, state) = shells()?;
             return Some(Box::new(Shells::<Quad, 3>::new(input, law, state)?));

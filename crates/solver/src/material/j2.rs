@@ -11,7 +11,7 @@
 
 use super::hardening::{Flow, Hardening, Linear, Ludwik, Rate, StoredFlow, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
-use super::{Family, History, Kinematics, Law, LawKind, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable};
+use super::{Family, History, Kinematics, Law, LawKind, Layer, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
 
@@ -99,6 +99,73 @@ impl<H: Hardening> Law for J2With<H> {
             *state = ([plastic + step], H::StoredFlow::new(flow_new));
         }
         Response::rate(deviator.plus_isotropic(trial.mean), dissipated, [self.bulk, self.shear])
+    }
+
+    fn has_layer(&self) -> bool {
+        self.rate.is_none()
+    }
+
+    /// With Δε_p = Δγ s (s the new deviator) and σ₃₃ = 0: σ₁₁ + σ₂₂ is that of the elastic trial over 1 + E
+    /// Δγ/(3 (1 − ν)), σ₁₁ − σ₂₂ and the shear stresses over 1 + 2µ Δγ; the equivalent plastic strain grows by
+    /// ⅔ Δγ q. Newton's method for the Δγ of q(Δγ) = σ_y. Source: Simo and Taylor, Int. J. Numer. Meth. Engng
+    /// 22 (1986) 649-670.
+    #[inline(always)]
+    fn layer<L: Lane, T: SymmetricTensor<L>>(&self, strain: [L; 6], old: [L; 6], state: &mut Self::State<L, T>) -> Layer<L> {
+        let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
+        let both = 3.0 * self.bulk + self.shear;
+        let (young, poisson) = (9.0 * self.bulk * self.shear / both, (1.5 * self.bulk - self.shear) / both);
+        let twice = L::splat(2.0 * self.shear);
+        let sum = old[0] + old[1] + L::splat(young / (1.0 - poisson)) * (strain[0] + strain[1]);
+        let difference = old[0] - old[1] + twice * (strain[0] - strain[1]);
+        let shear = [old[3] + twice * strain[3], old[4] + twice * strain[4], old[5] + twice * strain[5]];
+        let ([plastic], kept) = *state;
+        let [flow, slope] = kept.flow(&self.hardening, plastic);
+        let a = L::splat(0.25) * sum * sum;
+        let b =
+            L::splat(0.75) * difference * difference + L::splat(3.0) * (shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2]);
+        let yields = (flow * flow).less(a + b);
+        let (mut of_sum, mut of_rest, mut gamma) = (one, one, zero);
+        if L::any(yields) {
+            let (of_a, of_b) = (L::splat(young / (3.0 * (1.0 - poisson))), twice);
+            let size = (a + b).sqrt();
+            let high = L::splat(1e13 / (2.0 * self.shear).min(young / (3.0 * (1.0 - poisson))));
+            let mut newton = Newton::new(zero, high, size, yields);
+            let (mut end, mut step) = ([flow, slope], zero);
+            for _ in 0..LIMIT {
+                let gamma = newton.at;
+                let (p, r) = (one / (one + of_a * gamma), one / (one + of_b * gamma));
+                let (part_a, part_b) = (a * p * p, b * r * r);
+                let q = (part_a + part_b).sqrt();
+                let q_slope = -((of_a * part_a * p + of_b * part_b * r) / q);
+                step = L::splat(2.0 / 3.0) * gamma * q;
+                let now = self.hardening.flow(plastic + step);
+                end = [now.stress, now.slope];
+                let change = q_slope - now.slope * L::splat(2.0 / 3.0) * (q + gamma * q_slope);
+                if !newton.next(q - now.stress, change) {
+                    break;
+                }
+            }
+            gamma = newton.at;
+            (of_sum, of_rest) = (one / (one + of_a * gamma), one / (one + of_b * gamma));
+            let step = L::select(yields, step, zero);
+            *state = ([plastic + step], H::StoredFlow::new([L::select(yields, end[0], flow), L::select(yields, end[1], slope)]));
+        }
+        let (sum, difference) = (sum * of_sum, difference * of_rest);
+        let stress =
+            [half * (sum + difference), half * (sum - difference), zero, shear[0] * of_rest, shear[1] * of_rest, shear[2] * of_rest];
+        let mut dissipated = zero;
+        let third = sum * L::splat(1.0 / 3.0);
+        if L::any(yields) {
+            let mut work = (old[0] + stress[0]) * (stress[0] - third) + (old[1] + stress[1]) * (stress[1] - third);
+            for k in 3..6 {
+                let one = (old[k] + stress[k]) * stress[k];
+                work += one + one;
+            }
+            dissipated = (half * gamma * work).max(zero);
+        }
+        let change = stress[0] + stress[1] - old[0] - old[1];
+        let across = -(L::splat(poisson / young) * change) - gamma * third;
+        Layer { stress, across, dissipated }
     }
 
     fn stiffness(&self) -> [f64; 2] {

@@ -100,6 +100,18 @@ impl<L: Lane, T: SymmetricTensor<L>> Response<L, T> {
     }
 }
 
+/// A layer of a shell whose axes 1 and 2 are in it and 3 across, at the end of a step: tensors have the
+/// components 11, 22, 33, 12, 23, 31, and σ₃₃ = 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Layer<L> {
+    /// Cauchy stress, Pa.
+    pub stress: [L; 6],
+    /// Δε₃₃.
+    pub across: L,
+    /// Energy dissipated in the step per current volume, J/m³; never negative.
+    pub dissipated: L,
+}
+
 /// A material law. `update` must be `#[inline(always)]`: it becomes part of the block's kernel.
 pub trait Law: Copy + Send + Sync + 'static {
     /// Name, parameters and source.
@@ -154,6 +166,18 @@ pub trait Law: Copy + Send + Sync + 'static {
 
     /// Stress at the end of the step.
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut Self::State<L, T>) -> Response<L, T>;
+
+    /// Whether it knows the stress of a layer that nothing holds across by itself: [`Law::layer`].
+    fn has_layer(&self) -> bool {
+        false
+    }
+
+    /// Rate: what [`Law::update`] would give with the strain across at which the stress across vanishes, where
+    /// [`Law::has_layer`]; see [`Layer`].
+    #[inline(always)]
+    fn layer<L: Lane, T: SymmetricTensor<L>>(&self, _strain: [L; 6], old: [L; 6], _state: &mut Self::State<L, T>) -> Layer<L> {
+        Layer { stress: old, across: L::splat(0.0), dissipated: L::splat(0.0) }
+    }
 
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];

@@ -98,6 +98,13 @@ pub trait PointLaw: Send + Sync {
     }
     /// Stresses at the end of the step; the result does not depend on `level`.
     fn respond(&self, level: Level, points: Points<'_>);
+    /// Whether it has [`PointLaw::respond_layer`].
+    fn has_layer(&self) -> bool {
+        false
+    }
+    /// The same of layers without stress in the component `across` (yy or zz), whose strain it finds; the last
+    /// of the state of a point is λ across, which follows.
+    fn respond_layer(&self, _level: Level, _across: usize, _points: Points<'_>) {}
 }
 
 /// The law of a material for points in 2D or 3D, with its equation of state; `None` when one of
@@ -156,8 +163,8 @@ pub fn layer(material: &Material, plane_stress: bool) -> Option<Box<dyn PointLaw
 
 /// The law of a material for layers of shells in 3D: z across the layer, where there is no stress.
 #[must_use]
-pub fn layer_in_space(material: &Material) -> Option<Box<dyn PointLaw>> {
-    Some(Box::new(super::stress_constrained::StressConstrained::layer_in_space(of::<3>(material)?)))
+pub fn layer_in_3d(material: &Material) -> Option<Box<dyn PointLaw>> {
+    Some(Box::new(super::stress_constrained::StressConstrained::layer_in_3d(of::<3>(material)?)))
 }
 
 struct DynLaw<M, const D: usize> {
@@ -205,6 +212,71 @@ where
     }
     fn respond(&self, level: Level, points: Points<'_>) {
         level.run(Respond::<M, D> { law: &self.law, points, dimension: PhantomData });
+    }
+    fn has_layer(&self) -> bool {
+        self.law.has_layer()
+    }
+    fn respond_layer(&self, level: Level, across: usize, points: Points<'_>) {
+        level.run(RespondLayer::<M, D> { law: &self.law, across, points, dimension: PhantomData });
+    }
+}
+
+/// The law at many points of layers.
+struct RespondLayer<'a, M, const D: usize> {
+    law: &'a M,
+    across: usize,
+    points: Points<'a>,
+    dimension: PhantomData<Dim<D>>,
+}
+
+/// Components of a tensor as a layer with this one across has them.
+#[inline(always)]
+fn as_layer<L: Lane>([xx, yy, zz, xy, yz, zx]: [L; 6], across: usize) -> [L; 6] {
+    if across == 1 { [xx, zz, yy, zx, yz, xy] } else { [xx, yy, zz, xy, yz, zx] }
+}
+
+impl<M: Law, const D: usize> Kernel for RespondLayer<'_, M, D>
+where
+    Dim<D>: Space<D>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(self) {
+        let Points { strain, stress, state, response, .. } = self.points;
+        let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
+        let inner = <M::State<L, Tensor<D, L>> as State<L>>::COUNT;
+        let [bulk, shear] = self.law.stiffness().map(L::splat);
+        let (half, one) = (L::splat(0.5), L::splat(1.0));
+        for p in 0..strain.len() / components {
+            let strain = &strain[p * components..(p + 1) * components];
+            let stress = &mut stress[p * components..(p + 1) * components];
+            let (state, thickness) = state[p * (inner + 1)..(p + 1) * (inner + 1)].split_at_mut(inner);
+            let out = &mut response[p * RESPONSE..(p + 1) * RESPONSE];
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let strain = as_layer(<Tensor<D, L> as SymmetricTensor<L>>::load(strain, at).components(), self.across);
+                let old = as_layer(<Tensor<D, L> as SymmetricTensor<L>>::load(stress, at).components(), self.across);
+                let mut history = <M::State<L, Tensor<D, L>> as State<L>>::load(state, at);
+                let found = self.law.layer::<L, Tensor<D, L>>(strain, old, &mut history);
+                history.store(state, at);
+                let new = found.stress;
+                let mut work = (old[0] + new[0]) * strain[0] + (old[1] + new[1]) * strain[1];
+                for k in 3..6 {
+                    let part = (old[k] + new[k]) * strain[k];
+                    work += part + part;
+                }
+                <Tensor<D, L> as SymmetricTensor<L>>::from_components(as_layer(new, self.across)).store(stress, at);
+                // Δε is the change of thickness over the mean thickness.
+                let (before, change) = (L::load(&thickness[0], at), half * found.across);
+                let after = before * (one + change) / (one - change);
+                after.store(&mut thickness[0], at);
+                let mean = half * (before + after);
+                (work * mean).store(&mut out[0], at);
+                (found.dissipated * mean).store(&mut out[1], at);
+                bulk.store(&mut out[2], at);
+                shear.store(&mut out[3], at);
+            }
+        }
     }
 }
 

@@ -56,7 +56,7 @@ impl StressConstrained {
 
     /// The same in 3D, z across it: with F = [F̂ 0; γ μ] the energy is at its minimum where σ_zz − w·(σ_zx,
     /// σ_zy) = 0, w = (F̂ F̂ᵀ)⁻¹ F̂ γ.
-    pub(super) fn layer_in_space(law: Box<dyn PointLaw>) -> Self {
+    pub(super) fn layer_in_3d(law: Box<dyn PointLaw>) -> Self {
         Self { law, across: &[ZZ], components: SOLID, is_sheared: true }
     }
 
@@ -221,6 +221,17 @@ impl PointLaw for StressConstrained {
     }
 
     fn respond(&self, level: Level, points: Points<'_>) {
+        if self.is_sheared && self.law.has_layer() {
+            self.law.respond_layer(level, self.across[0], points);
+        } else {
+            self.search(level, points);
+        }
+    }
+}
+
+impl StressConstrained {
+    /// Searches for the strain across.
+    fn search(&self, level: Level, points: Points<'_>) {
         let Points { time_step, strain, rotation, volume_ratio, viscous_heat, stress, state, response, scratch } = points;
         let components = self.components;
         let (inner, count) = (self.law.state_width(), strain.len() / components);
@@ -233,7 +244,8 @@ impl PointLaw for StressConstrained {
         let (trial_state, rest) = rest.split_at_mut(count * inner);
         let (trial_ratio, searches) = rest.split_at_mut(count);
         for p in 0..count {
-            let guess = self.guess(&strain[p * components..][..components], &stress[p * components..][..components], &state[p * width + inner]);
+            let guess =
+                self.guess(&strain[p * components..][..components], &stress[p * components..][..components], &state[p * width + inner]);
             Search::begin(&mut searches[p * Search::WIDTH..][..Search::WIDTH], guess, self.law.family());
         }
         for call in 0..CALLS {
@@ -299,6 +311,75 @@ impl PointLaw for StressConstrained {
                 }
                 response[p * RESPONSE + 1].0[k] *= mean;
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::points::{Scratch, of};
+    use crate::model::Material;
+
+    /// A number between -1 and 1.
+    fn random(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 11) as f64 / 2f64.powi(52) - 1.0
+    }
+
+    /// Goes the same way with the stress of a layer that the law knows and with that which is searched for.
+    fn compare(material: &Material, law: &StressConstrained, seed: u64) {
+        let (components, width) = (law.components, law.state_width());
+        let mut numbers = seed;
+        let mut start = vec![Batch::default(); width];
+        law.start(&mut start);
+        let mut states = [start.clone(), start];
+        let mut stresses = [vec![Batch::default(); components], vec![Batch::default(); components]];
+        for step in 0..200 {
+            let size = if step % 7 == 0 { 0.05 } else { 0.002 };
+            let mut strain: Vec<Batch> = (0..components).map(|_| Batch(std::array::from_fn(|_| size * random(&mut numbers)))).collect();
+            strain[law.across[0]] = Batch::default();
+            let mut responses = [vec![Batch::default(); RESPONSE], vec![Batch::default(); RESPONSE]];
+            for (which, response) in responses.iter_mut().enumerate() {
+                let points = Points {
+                    time_step: 1.0,
+                    strain: &strain,
+                    rotation: &[],
+                    volume_ratio: &[],
+                    viscous_heat: &[],
+                    stress: &mut stresses[which],
+                    state: &mut states[which],
+                    response,
+                    scratch: &mut Scratch::default(),
+                };
+                if which == 0 { law.respond(Level::best(), points) } else { law.search(Level::best(), points) }
+            }
+            let near = |a: &[Batch], b: &[Batch], tolerance: f64| {
+                a.iter().zip(b).all(|(a, b)| a.0.iter().zip(b.0).all(|(a, b)| (a - b).abs() <= tolerance))
+            };
+            assert!(near(&stresses[0], &stresses[1], 1e-8), "{} {step}: {stresses:?}", material.law);
+            assert!(near(&states[0], &states[1], 1e-9), "{} {step}: {states:?}", material.law);
+            assert!(near(&responses[0], &responses[1], 1e-8), "{} {step}: {responses:?}", material.law);
+        }
+        assert!(states[0][0].0.iter().all(|plastic| *plastic > 0.5), "{}: {states:?}", material.law);
+    }
+
+    #[test]
+    fn a_layer_that_the_law_knows_is_that_which_is_searched_for() {
+        let number = |material: &mut Material, name: &str, value: f64| drop(material.parameters.insert(name.into(), value));
+        for (law, more) in [
+            ("j2", &[("yield", 3.0), ("hardening", 20.0)][..]),
+            ("j2", &[("yield", 3.0), ("hardening", 0.0)]),
+            ("j2", &[("yield", 3.0), ("hardening", -2.0)]),
+            ("j2_voce", &[("yield", 3.0), ("hardening", 1.0), ("saturation", 5.0), ("saturation_rate", 8.0)]),
+        ] {
+            let mut material = Material { law: law.into(), ..Material::default() };
+            [("density", 1.0), ("young", 1000.0), ("poisson", 0.3)]
+                .iter()
+                .chain(more)
+                .for_each(|(name, value)| number(&mut material, name, *value));
+            compare(&material, &StressConstrained::layer_in_3d(of::<3>(&material).unwrap()), 5);
+            compare(&material, &StressConstrained::layer(of::<2>(&material).unwrap()), 7);
         }
     }
 }

@@ -35,8 +35,7 @@ impl Problem {
         let quads = (0..m).flat_map(|j| (0..n).map(move |i| (i, j)));
         let quads = quads.map(|(i, j)| [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]);
         let corners = if element == "shell4" { 4 } else { 3 };
-        let cells: Vec<u32> =
-            quads.flat_map(|[a, b, c, d]| if corners == 4 { vec![a, b, c, d] } else { vec![a, b, c, a, c, d] }).collect();
+        let cells: Vec<u32> = quads.flat_map(|[a, b, c, d]| if corners == 4 { vec![a, b, c, d] } else { vec![a, b, c, a, c, d] }).collect();
         let directions: Vec<Vector> = cells.iter().map(|&node| points[node as usize][1]).collect();
         let sheet = Sheet::new(element, material, &section(thickness), &start, &cells, &directions);
         let count = 6 * start.len();

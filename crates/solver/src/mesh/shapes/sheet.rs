@@ -7,10 +7,12 @@
 
 use super::{Body, Count, Part, UNMESHABLE};
 use crate::error::Fault;
-use crate::input::sections::ELEMENTS_MAX;
 use crate::mesh::cell::CellKind;
 use crate::mesh::sorted;
 use crate::mesh::surface::Corners;
+
+/// Most elements of a solid that is made for its skin alone.
+const MOST: usize = 100_000_000;
 
 /// The skin of a solid shape of which a shell can be made.
 pub(crate) struct Skin {
@@ -41,7 +43,7 @@ impl Part {
         if let Some((shape, key)) = self.shape.solid() {
             let skin = shape.skin()?;
             let count = shape.count();
-            if count.elements as u128 > ELEMENTS_MAX || count.nodes > u32::MAX as usize {
+            if count.elements > MOST || count.nodes > u32::MAX as usize {
                 let message = "the solid whose skin this is would have too many elements";
                 let path = format!("{key}.{}", shape.size_key());
                 return Some(Err(Fault::new(&UNMESHABLE, path, message, "take fewer elements, or `line` or `arc` with `revolve`")));

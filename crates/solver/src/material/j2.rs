@@ -124,7 +124,7 @@ impl<H: Hardening> Law for J2With<H> {
         let b =
             L::splat(0.75) * difference * difference + L::splat(3.0) * (shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2]);
         let yields = (flow * flow).less(a + b);
-        let (mut of_sum, mut of_rest, mut gamma) = (one, one, zero);
+        let (mut of_sum, mut of_rest, mut gamma, mut grown) = (one, one, zero, zero);
         if L::any(yields) {
             let (of_a, of_b) = (L::splat(young / (3.0 * (1.0 - poisson))), twice);
             let size = (a + b).sqrt();
@@ -147,7 +147,8 @@ impl<H: Hardening> Law for J2With<H> {
             }
             gamma = newton.at;
             (of_sum, of_rest) = (one / (one + of_a * gamma), one / (one + of_b * gamma));
-            let step = L::select(yields, step, zero);
+            step = L::select(yields, step, zero);
+            grown = step;
             *state = ([plastic + step], H::StoredFlow::new([L::select(yields, end[0], flow), L::select(yields, end[1], slope)]));
         }
         let (sum, difference) = (sum * of_sum, difference * of_rest);
@@ -155,7 +156,9 @@ impl<H: Hardening> Law for J2With<H> {
             [half * (sum + difference), half * (sum - difference), zero, shear[0] * of_rest, shear[1] * of_rest, shear[2] * of_rest];
         let mut dissipated = zero;
         let third = sum * L::splat(1.0 / 3.0);
-        if L::any(yields) {
+        if let Some(modulus) = self.hardening.modulus() {
+            dissipated = (flow + L::splat(0.5 * modulus) * grown) * grown;
+        } else if L::any(yields) {
             let mut work = (old[0] + stress[0]) * (stress[0] - third) + (old[1] + stress[1]) * (stress[1] - third);
             for k in 3..6 {
                 let one = (old[k] + stress[k]) * stress[k];

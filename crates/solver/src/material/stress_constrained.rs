@@ -366,7 +366,9 @@ mod tests {
 
     #[test]
     fn a_layer_that_the_law_knows_is_that_which_is_searched_for() {
-        let number = |material: &mut Material, name: &str, value: f64| drop(material.parameters.insert(name.into(), value));
+        let number = |material: &mut Material, name: &str, value: f64| {
+            material.parameters.insert(name.into(), value);
+        };
         for (law, more) in [
             ("j2", &[("yield", 3.0), ("hardening", 20.0)][..]),
             ("j2", &[("yield", 3.0), ("hardening", 0.0)]),

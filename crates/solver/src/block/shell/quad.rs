@@ -44,6 +44,9 @@ const XI: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
 const ETA: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
 const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
+/// See [`surface::arc`].
+const ARC: f64 = 3.0;
+
 /// Places in the state, after what all shells in 3D have: directors of the corners at the start; p, a and b
 /// at the start; amplitudes m and b now, what of them has flowed, and the work of that, J; g₁ g₂ q d₀ d₁ d₂ r
 /// now.
@@ -124,7 +127,8 @@ impl<L: Lane> Form<L> {
     #[inline(always)]
     fn measures(&self, frame: &Frame<L>) -> Measures<L> {
         let slide = [dot(self.g[0], self.mean) + dot(self.q, self.d[1]), dot(self.g[1], self.mean) + dot(self.q, self.d[0])];
-        Measures { map: frame.matrix(&self.g), bend: frame.matrix(&self.d), slide }
+        let [w, _] = surface::arc(frame.size, ARC);
+        Measures { map: frame.matrix(&self.g), bend: crate::tensor::scaled(frame.matrix(&self.d), w), slide }
     }
 
     /// a₁ and a₂.
@@ -332,8 +336,12 @@ fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [
     let on = |column: usize| frame.vector([to.membrane[0][column], to.membrane[1][column]]);
     let f1 = plus(on(0), scaled(turn, frame.natural[1]));
     let f2 = minus(on(1), scaled(turn, frame.natural[0]));
-    let k1 = frame.vector([to.moment[0][0], to.moment[1][0]]);
-    let k2 = frame.vector([to.moment[0][1], to.moment[1][1]]);
+    let [arc, arc_slope] = surface::arc(frame.size, ARC);
+    let k1 = scaled(arc, frame.vector([to.moment[0][0], to.moment[1][0]]));
+    let k2 = scaled(arc, frame.vector([to.moment[0][1], to.moment[1][1]]));
+    // What the size of the mean director does to the arc.
+    let chord = frame.matrix(&form.d);
+    let folded = arc_slope * (both(chord[0], to.moment[0]) + both(chord[1], to.moment[1]));
     let (v, bend) = (frame.vector(w), frame.vector(u));
     // Its tilt with the mean director.
     let normal = frame.axes[2];
@@ -349,7 +357,8 @@ fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [
     let on_q = join(scaled(q1, form.d[1]), scaled(q2, form.d[0]), scaled(sum, form.mean));
     let on_d1 = join(k1, scaled(q2, form.q), scaled(a[1], form.g[1]));
     let on_d2 = join(k2, scaled(q1, form.q), scaled(a[0], form.g[0]));
-    let on_mean = minus(join(scaled(q1, form.g[0]), scaled(q2, form.g[1]), scaled(sum, form.q)), scaled(frame.shortening, tilt));
+    let on_mean = join(scaled(q1, form.g[0]), scaled(q2, form.g[1]), scaled(sum, form.q));
+    let on_mean = plus(on_mean, minus(scaled(folded, normal), scaled(frame.shortening, tilt)));
     // By the patterns; γ = h − p₁ ξ − p₂ η.
     let quarter = L::splat(0.25);
     let x_xi = scaled(quarter, minus(on_g1, scaled(skew[0], v)));
@@ -391,7 +400,7 @@ fn bounds<L: Lane>(
     let [[a, b], [_, d]] = held.membrane;
     let spread = one + skew[0] * skew[0] + skew[1] * skew[1];
     let warping = half * (a + d + ((a - d) * (a - d) + four * b * b).sqrt()) * spread;
-    let bend = thickness * thickness / (L::splat(12.0) * inertia);
+    let bend = surface::folding(form.mean, &form.d, ARC) * thickness * thickness / (L::splat(12.0) * inertia);
     let bend_held = initial * initial / (L::splat(12.0) * inertia);
     // Gram matrices of s and of a in the norm of the mass.
     let turning = one / inertia;

@@ -29,6 +29,9 @@ const STABILIZING: f64 = 0.1;
 /// shells that are not normal to their directors faster than it moves them.
 const INERTIA: f64 = 1.0 / 6.0;
 
+/// See [`surface::arc`].
+const ARC: f64 = 2.0;
+
 /// Places in the state, after what all shells in 3D have: directors of the corners at the start, root of the
 /// factor of the shear, positions and directors now.
 const DIRECTORS: usize = COMMON;
@@ -79,7 +82,8 @@ impl<L: Lane> Form<L> {
         let (third, two) = (L::splat(1.0 / 3.0), L::splat(2.0));
         let (s1, s2) = (third * (two * c12 + c13 - c23), third * (two * c13 + c12 + c23));
         let slide = [s1, L::splat(1.0 / 3.0f64.sqrt()) * (two * s2 - s1)];
-        Measures { map: frame.matrix(&natural(&self.x)), bend: frame.matrix(&natural(&self.d)), slide }
+        let [w, _] = surface::arc(frame.size, ARC);
+        Measures { map: frame.matrix(&natural(&self.x)), bend: crate::tensor::scaled(frame.matrix(&natural(&self.d)), w), slide }
     }
 
     #[inline(always)]
@@ -194,14 +198,19 @@ impl ShellKernel<3> for Triangle {
         let frame = form.frame(loaded(state, TURN, at));
         let (g, d) = (natural(&form.x), natural(&form.d));
         let f = [0, 1].map(|k| frame.vector([to.membrane[0][k], to.membrane[1][k]]));
-        let k = [0, 1].map(|k| frame.vector([to.moment[0][k], to.moment[1][k]]));
+        let [arc, arc_slope] = surface::arc(frame.size, ARC);
+        let k = [0, 1].map(|k| scaled(arc, frame.vector([to.moment[0][k], to.moment[1][k]])));
+        // What the size of the mean director does to the arc.
+        let chord = frame.matrix(&d);
+        let rows = [0, 1].map(|i| chord[i][0] * to.moment[i][0] + chord[i][1] * to.moment[i][1]);
+        let folded = arc_slope * (rows[0] + rows[1]);
         // The tilt of the frame with the mean director.
         let normal = frame.axes[2];
         let mut tilt = scaled(dot(normal, g[0]), f[0]);
         for (height, by) in [(g[1], f[1]), (d[0], k[0]), (d[1], k[1])] {
             tilt = plus(tilt, scaled(dot(normal, height), by));
         }
-        let tilt = scaled(L::splat(1.0 / 3.0) * frame.shortening, tilt);
+        let tilt = scaled(L::splat(1.0 / 3.0), minus(scaled(frame.shortening, tilt), scaled(folded, normal)));
         let rows = form.shear_rows();
         let root = L::splat(1.0 / 3.0f64.sqrt());
         let [q1, q2] = to.transverse;
@@ -251,7 +260,7 @@ fn bounds<L: Lane>(form: &Form<L>, now: &Measures<L>, thickness: L, moduli: [L; 
     let metric = surface::metric(&now.inverse());
     // Σ of the squares of the natural derivatives of the shape functions is 2, a corner has a third.
     let plane = L::splat(6.0) * surface::membrane(&metric, moduli, volume);
-    let bend = thickness * thickness / (L::splat(12.0) * inertia);
+    let bend = surface::folding(form.mean(), &natural(&form.d), ARC) * thickness * thickness / (L::splat(12.0) * inertia);
     let rows = form.shear_rows();
     let turning = L::splat(1.0) / inertia;
     let gram = |i: usize, j: usize| {

@@ -15,6 +15,9 @@ use crate::rows::Rows;
 use crate::tensor::cross;
 use crate::vector::{dot, minus, plus, times, unit};
 
+/// Cosine up to which an edge is along a plane.
+const ALONG: f64 = 1e-6;
+
 /// The shells of a model: elements, corners at each node, and elements at each edge, edge by edge.
 struct Shells {
     elements: Vec<Shell>,
@@ -90,7 +93,9 @@ impl Mesh<3> {
                 let wings = edges[number as usize];
                 let [a, b] = wings[0].edge;
                 let axis = unit(minus(self.positions[b as usize], self.positions[a as usize])).unwrap_or_default();
-                let planes = planes_at(a).iter().filter(|plane| planes_at(b).contains(plane)).copied().collect();
+                // Both ends may be on planes with the same normal, and the edge between them.
+                let is_along = |plane: &&[f64; 3]| dot(axis, **plane).abs() < ALONG && planes_at(b).contains(plane);
+                let planes = planes_at(a).iter().filter(is_along).copied().collect();
                 let count = hub.add_edge(&Edge { axis, wings, planes });
                 if count > 2 && node == a {
                     self.joints.push(([a, b], wings.len() as u32));

@@ -358,6 +358,14 @@ fn a_quarter_between_symmetry_planes_has_the_faces_of_the_whole() {
 }
 
 #[test]
+fn one_row_between_two_parallel_symmetry_planes_has_no_faces_between_its_elements() {
+    let mesh = mesh(&plate([4, 1]), &[([0.0; 3], [0.0, 1.0, 0.0]), ([0.0, 1.0, 0.0], [0.0, 1.0, 0.0])]);
+    assert_eq!(mesh.skins.len(), 20);
+    // Above and below, two ends, and what is on the planes.
+    assert_eq!(mesh.outside_without(&[], |_| false).unwrap().facets().len(), 8 + 2 + 8);
+}
+
+#[test]
 fn folds_on_symmetry_planes_are_those_of_the_whole() {
     let planes = |normals: &[usize]| -> Vec<(Place, Place)> {
         normals.iter().map(|&k| ([0.0; 3], std::array::from_fn(|d| if d == k { 1.0 } else { 0.0 }))).collect()

@@ -31,7 +31,8 @@
 //! decides.
 
 use super::surface::{
-    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, largest, loaded, rotated, scaled, turn_at_start,
+    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, rotated, scaled, times,
+    turn_at_start,
 };
 use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
 use crate::block::Motion;
@@ -141,8 +142,8 @@ impl<L: Lane> Form<L> {
     /// q − p₁ g₁ − p₂ g₂ and r − p₁ d₁ − p₂ d₂.
     #[inline(always)]
     fn warped(&self, [p1, p2]: [L; 2]) -> [Vector<L>; 2] {
-        let less = |of: Vector<L>, by: &[Vector<L>; 2]| minus(minus(of, scaled(p1, by[0])), scaled(p2, by[1]));
-        [less(self.q, &self.g), less(self.r, &self.d)]
+        let warp = minus(minus(self.q, scaled(p1, self.g[0])), scaled(p2, self.g[1]));
+        [warp, minus(minus(self.r, scaled(p1, self.d[0])), scaled(p2, self.d[1]))]
     }
 }
 
@@ -162,27 +163,13 @@ impl<L: Lane> Held<L> {
         let [young, poisson] = facts.elastic();
         let third = L::splat(4.0 / 3.0) * Dim::<2>::determinant(&begin.map);
         let g = begin.inverse();
-        let of = |i: usize, j: usize| g[0][i] * g[0][j] + g[1][i] * g[1][j];
         let stiff = L::splat(young) * thickness * third;
-        let mixed = -(L::splat(poisson) * stiff * of(0, 1));
-        let membrane = [[stiff * of(0, 0), mixed], [mixed, stiff * of(1, 1)]];
+        let mixed = -(L::splat(poisson) * stiff * (g[0][0] * g[0][1] + g[1][0] * g[1][1]));
+        let membrane = [[stiff * (g[0][0] * g[0][0] + g[1][0] * g[1][0]), mixed], [mixed, stiff * (g[0][1] * g[0][1] + g[1][1] * g[1][1])]];
         let shear = L::splat(SHEAR * facts.at_rest[1]) * thickness * third;
-        let along = |k: usize| g[k][0] * g[k][0] + g[k][1] * g[k][1];
         let bending = crate::tensor::scaled(membrane, thickness * thickness * L::splat(1.0 / 12.0));
-        Self { membrane, bending, shear: [shear * along(0), shear * along(1)] }
+        Self { membrane, bending, shear: [shear * both(g[0], g[0]), shear * both(g[1], g[1])] }
     }
-}
-
-/// K v.
-#[inline(always)]
-fn times<L: Lane>(k: &Matrix<L, 2>, v: [L; 2]) -> [L; 2] {
-    [k[0][0] * v[0] + k[0][1] * v[1], k[1][0] * v[0] + k[1][1] * v[1]]
-}
-
-/// a·b.
-#[inline(always)]
-fn both<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 impl Quad {
@@ -325,6 +312,18 @@ impl ShellKernel<3> for Quad {
     }
 }
 
+/// a + b + c.
+#[inline(always)]
+fn join<L: Lane>(a: Vector<L>, b: Vector<L>, c: Vector<L>) -> Vector<L> {
+    plus(a, plus(b, c))
+}
+
+/// v·v.
+#[inline(always)]
+fn square<L: Lane>(v: Vector<L>) -> L {
+    dot(v, v)
+}
+
 /// Forces and moments of what pulls on G, D, s (`to`), and on the amplitudes and a (`held`): the transpose of
 /// all of the kinematics.
 #[inline(always)]
@@ -333,9 +332,8 @@ fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [
     let (seen, bent) = (frame.seen(warp), frame.seen(twist));
     // The turn of the frame in its plane, which the stabilisation alone feels.
     let turn = (w[0] * seen[1] - w[1] * seen[0] + u[0] * bent[1] - u[1] * bent[0]) / frame.trace;
-    let on = |column: usize| frame.vector([to.membrane[0][column], to.membrane[1][column]]);
-    let f1 = plus(on(0), scaled(turn, frame.natural[1]));
-    let f2 = minus(on(1), scaled(turn, frame.natural[0]));
+    let f1 = plus(frame.vector([to.membrane[0][0], to.membrane[1][0]]), scaled(turn, frame.natural[1]));
+    let f2 = minus(frame.vector([to.membrane[0][1], to.membrane[1][1]]), scaled(turn, frame.natural[0]));
     let [arc, arc_slope] = surface::arc(frame.size, ARC);
     let k1 = scaled(arc, frame.vector([to.moment[0][0], to.moment[1][0]]));
     let k2 = scaled(arc, frame.vector([to.moment[0][1], to.moment[1][1]]));
@@ -351,7 +349,6 @@ fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [
     }
     let [q1, q2] = to.transverse;
     let sum = a[0] + a[1];
-    let join = |a: Vector<L>, b: Vector<L>, c: Vector<L>| plus(a, plus(b, c));
     let on_g1 = join(f1, scaled(q1, form.mean), scaled(a[0], form.d[1]));
     let on_g2 = join(f2, scaled(q2, form.mean), scaled(a[1], form.d[0]));
     let on_q = join(scaled(q1, form.d[1]), scaled(q2, form.d[0]), scaled(sum, form.mean));
@@ -404,13 +401,13 @@ fn bounds<L: Lane>(
     let bend_held = initial * initial / (L::splat(12.0) * inertia);
     // Gram matrices of s and of a in the norm of the mass.
     let turning = one / inertia;
-    let square = |v: Vector<L>| dot(v, v);
-    let (gram, q) = (|one: L, other: L, mixed: L| [[one, mixed], [mixed, other]], square(form.q));
-    let [d0, d1, d2] = [square(form.mean), square(form.d[0]), square(form.d[1])];
-    let [g1, g2] = [square(form.g[0]), square(form.g[1])];
-    let slid =
-        gram(d0 + d2 + turning * (g1 + q), d0 + d1 + turning * (g2 + q), dot(form.d[0], form.d[1]) + turning * dot(form.g[0], form.g[1]));
-    let varied = gram(d0 + d2 + turning * (g1 + q), d0 + d1 + turning * (g2 + q), d0 + turning * q);
+    let q = square(form.q);
+    let (d0, d1, d2) = (square(form.mean), square(form.d[0]), square(form.d[1]));
+    let (g1, g2) = (square(form.g[0]), square(form.g[1]));
+    let mixed = dot(form.d[0], form.d[1]) + turning * dot(form.g[0], form.g[1]);
+    let slid = [[d0 + d2 + turning * (g1 + q), mixed], [mixed, d0 + d1 + turning * (g2 + q)]];
+    let mixed = d0 + turning * q;
+    let varied = [[slid[0][0], mixed], [mixed, slid[1][1]]];
     let zero = L::splat(0.0);
     let across = L::splat(SHEAR) * shear * volume * largest(&upper, &slid);
     let across_held = largest(&[[held.shear[0], zero], [zero, held.shear[1]]], &varied);

@@ -55,6 +55,24 @@ pub(super) fn loaded<L: Lane, const N: usize>(state: &[Batch], first: usize, at:
     all
 }
 
+/// m v.
+#[inline(always)]
+pub(super) fn times<L: Lane>(m: &Matrix<L, 2>, v: [L; 2]) -> [L; 2] {
+    [m[0][0] * v[0] + m[0][1] * v[1], m[1][0] * v[0] + m[1][1] * v[1]]
+}
+
+/// mᵀ v.
+#[inline(always)]
+fn across<L: Lane>(m: &Matrix<L, 2>, v: [L; 2]) -> [L; 2] {
+    [m[0][0] * v[0] + m[1][0] * v[1], m[0][1] * v[0] + m[1][1] * v[1]]
+}
+
+/// a·b.
+#[inline(always)]
+pub(super) fn both<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
+    a[0] * b[0] + a[1] * b[1]
+}
+
 /// A director where the quaternion w, x, y, z takes it: v + 2 w u × v + 2 u × (u × v).
 #[inline(always)]
 pub(super) fn rotated<L: Lane>([w, x, y, z]: [L; 4], v: Vector<L>) -> Vector<L> {
@@ -78,8 +96,8 @@ impl<L> Measures<L> {
 impl<L: Lane> Measures<L> {
     #[inline(always)]
     pub(super) fn load(state: &[Batch], first: usize, at: usize) -> Self {
-        let of = |k: usize| L::load(&state[first + k], at);
-        Self { map: [[of(0), of(1)], [of(2), of(3)]], bend: [[of(4), of(5)], [of(6), of(7)]], slide: [of(8), of(9)] }
+        let all: [L; 10] = loaded(state, first, at);
+        Self { map: [[all[0], all[1]], [all[2], all[3]]], bend: [[all[4], all[5]], [all[6], all[7]]], slide: [all[8], all[9]] }
     }
 
     #[inline(always)]
@@ -142,8 +160,7 @@ impl<L: Lane> Frame<L> {
         let size = dot(director, director).sqrt();
         let shortening = one / size;
         let normal = scaled(shortening, director);
-        let flat = |v: Vector<L>| minus(v, scaled(dot(normal, v), normal));
-        let sum = plus(flat(g[0]), cross(g[1], normal));
+        let sum = plus(minus(g[0], scaled(dot(normal, g[0]), normal)), cross(g[1], normal));
         let trace = dot(sum, sum).sqrt();
         let first = scaled(one / trace, sum);
         let second = cross(normal, first);
@@ -216,7 +233,7 @@ pub(super) fn strain<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, before, now]
     let change = minus(now.slide, if is_rate { before.slide } else { begin.slide });
     let base = if is_rate { Measures { map: mean(&before.map, &now.map), ..*now } } else { *begin };
     let inverse = base.inverse();
-    let slip = [0, 1].map(|i| kind.shear * (change[0] * inverse[0][i] + change[1] * inverse[1][i]));
+    let slip = across(&inverse, [kind.shear * change[0], kind.shear * change[1]]);
     for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
         let z = L::splat(height) * heights;
         let (new, start) = (now.layer(z), begin.layer(z));
@@ -230,7 +247,7 @@ pub(super) fn strain<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, before, now]
             let flat = Dim::<2>::symmetric(&gradient).rotated(&turns[0]).0;
             // Half a turn: the mean of what it was and what it is.
             let whole = Dim::<2>::turned(slip, &turns);
-            let across = [0, 1].map(|i| L::splat(0.25) * (slip[i] + whole[i]));
+            let across = [L::splat(0.25) * (slip[0] + whole[0]), L::splat(0.25) * (slip[1] + whole[1])];
             strain = [flat[0], flat[1], zero, flat[3], across[1], across[0]];
             turn::<L>(facts, strains, p, there, &turns, at);
             volume = determinant;
@@ -243,7 +260,7 @@ pub(super) fn strain<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, before, now]
             let inverse = crate::tensor::scaled(Dim::<2>::adjugate(&start), one / determinant);
             let f = product(&new, &inverse);
             let b = Dim::<2>::left_cauchy_green(&f, one).0;
-            let across = [0, 1].map(|i| f[i][0] * slip[0] + f[i][1] * slip[1]);
+            let across = times(&f, slip);
             strain = [b[0], b[1], slip[0] * slip[0] + slip[1] * slip[1], b[3], across[1], across[0]];
             volume = determinant;
             ratio = Dim::<2>::determinant(&f);
@@ -337,12 +354,12 @@ pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measur
         flow: [zero; 2],
         resultants: [zero; SHELL_VALUES],
     };
-    let (mut across, mut squares) = ([zero; 2], 0.0);
+    let (mut sheared, mut squares) = ([zero; 2], 0.0);
     for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
         let [_, stretch] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
         let stress = layers.stress_of::<Tensor<3, L>, L>(p, at).0;
         let [xx, yy, _, xy, yz, zx] = stress;
-        let own = |k: usize| L::load(&layers.response[p * RESPONSE + k], at);
+        let own: [L; RESPONSE] = loaded(layers.response, p * RESPONSE, at);
         let z = L::splat(height) * heights;
         let f = now.layer(z);
         let (determinant, adjugate) = (Dim::<2>::determinant(&f), Dim::<2>::adjugate(&f));
@@ -357,11 +374,10 @@ pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measur
         }
         let shear = [zx * plate, yz * plate];
         if is_rate {
-            across = [across[0] + shear[0] * determinant, across[1] + shear[1] * determinant];
+            sheared = [sheared[0] + shear[0] * determinant, sheared[1] + shear[1] * determinant];
         } else {
-            let start = begin.layer(z);
-            let back = [0, 1].map(|k| adjugate[k][0] * shear[0] + adjugate[k][1] * shear[1]);
-            across = [0, 1].map(|i| across[i] + start[i][0] * back[0] + start[i][1] * back[1]);
+            let more = times(&begin.layer(z), times(&adjugate, shear));
+            sheared = [sheared[0] + more[0], sheared[1] + more[1]];
         }
         for (k, value) in [xx, yy, xy].into_iter().enumerate() {
             sums[0][k] += value * volume;
@@ -370,10 +386,10 @@ pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measur
         let norm = xx * xx + yy * yy + L::splat(2.0) * (xy * xy + yz * yz + zx * zx);
         to.strained += volume * norm.sqrt();
         to.volume += volume;
-        to.moduli = [to.moduli[0].max(facts.membrane_modulus(own(2), own(3))), to.moduli[1].max(own(3))];
+        to.moduli = [to.moduli[0].max(facts.membrane_modulus(own[2], own[3])), to.moduli[1].max(own[3])];
         to.determinant = to.determinant.min(determinant / area);
         if is_rate {
-            let (work, lost) = (half * own(0), own(1));
+            let (work, lost) = (half * own[0], own[1]);
             let part = L::select(zero.less(work), (lost / work).min(one).max(zero), zero);
             to.flow[0] += L::splat(weight) * part;
             to.flow[1] += L::splat(weight * height * height) * part;
@@ -382,14 +398,14 @@ pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measur
     }
     to.flow[1] = if squares > 0.0 { to.flow[1] * L::splat(1.0 / squares) } else { to.flow[0] };
     let inverse = if is_rate { now.inverse() } else { begin.inverse() };
-    to.transverse = [0, 1].map(|k| kind.shear * (inverse[k][0] * across[0] + inverse[k][1] * across[1]));
+    to.transverse = times(&inverse, [kind.shear * sheared[0], kind.shear * sheared[1]]);
     // By width: over the area of the middle.
     let over = one / (L::splat(kind.area) * area);
     for k in 0..3 {
         to.resultants[k] = sums[0][k] * over;
         to.resultants[3 + k] = -(sums[1][k] * over);
     }
-    let force = [0, 1].map(|i| now.map[i][0] * to.transverse[0] + now.map[i][1] * to.transverse[1]);
+    let force = times(&now.map, to.transverse);
     (to.resultants[6], to.resultants[7], to.resultants[8]) = (force[0] * over, force[1] * over, thickness);
     to
 }
@@ -424,9 +440,8 @@ pub(super) fn largest<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>) -> L {
 /// The metric g^αβ = Σ_i (G⁻¹)_αi (G⁻¹)_βi.
 #[inline(always)]
 pub(super) fn metric<L: Lane>(g: &Matrix<L, 2>) -> Matrix<L, 2> {
-    let of = |a: usize, b: usize| g[a][0] * g[b][0] + g[a][1] * g[b][1];
-    let mixed = of(0, 1);
-    [[of(0, 0), mixed], [mixed, of(1, 1)]]
+    let mixed = g[0][0] * g[1][0] + g[0][1] * g[1][1];
+    [[g[0][0] * g[0][0] + g[0][1] * g[0][1], mixed], [mixed, g[1][0] * g[1][0] + g[1][1] * g[1][1]]]
 }
 
 /// Larger eigenvalue of a symmetric matrix.

@@ -14,7 +14,7 @@
 //! without stabilisation, with the mass in thirds at the corners.
 
 use super::surface::{
-    self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, largest, loaded, rotated, scaled, turn_at_start,
+    self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, rotated, scaled, turn_at_start,
 };
 use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
 use crate::block::Motion;
@@ -57,6 +57,17 @@ fn natural<L: Lane>(v: &[Vector<L>; 3]) -> [Vector<L>; 2] {
     [minus(v[1], v[0]), scaled(root, plus(minus(v[2], v[0]), minus(v[2], v[1])))]
 }
 
+/// The transpose of [`natural`]: what comes to a corner.
+#[inline(always)]
+fn spread<L: Lane>(v: &[Vector<L>; 2], corner: usize) -> Vector<L> {
+    let root = L::splat(1.0 / 3.0f64.sqrt());
+    match corner {
+        0 => minus(scaled(L::splat(-1.0), v[0]), scaled(root, v[1])),
+        1 => minus(v[0], scaled(root, v[1])),
+        _ => scaled(root + root, v[1]),
+    }
+}
+
 impl<L: Lane> Form<L> {
     #[inline(always)]
     fn mean(&self) -> Vector<L> {
@@ -72,13 +83,18 @@ impl<L: Lane> Form<L> {
     #[inline(always)]
     fn sides(&self) -> [[Vector<L>; 2]; 3] {
         let half = L::splat(0.5);
-        let side = |i: usize, j: usize| [minus(self.x[j], self.x[i]), scaled(half, plus(self.d[i], self.d[j]))];
-        [side(0, 1), side(0, 2), side(1, 2)]
+        let (x, d) = (&self.x, &self.d);
+        [
+            [minus(x[1], x[0]), scaled(half, plus(d[0], d[1]))],
+            [minus(x[2], x[0]), scaled(half, plus(d[0], d[2]))],
+            [minus(x[2], x[1]), scaled(half, plus(d[1], d[2]))],
+        ]
     }
 
     #[inline(always)]
     fn measures(&self, frame: &Frame<L>) -> Measures<L> {
-        let [c12, c13, c23] = self.sides().map(|[side, director]| dot(side, director));
+        let [one, other, last] = self.sides();
+        let (c12, c13, c23) = (dot(one[0], one[1]), dot(other[0], other[1]), dot(last[0], last[1]));
         let (third, two) = (L::splat(1.0 / 3.0), L::splat(2.0));
         let (s1, s2) = (third * (two * c12 + c13 - c23), third * (two * c13 + c12 + c23));
         let slide = [s1, L::splat(1.0 / 3.0f64.sqrt()) * (two * s2 - s1)];
@@ -197,13 +213,13 @@ impl ShellKernel<3> for Triangle {
         let form = Form::<L>::load(state, at);
         let frame = form.frame(loaded(state, TURN, at));
         let (g, d) = (natural(&form.x), natural(&form.d));
-        let f = [0, 1].map(|k| frame.vector([to.membrane[0][k], to.membrane[1][k]]));
+        let (n, m) = (&to.membrane, &to.moment);
+        let f = [frame.vector([n[0][0], n[1][0]]), frame.vector([n[0][1], n[1][1]])];
         let [arc, arc_slope] = surface::arc(frame.size, ARC);
-        let k = [0, 1].map(|k| scaled(arc, frame.vector([to.moment[0][k], to.moment[1][k]])));
+        let k = [scaled(arc, frame.vector([m[0][0], m[1][0]])), scaled(arc, frame.vector([m[0][1], m[1][1]]))];
         // What the size of the mean director does to the arc.
         let chord = frame.matrix(&d);
-        let rows = [0, 1].map(|i| chord[i][0] * to.moment[i][0] + chord[i][1] * to.moment[i][1]);
-        let folded = arc_slope * (rows[0] + rows[1]);
+        let folded = arc_slope * (both(chord[0], m[0]) + both(chord[1], m[1]));
         // The tilt of the frame with the mean director.
         let normal = frame.axes[2];
         let mut tilt = scaled(dot(normal, g[0]), f[0]);
@@ -212,17 +228,10 @@ impl ShellKernel<3> for Triangle {
         }
         let tilt = scaled(L::splat(1.0 / 3.0), minus(scaled(frame.shortening, tilt), scaled(folded, normal)));
         let rows = form.shear_rows();
-        let root = L::splat(1.0 / 3.0f64.sqrt());
         let [q1, q2] = to.transverse;
         for corner in 0..3 {
-            // The transpose of `natural`.
-            let spread = |v: &[Vector<L>; 2]| match corner {
-                0 => minus(scaled(L::splat(-1.0), v[0]), scaled(root, v[1])),
-                1 => minus(v[0], scaled(root, v[1])),
-                _ => scaled(root + root, v[1]),
-            };
-            let force = plus(spread(&f), plus(scaled(q1, rows[0][0][corner]), scaled(q2, rows[1][0][corner])));
-            let couple = minus(plus(spread(&k), plus(scaled(q1, rows[0][1][corner]), scaled(q2, rows[1][1][corner]))), tilt);
+            let force = plus(spread(&f, corner), plus(scaled(q1, rows[0][0][corner]), scaled(q2, rows[1][0][corner])));
+            let couple = minus(plus(spread(&k, corner), plus(scaled(q1, rows[0][1][corner]), scaled(q2, rows[1][1][corner]))), tilt);
             let moment = cross(couple, form.d[corner]);
             for k in 0..3 {
                 (-force[k]).store(&mut pulls[6 * corner + k], at);
@@ -254,6 +263,16 @@ impl ShellKernel<3> for Triangle {
     }
 }
 
+/// Product of two rows of [`Form::shear_rows`] in the norm of the mass.
+#[inline(always)]
+fn gram<L: Lane>(a: &[[Vector<L>; 3]; 2], b: &[[Vector<L>; 3]; 2], turning: L) -> L {
+    let mut sum = L::splat(0.0);
+    for corner in 0..3 {
+        sum += dot(a[0][corner], b[0][corner]) + turning * dot(a[1][corner], b[1][corner]);
+    }
+    L::splat(3.0) * sum
+}
+
 /// m ω² of motion in the plane and across it, N/m, and the cosine between both.
 #[inline(always)]
 fn bounds<L: Lane>(form: &Form<L>, now: &Measures<L>, thickness: L, moduli: [L; 2], factor: L, inertia: L, volume: L) -> [L; 3] {
@@ -263,15 +282,12 @@ fn bounds<L: Lane>(form: &Form<L>, now: &Measures<L>, thickness: L, moduli: [L; 
     let bend = surface::folding(form.mean(), &natural(&form.d), ARC) * thickness * thickness / (L::splat(12.0) * inertia);
     let rows = form.shear_rows();
     let turning = L::splat(1.0) / inertia;
-    let gram = |i: usize, j: usize| {
-        let mut sum = L::splat(0.0);
-        for corner in 0..3 {
-            sum += dot(rows[i][0][corner], rows[j][0][corner]) + turning * dot(rows[i][1][corner], rows[j][1][corner]);
-        }
-        L::splat(3.0) * sum
-    };
-    let mixed = gram(0, 1);
-    let across = factor * factor * moduli[1] * volume * largest(&metric, &[[gram(0, 0), mixed], [mixed, gram(1, 1)]]);
+    let mixed = gram(&rows[0], &rows[1], turning);
+    let across = factor
+        * factor
+        * moduli[1]
+        * volume
+        * largest(&metric, &[[gram(&rows[0], &rows[0], turning), mixed], [mixed, gram(&rows[1], &rows[1], turning)]]);
     let d = natural(&form.d);
     let cosine = L::splat(1.0).min(L::splat(2.0) * (dot(d[0], d[0]) + dot(d[1], d[1])).sqrt());
     [plane, plane * bend + across, cosine]

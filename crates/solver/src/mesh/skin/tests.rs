@@ -362,7 +362,7 @@ fn one_row_between_two_parallel_symmetry_planes_has_no_faces_between_its_element
     let mesh = mesh(&plate([4, 1]), &[([0.0; 3], [0.0, 1.0, 0.0]), ([0.0, 1.0, 0.0], [0.0, 1.0, 0.0])]);
     assert_eq!(mesh.skins.len(), 20);
     // Above and below, two ends, and what is on the planes.
-    assert_eq!(mesh.outside_without(&[], |_| false).unwrap().facets().len(), 8 + 2 + 8);
+    assert_eq!(mesh.outside_without(&[], |_| false).unwrap().facets.len(), 8 + 2 + 8);
 }
 
 #[test]

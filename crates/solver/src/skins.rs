@@ -4,12 +4,12 @@
 //! So contact forces, pressures and friction act where the faces are, momentum and angular momentum are kept
 //! to round-off, and nothing that acts on surfaces knows of shells.
 
-use crate::angle::cos_sin_of;
+use crate::angle::{cos_sin, cos_sin_of};
 use crate::mesh::{Mesh, Meshed, SkinNode};
-use crate::rotation::{Rotate, Square, applied, transposed, unit_matrix};
+use crate::rotation::{Rotate, Square, applied, unit_matrix};
 use crate::rotations::Rotations;
 use crate::tensor::Dim;
-use crate::vector::{dot, minus, plus};
+use crate::vector::{minus, plus};
 
 /// The nodes on the faces of the shells of a model.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,11 +139,23 @@ impl RotatedArm<3> for Dim<3> {
     fn turn(rotations: &Rotations, place: usize) -> Square<3> {
         rotations.attitudes[place].matrix()
     }
-    fn chord(spin: [f64; 3], time_step: f64) -> Square<3> {
-        let size = dot(spin, spin).sqrt();
-        let axis = if size > 0.0 { spin.map(|s| s / size) } else { [0.0, 0.0, 1.0] };
-        // Column by column.
-        let columns = unit_matrix::<3>().map(|arm| Dim::<3>::chord_velocity(arm, axis, size, time_step));
-        transposed(&columns)
+    fn chord([x, y, z]: [f64; 3], time_step: f64) -> Square<3> {
+        let sweep = |f: f64| [[0.0, -f * z, f * y], [f * z, 0.0, -f * x], [-f * y, f * x, 0.0]];
+        let size = (x * x + y * y + z * z).sqrt();
+        if time_step == 0.0 || size == 0.0 {
+            return sweep(1.0);
+        }
+        // sin θ (a ×) − (1 − cos θ) (1 − a aᵀ) with the axis a = ω/|ω|.
+        let [cos, sin] = cos_sin(0.5 * time_step * size);
+        let (across, along) = (2.0 * sin * cos / (time_step * size), 2.0 * sin * sin / (time_step * size * size));
+        let mut chord = sweep(across);
+        let spin = [x, y, z];
+        for (i, row) in chord.iter_mut().enumerate() {
+            for (j, value) in row.iter_mut().enumerate() {
+                *value += along * spin[i] * spin[j];
+            }
+            row[i] -= along * size * size;
+        }
+        chord
     }
 }

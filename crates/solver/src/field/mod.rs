@@ -93,13 +93,16 @@ pub(crate) enum Components {
     Stress,
     /// Of a section of a shell: 11 22 (12).
     Section,
+    /// Across a section of a shell: a number (in 3D 1 2).
+    Across,
 }
 
 impl Components {
     /// Their names in a dimension.
     const fn names(self, dimension: usize) -> &'static [&'static str] {
         match (self, dimension) {
-            (Self::Scalar, _) => &[],
+            (Self::Scalar, _) | (Self::Across, ..=2) => &[],
+            (Self::Across, _) => &["1", "2"],
             (Self::Vector, 3) => &["x", "y", "z"],
             (Self::Vector, _) => &["x", "y"],
             (Self::Section, 3) => &["11", "22", "12"],

@@ -1,5 +1,6 @@
-//! Forces, moments and thickness of shells. Axis 1 is along the shell, in 2D 2 is out of the plane (around
-//! the axis of an axisymmetric model).
+//! Forces, moments and thickness of shells. In 2D axis 1 is along the shell, 2 out of the plane (around the
+//! axis of an axisymmetric model). In 3D axis 1 is at the start the projection of x on the element (of z where
+//! the element is normal to x), 3 its normal; both turn with the element.
 
 use super::{Components, Description, Source, of_cells};
 use crate::field::kind::Needs;
@@ -11,22 +12,22 @@ pub(super) fn fields() -> Vec<Description> {
             "membrane_force",
             Components::Section,
             "N/m",
-            "forces of a shell by width: integrals of the stress through the thickness",
+            "forces of a shell by width: integrals of the stress through the thickness; axes: along the shell and out of the plane, in 3D the projection of x (of z) at the start and across it",
             of_cells(|cell, values| values.copy_from_slice(&cell.state.shell[..values.len()])),
         ),
         field(
             "bending_moment",
             Components::Section,
             "N",
-            "moments of a shell by width; positive where the face on the left of the line is compressed",
+            "moments of a shell by width; positive where the face on the left of the line (in 3D the upper face) is compressed",
             of_cells(|cell, values| values.copy_from_slice(&cell.state.shell[3..3 + values.len()])),
         ),
         field(
             "transverse_force",
-            Components::Scalar,
+            Components::Across,
             "N/m",
             "transverse force of a shell by width",
-            of_cells(|cell, values| values[0] = cell.state.shell[6]),
+            of_cells(|cell, values| values.copy_from_slice(&cell.state.shell[6..6 + values.len()])),
         ),
         field("thickness", Components::Scalar, "m", "thickness of a shell", of_cells(|cell, values| values[0] = cell.state.shell[8])),
     ]

@@ -315,7 +315,7 @@ mod tests {
         let sound = model("all", folded());
         assert_eq!((faults(&sound), sound.dimension(), sound.element_count(&sound.parts[0])), (Vec::new(), 3, 3));
         let mesh = Mesh::<3>::new(&sound).unwrap_or_else(|faults| panic!("{faults:#?}"));
-        assert_eq!((mesh.positions.len(), mesh.groups.len(), mesh.bodies().into_iter().max()), (6, 2, Some(0)));
+        assert_eq!((mesh.first_skin_node(), mesh.groups.len(), mesh.bodies().into_iter().max()), (6, 2, Some(0)));
         assert_eq!(["edge", "corner", "flat"].map(|name| mesh.nodes(name).unwrap().len()), [2, 1, 4]);
         let normal = |group: usize| {
             let [a, b, c] = [0, 1, 2].map(|k| mesh.positions[mesh.groups[group].nodes_of(0)[k] as usize]);

@@ -539,17 +539,22 @@ pub(super) fn directions<const N: usize>(connectivity: &[u32], positions: &[[f64
     let corner = |k: usize| {
         let (first, at) = (k / N * N, k % N);
         let x = |a: usize| positions[connectivity[first + a % N] as usize];
-        unit(cross(minus(x(at + 1), x(at)), minus(x(at + N - 1), x(at))))
+        let (a, b) = (minus(x(at + 1), x(at)), minus(x(at + N - 1), x(at)));
+        let across = cross(a, b);
+        let size = dot(across, across).sqrt();
+        // Weighted by the angle there.
+        (scaled(1.0 / size, across), crate::angle::angle_of([dot(a, b), size]))
     };
-    let own: Vec<[f64; 3]> = (0..connectivity.len()).map(corner).collect();
+    let (own, angles): (Vec<[f64; 3]>, Vec<f64>) = (0..connectivity.len()).map(corner).unzip();
     let mut at: Vec<(u32, usize)> = connectivity.iter().enumerate().map(|(k, &node)| (node, k)).collect();
     at.sort_unstable();
     let mut directions = own.clone();
     for around in at.chunk_by(|a, b| a.0 == b.0) {
         for &(_, k) in around {
             // A neighbour may be turned over.
-            let signed = around.iter().map(|&(_, other)| scaled(if dot(own[k], own[other]) < 0.0 { -1.0 } else { 1.0 }, own[other]));
-            directions[k] = unit(signed.filter(|&other| dot(own[k], other) >= fold).fold([0.0; 3], plus));
+            let signed = |other: usize| if dot(own[k], own[other]) < 0.0 { -1.0 } else { 1.0 };
+            let smooth = around.iter().filter(|(_, other)| signed(*other) * dot(own[k], own[*other]) >= fold);
+            directions[k] = unit(smooth.fold([0.0; 3], |sum, &(_, other)| plus(sum, scaled(signed(other) * angles[other], own[other]))));
         }
     }
     directions

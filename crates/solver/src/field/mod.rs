@@ -93,6 +93,8 @@ pub(crate) enum Components {
     Stress,
     /// Of a section of a shell: 11 22 (12).
     Section,
+    /// Of a cross-section of a beam: along it, y, z.
+    Profile,
 }
 
 impl Components {
@@ -102,6 +104,7 @@ impl Components {
             (Self::Scalar, _) => &[],
             (Self::Vector, 3) => &["x", "y", "z"],
             (Self::Vector, _) => &["x", "y"],
+            (Self::Profile, _) => &["1", "2", "3"],
             (Self::Section, 3) => &["11", "22", "12"],
             (Self::Section, _) => &["11", "22"],
             (Self::Stress, 3) => &["xx", "yy", "zz", "xy", "yz", "zx"],
@@ -173,6 +176,7 @@ fields! {
     laws;
     erosion;
     shells;
+    beams;
     equations_of_state;
     energy;
 }

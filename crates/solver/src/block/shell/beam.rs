@@ -418,9 +418,7 @@ fn bound<L: Lane>(
 #[inline(always)]
 fn resultants<L: Lane>(force: Vector<L>, moment: Vector<L>) -> [L; SHELL_VALUES] {
     let mut values = [L::splat(0.0); SHELL_VALUES];
-    for k in 0..3 {
-        values[k] = force[k];
-        values[3 + k] = moment[k];
-    }
+    values[..3].copy_from_slice(&force);
+    values[3..6].copy_from_slice(&moment);
     values
 }

@@ -461,6 +461,41 @@ fn damping_by_stiffness_takes_what_the_ledger_says_and_a_run_has_equal_bits() {
 }
 
 #[test]
+fn forces_moments_and_stress_are_those_of_the_motion() {
+    // Along y: the section's z is z, its y is −x.
+    let (steel, profile, small) = (material("elastic", 0.3), rectangle(0.1, 0.2), 1e-6);
+    let shear = YOUNG / 2.6;
+    let by = [0.0, 0.0, 0.0, small, -small, 0.0, 0.0, 2.0 * small, small, -small, small, 0.0];
+    let one = led(&steel, &profile, [[0.0; 3], [0.0, 1.0, 0.0]], &by, 1);
+    let state = one.block.state(0);
+    let (area, inertia) = (0.02, 0.1 * 0.2f64.powi(3) / 12.0);
+    // Node 2 rises by one, and the section is as it was in the middle.
+    let expected = [2.0 * YOUNG * area, 0.0, 5.0 / 6.0 * shear * area, 0.228_682 * 0.2 * 1e-3 * 2.0 * shear, 2.0 * YOUNG * inertia, 0.0];
+    for (k, value) in expected.into_iter().enumerate() {
+        assert!((state.shell[k] / small - value).abs() < 1e-4 * YOUNG * 1e-3, "{k}: {} for {value}", state.shell[k] / small);
+    }
+    // The last of four Gauss' points, 0.861 of the half height.
+    let worst = 2.0 * YOUNG * (1.0 + 0.086_113_6);
+    assert!((state.stress[1] / small / worst - 1.0).abs() < 1e-5 && state.stress[0].abs() < 1e-5 * state.stress[1], "{:?}", state.stress);
+    let energy = 0.5 * expected[0] * 2.0 + 0.5 * expected[2] + 0.5 * expected[3] * 2.0 + 0.5 * expected[4] * 2.0;
+    assert!((one.report.stored / (small * small) / energy - 1.0).abs() < 1e-4, "{} {energy}", one.report.stored);
+}
+
+#[test]
+fn a_beam_that_breaks_leaves_the_ledger_closed() {
+    let mut model = helix(4000);
+    let mut brittle = material("j2", 0.3);
+    brittle.failure.insert("plastic_strain".into(), 0.01);
+    model.materials.insert("soft".into(), brittle);
+    model.parts[0].spin = 60.0;
+    let simulation = to_end(&model);
+    let summary = simulation.summary();
+    println!("{:?} {:e}", summary.erosion, summary.ledger_residual);
+    assert!(summary.erosion.is_some() && summary.ledger_residual < 1e-12);
+    assert!(summary.momentum_drift_angular.unwrap() < 1e-12);
+}
+
+#[test]
 fn what_makes_no_sense_of_beams_is_told() {
     let told = |change: &dyn Fn(&mut Model), words: &[&str]| {
         let mut model = helix(10);

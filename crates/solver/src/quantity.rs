@@ -49,6 +49,8 @@ impl Dimension {
     pub const VISCOSITY_PER_LENGTH: Self = Self::new(1, -2, -1);
     /// N.
     pub const FORCE: Self = Self::new(1, 1, -2);
+    /// N m.
+    pub const MOMENT: Self = Self::new(1, 2, -2);
     /// kg.
     pub const MASS: Self = Self::new(1, 0, 0);
     /// N/m = kg/s²: force per metre of depth; also a stiffness.
@@ -57,6 +59,8 @@ impl Dimension {
     pub const FORCE_PER_VELOCITY: Self = Self::new(1, 0, -1);
     /// m².
     pub const AREA: Self = Self::new(0, 2, 0);
+    /// m⁴.
+    pub const AREA_MOMENT: Self = Self::new(0, 4, 0);
     /// kg m².
     pub const INERTIA: Self = Self::new(1, 2, 0);
     /// kg/m: mass per metre of depth.
@@ -83,6 +87,7 @@ impl Dimension {
             Self::FORCE_PER_LENGTH => return "N/m".into(),
             Self::FORCE_PER_VELOCITY => return "N s/m".into(),
             Self::FORCE => return "N".into(),
+            Self::MOMENT => return "N m".into(),
             _ => {}
         }
         let power = |(name, exponent): &(&str, i8)| match exponent.abs() {

@@ -71,6 +71,7 @@ impl Recorded {
                 Needs::Friction => has_friction,
                 Needs::Failure => has_failure,
                 Needs::Shells => model.parts.iter().any(Part::is_of_shells),
+                Needs::Beams => model.parts.iter().any(Part::is_of_beams),
             };
             // Pictures fall back on these two.
             let pictured = model.output.pictures && (kind.name == VON_MISES.name || (kind.name == PLASTIC_STRAIN.name && sensible));

@@ -3,12 +3,12 @@
 use super::Block;
 use super::bar::Bars;
 use super::kernel::{Compiled, ElementKernel};
-use super::shell::{Line, Quad, Shells, Triangle};
+use super::shell::{Beam, Line, Quad, Shells, Triangle};
 use super::store::ElementStore;
-use crate::element::{BAR2, Element, ElementOptions, ElementVisitor, Registered, SHELL2, SHELL3, SHELL4, with_element};
+use crate::element::{BAR2, BEAM2, Element, ElementOptions, ElementVisitor, Registered, SHELL2, SHELL3, SHELL4, with_element};
 use crate::material::points;
 use crate::material::points::PointLaw;
-use crate::model::{Material, ShellSection};
+use crate::model::{Material, Profile, ShellSection};
 use crate::stress_state::StressState;
 use crate::tensor::{Dim, Space};
 
@@ -23,6 +23,8 @@ pub struct BlockInput<'a, const D: usize> {
     pub directions: &'a [[f64; D]],
     /// Section of shells.
     pub section: Option<&'a ShellSection>,
+    /// Cross-section of beams.
+    pub profile: Option<&'a Profile>,
     /// Its options.
     pub options: ElementOptions,
     /// Name in the registry of stress states in 2D, empty: plane strain; in 3D always empty.
@@ -48,6 +50,7 @@ impl<'a, const D: usize> BlockInput<'a, D> {
             area: 0.0,
             directions: &[],
             section: None,
+            profile: None,
             damping: 0.0,
             options: ElementOptions::default(),
             stress_state: "",
@@ -100,6 +103,9 @@ impl Blocks<3> for Dim<3> {
         if input.element == SHELL3.name {
             let (law, state) = shells()?;
             return Some(Box::new(Shells::<Triangle, 3>::new(input, law, state)?));
+        }
+        if input.element == BEAM2.name {
+            return Some(Box::new(Shells::<Beam, 3>::of_beams(input, points::uniaxial(input.material)?)?));
         }
         if !input.stress_state.is_empty() && input.element != BAR2.name {
             return None;

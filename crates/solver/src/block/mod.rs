@@ -33,6 +33,7 @@ pub use elastic::{Elastic, ElasticInput};
 pub use initial::{Initial, Wrong};
 pub use local::LocalNodes;
 pub use make::{BlockInput, Blocks, make};
+pub(crate) use shell::beam_axes;
 pub use store::CHUNK;
 pub use subcycles::{Begin, RATIO_MOST, Regions, Subcycled, largest_divisor};
 
@@ -159,7 +160,8 @@ pub struct ElementState {
     /// Stored elastic energy per initial volume, J/m³.
     pub energy_density: f64,
     /// Of shells: membrane forces 11 22 12 (N/m), moments 11 22 12 (N), transverse forces 1 2 (N/m) by width,
-    /// and the thickness, m; zero of others. In 2D 1 is along the shell, 2 out of the plane.
+    /// and the thickness, m; in 2D 1 is along the shell, 2 out of the plane. Of beams: normal and transverse
+    /// forces y z (N), torque and moments about y z (N m), and no thickness. Zero of others.
     pub shell: [f64; SHELL_VALUES],
 }
 

@@ -15,26 +15,30 @@
 //! [`points::layer`]: crate::material::points::layer
 
 mod advance;
+mod as_block;
+mod beam;
 mod line;
+mod profile;
 mod quad;
 mod section;
 mod surface;
 mod triangle;
 
+pub(super) use beam::Beam;
+pub(crate) use beam::axes as beam_axes;
 pub(super) use line::Line;
 pub(super) use quad::Quad;
 pub(super) use triangle::Triangle;
 
-use super::initial::{self, Initial, Wrong};
 use super::make::BlockInput;
-use super::{Block, ElementState, Motion, NodalForces, Report, SHELL_VALUES, damping};
+use super::{Motion, Report, SHELL_VALUES};
 use crate::archive::{Archive, ArchiveResult, Persist};
-use crate::failure::{Criterion, Seen};
-use crate::material::points::{PointLaw, RESPONSE, Scratch};
-use crate::material::{Family, Parameters, Variable};
+use crate::material::points::{PointLaw, Scratch};
+use crate::material::{Family, Parameters};
 use crate::rotations::Rotations;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
-use embate_lanes::{BATCH, Batch, Lane, Level, Team};
+use embate_lanes::{BATCH, Batch, Lane};
+use profile::Profile;
 use section::Points as Section;
 use std::sync::Mutex;
 
@@ -48,6 +52,8 @@ type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
 #[derive(Clone, Debug)]
 pub(super) struct Facts {
     section: Section,
+    /// Of beams, whose thickness is the area of their cross-section.
+    profile: Profile,
     family: Family,
     /// Whether K and µ of the law are those of an isotropic body; else they bound waves alone.
     is_isotropic: bool,
@@ -69,6 +75,26 @@ pub(super) struct Facts {
 }
 
 impl Facts {
+    /// Of points with a law, in plane strain or in 3D.
+    fn new<K: ShellKernel<D>, const D: usize>(section: Section, law: &dyn PointLaw) -> Self
+    where
+        Dim<D>: Space<D>,
+    {
+        Self {
+            section,
+            profile: Profile::default(),
+            family: law.family(),
+            is_isotropic: law.is_stiffest_at_rest() || law.family() == Family::Hyperelastic,
+            is_plane_stress: false,
+            is_axisymmetric: false,
+            needs_ratio: law.needs_volume() || law.family() == Family::Hyperelastic,
+            ratios: law.ratios(),
+            width: law.state_width(),
+            components: <K::Tensor as SymmetricTensor<f64>>::COMPONENTS,
+            at_rest: law.stiffness(),
+        }
+    }
+
     /// Modulus of a membrane, Pa, from K and µ: E/(1 − ν²), in plane stress E; of laws whose K and µ bound
     /// waves alone K + 4µ/3.
     #[inline(always)]
@@ -155,11 +181,14 @@ pub(super) struct Strains<'a> {
     ratio: &'a mut [Batch],
     /// Rate: volume of the layer half way, with the thickness of the start. Hyperelastic: that at the start.
     volume: &'a mut [Batch],
-    /// Stress of each point, to turn with the material, Pa, and how far it turns (where the law wants to know).
+    /// Stress of each point, to turn with the material, Pa, and how far it turns (where the law wants to
+    /// know).
     stress: &'a mut [Batch],
     rotation: &'a mut [Batch],
     /// Thickness now, and at the start, m.
     thickness: [&'a Batch; 2],
+    /// Time β of the damping in proportion to the stiffness over the step; 0: none.
+    damping: f64,
     /// See [`Answer::flow`].
     flow: &'a [Batch; 2],
     /// 1: it is there.
@@ -177,10 +206,12 @@ pub(super) struct Answer<L> {
     thickness: L,
     /// Energy that hourglass control has stored and taken, J.
     hourglass: L,
+    /// Energy that it stores besides in its layers, and damping took besides in these, J.
+    besides: [L; 2],
     /// Part of the work of the last step that flow took, in the mean over the points and by the square of
     /// their heights.
     flow: [L; 2],
-    /// See [`ElementState::shell`].
+    /// See [`super::ElementState::shell`].
     resultants: [L; SHELL_VALUES],
 }
 
@@ -189,6 +220,8 @@ pub(super) trait ShellKernel<const D: usize>: Clone + Send + Sync + 'static
 where
     Dim<D>: Space<D>,
 {
+    /// Strains and stresses of its points.
+    type Tensor: SymmetricTensor<f64>;
     /// Nodes of an element.
     const NODES: usize;
     /// Batches of the motion of a batch of elements: position and rotation of each node.
@@ -232,6 +265,7 @@ struct ShellBatch {
     dissipated: Batch,
     damping: Batch,
     hourglass: Batch,
+    besides: [Batch; 2],
     flow: [Batch; 2],
     time_step_squared: Batch,
     /// See [`Answer::determinant`].
@@ -245,8 +279,9 @@ impl Persist for ShellBatch {
         #[rustfmt::skip]
         let Self {
             mass_least: _, thickness_initial: _, inertia: _,
-            thickness, stored, dissipated, damping, hourglass, flow, time_step_squared, determinant, live,
+            thickness, stored, dissipated, damping, hourglass, besides, flow, time_step_squared, determinant, live,
         } = self;
+        besides[..].persist(archive)?;
         flow[..].persist(archive)?;
         crate::archive::persist_each!(archive; thickness, stored, dissipated, damping, hourglass, time_step_squared, determinant, live);
         Ok(())
@@ -306,34 +341,36 @@ where
     /// From what [`super::make`] was given, with the law of its layers; `None` without a section.
     pub(super) fn new(input: &BlockInput<'_, D>, law: Box<dyn PointLaw>, [is_plane_stress, is_axisymmetric]: [bool; 2]) -> Option<Self> {
         let section = input.section?;
-        let components = <Tensor<D, f64> as SymmetricTensor<f64>>::COMPONENTS;
-        let facts = Facts {
-            section: Section::new(section.points, section.rule == crate::model::LOBATTO),
-            family: law.family(),
-            is_isotropic: law.is_stiffest_at_rest() || law.family() == Family::Hyperelastic,
-            is_plane_stress,
-            is_axisymmetric,
-            needs_ratio: law.needs_volume() || law.family() == Family::Hyperelastic,
-            ratios: law.ratios(),
-            width: law.state_width(),
-            components,
-            at_rest: law.stiffness(),
-        };
+        let points = Section::new(section.points, section.rule == crate::model::LOBATTO);
+        let facts = Facts { is_plane_stress, is_axisymmetric, ..Facts::new::<K, D>(points, law.as_ref()) };
+        Some(Self::of(input, law, facts, section.failed_points, [section.thickness, section.fold_angle]))
+    }
+
+    /// The same of beams, with the law of their fibres; `None` without a cross-section.
+    pub(super) fn of_beams(input: &BlockInput<'_, D>, law: Box<dyn PointLaw>) -> Option<Self> {
+        let given = input.profile?;
+        let (profile, points) = Profile::of(given)?;
+        // No stress in both directions across.
+        let facts = Facts { profile, is_plane_stress: true, ..Facts::new::<K, D>(points, law.as_ref()) };
+        Some(Self::of(input, law, facts, given.failed_points, [profile.area, 0.0]))
+    }
+
+    fn of(input: &BlockInput<'_, D>, law: Box<dyn PointLaw>, facts: Facts, failed_share: f64, [thickness, fold_angle]: [f64; 2]) -> Self {
         let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
-        let (points, count) = (facts.section.count(), input.connectivity.len() / K::NODES);
+        let (points, count, components) = (facts.section.count(), input.connectivity.len() / K::NODES, facts.components);
         let batches = count.div_ceil(BATCH);
         let scratch = |width: usize| vec![Batch::default(); batches * width];
-        let turn = <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
+        let turn = <<K::Tensor as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
         let mut rotation = vec![Batch::default(); super::strip::STRIP * points * turn];
         for point in rotation.chunks_exact_mut(turn) {
-            (0..BATCH).for_each(|lane| <<Tensor<D, f64> as SymmetricTensor<f64>>::Rotation as Turn<f64>>::none().store(point, lane));
+            (0..BATCH).for_each(|lane| <<K::Tensor as SymmetricTensor<f64>>::Rotation as Turn<f64>>::none().store(point, lane));
         }
         let mut history = scratch(points * facts.width);
         history.chunks_exact_mut(facts.width).for_each(|point| law.start(point));
         let damped = if input.damping > 0.0 { scratch(points * components) } else { vec![Batch::default(); batches.div_ceil(CHUNK)] };
         let mut shells = Self {
             damping: input.damping,
-            failed_share: section.failed_points,
+            failed_share,
             count,
             slots: input.connectivity.to_vec(),
             places: vec![u32::MAX; input.connectivity.len()],
@@ -353,8 +390,8 @@ where
             law,
             facts,
         };
-        shells.begin_elements(input, section.thickness, section.fold_angle, density);
-        Some(shells)
+        shells.begin_elements(input, thickness, fold_angle, density);
+        shells
     }
 
     fn begin_elements(&mut self, input: &BlockInput<'_, D>, thickness: f64, fold_angle: f64, density: f64) {
@@ -423,189 +460,6 @@ where
         let (batch, lane) = (element / BATCH, element % BATCH);
         let components = self.facts.components;
         let own = &self.stress[(batch * self.points() + point) * components..][..components];
-        Tensor::<D, f64>::load(own, lane).components()
-    }
-}
-
-/// A point of a batch of elements as criteria see it.
-struct Look<'a, K, const D: usize> {
-    shells: &'a Shells<K, D>,
-    batch: usize,
-    point: usize,
-}
-
-impl<K, const D: usize> Seen for Look<'_, K, D>
-where
-    K: ShellKernel<D>,
-    Dim<D>: Space<D>,
-{
-    fn stress(&self) -> [Batch; 6] {
-        let mut stress = [Batch::default(); 6];
-        for lane in 0..BATCH {
-            let own = self.shells.stress_of(self.batch * BATCH + lane, self.point);
-            stress.iter_mut().zip(own).for_each(|(batch, value)| batch.0[lane] = value);
-        }
-        stress
-    }
-    fn variable(&self, variable: &Variable) -> Batch {
-        let first = (self.batch * self.shells.points() + self.point) * self.shells.facts.width;
-        self.shells.law.place(variable).map_or(Batch::default(), |place| self.shells.history[first + place])
-    }
-    fn time_step_squared(&self) -> Batch {
-        self.shells.elements[self.batch].time_step_squared
-    }
-}
-
-impl<K, const D: usize> Block<D> for Shells<K, D>
-where
-    K: ShellKernel<D>,
-    Dim<D>: Space<D>,
-{
-    fn elements(&self) -> usize {
-        self.count
-    }
-
-    fn slots(&self) -> &[u32] {
-        &self.slots
-    }
-
-    fn moment_slots(&self) -> &[u32] {
-        &self.slots
-    }
-
-    fn rotating_nodes(&self) -> Vec<(u32, f64)> {
-        let share = |(k, &node): (usize, &u32)| {
-            let element = k / K::NODES;
-            (node, self.corner_mass[k] * self.elements[element / BATCH].inertia.0[element % BATCH])
-        };
-        self.slots.iter().enumerate().map(share).collect()
-    }
-
-    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, pulls: NodalForces<'_, D>, team: &mut Team) -> Report {
-        self.find_places(motion.rotations);
-        self.advance_all(motion, level, pulls, team);
-        self.joined()
-    }
-
-    fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D] {
-        slots[K::NODES * element + corner]
-    }
-
-    fn mass(&self, element: usize) -> f64 {
-        self.corner_mass[element * K::NODES..][..K::NODES].iter().sum()
-    }
-
-    fn corner_mass(&self, element: usize, corner: usize) -> f64 {
-        self.corner_mass[element * K::NODES + corner]
-    }
-
-    fn time_step_squared(&self, element: usize) -> f64 {
-        self.elements[element / BATCH].time_step_squared.0[element % BATCH]
-    }
-
-    fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
-        for (element, nodes) in self.slots.chunks_exact(K::NODES).enumerate().filter(|(element, _)| self.is_alive(*element)) {
-            let mass = self.elements[element / BATCH].mass_least.0[element % BATCH] / K::NODES as f64;
-            let stiffness = damping::bounding_stiffness(mass, self.time_step_squared(element), shortest, self.damping > 0.0);
-            nodes.iter().for_each(|&node| add(node, stiffness, mass));
-        }
-    }
-
-    fn mark_time_steps(&mut self) {
-        self.marks = self.elements.iter().map(|own| own.time_step_squared).collect();
-    }
-
-    fn state(&self, element: usize) -> ElementState {
-        let (batch, lane) = (element / BATCH, element % BATCH);
-        let state = &self.state[batch * K::STATE..][..K::STATE];
-        let stresses = (0..self.points()).map(|point| self.stress_of(element, point));
-        let worst = stresses.max_by(|a, b| crate::tensor::von_mises(a).total_cmp(&crate::tensor::von_mises(b))).unwrap_or_default();
-        let mut shown = ElementState { stress: K::turned(state, worst, lane), ..ElementState::default() };
-        for (value, variable) in shown.variables.iter_mut().zip(self.law.variables()) {
-            let of = |point: usize| self.history[(batch * self.points() + point) * self.facts.width + variable.place].0[lane];
-            *value = (0..self.points()).map(of).fold(f64::NEG_INFINITY, f64::max);
-        }
-        let own = &self.elements[batch];
-        shown.energy_density = own.stored.0[lane] / self.volume[element];
-        let response = vec![Batch::default(); self.points() * RESPONSE];
-        let mut pulls = vec![Batch::default(); K::PULLS];
-        shown.shell = K::forces::<f64>(&self.facts, state, &self.layers(batch, &response), 1.0, &mut pulls, lane).resultants;
-        shown
-    }
-
-    fn law(&self) -> Option<&dyn PointLaw> {
-        Some(self.law.as_ref())
-    }
-
-    fn scale_mass(&mut self, element: usize, factor: f64) {
-        self.corner_mass[element * K::NODES..][..K::NODES].iter_mut().for_each(|mass| *mass *= factor);
-        self.elements[element / BATCH].mass_least.0[element % BATCH] *= factor;
-    }
-
-    fn begin(&mut self, initial: &Initial<'_>, _positions: &[[f64; D]]) -> Result<(), Wrong> {
-        if let Some(temperature) = initial.temperature {
-            initial::warm(self.law.as_ref(), &mut self.history, temperature)?;
-        }
-        Ok(())
-    }
-
-    fn is_alive(&self, element: usize) -> bool {
-        self.elements[element / BATCH].live.0[element % BATCH] > 0.0
-    }
-
-    fn failed(&self, criteria: &[Criterion], _parallel: bool) -> Vec<(u32, u32)> {
-        let mut failed = Vec::new();
-        let needed = self.failed_share * self.points() as f64 - 1e-9;
-        for batch in 0..self.elements.len() {
-            let mut first = [None; BATCH];
-            for (number, criterion) in (0..).zip(criteria) {
-                let mut counts = [0.0; BATCH];
-                for point in 0..self.points() {
-                    let fails = (criterion.kind.fails)(&Look { shells: self, batch, point }, criterion.limit);
-                    counts.iter_mut().zip(fails).for_each(|(count, fails)| *count += f64::from(u8::from(fails)));
-                }
-                for (first, count) in first.iter_mut().zip(counts) {
-                    *first = first.or((count > 0.0 && count >= needed).then_some(number));
-                }
-            }
-            let elements = (batch * BATCH..).zip(first).filter(|&(element, _)| element < self.count && self.is_alive(element));
-            failed.extend(elements.filter_map(|(element, first)| Some((element as u32, first?))));
-        }
-        failed
-    }
-
-    fn determinant(&self, element: usize, _positions: &[[f64; D]]) -> f64 {
-        self.elements[element / BATCH].determinant.0[element % BATCH]
-    }
-
-    fn erode(&mut self, elements: &[u32], pulls: NodalForces<'_, D>) -> Vec<f64> {
-        let take = |&element: &u32| {
-            let (element, first) = (element as usize, element as usize * K::NODES);
-            pulls.forces[first..first + K::NODES].fill([0.0; D]);
-            pulls.moments[first..first + K::NODES].fill([0.0; 3]);
-            let own = &mut self.elements[element / BATCH];
-            own.live.0[element % BATCH] = 0.0;
-            own.stored.0[element % BATCH]
-        };
-        let stored = elements.iter().map(take).collect();
-        self.sum_reports();
-        stored
-    }
-
-    fn report(&self, _positions: &[[f64; D]]) -> Report {
-        self.joined()
-    }
-
-    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let mut nothing = Vec::new();
-        let damped = if self.damping > 0.0 { &mut self.damped } else { &mut nothing };
-        for list in [&mut self.state, &mut self.stress, &mut self.history, damped, &mut self.marks] {
-            list.persist(archive)?;
-        }
-        self.elements[..].persist(archive)?;
-        if archive.reads() {
-            self.sum_reports();
-        }
-        Ok(())
+        K::Tensor::load(own, lane).components()
     }
 }

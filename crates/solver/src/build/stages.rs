@@ -12,7 +12,7 @@ use super::node_elements::NodeElements;
 use super::rebuild::RebuildSource;
 use super::{Builder, Builds, SERIAL, limits, source_of};
 use crate::assembly::Assembly;
-use crate::block::{Block, BlockInput, Initial, Report, Wrong, evaluate_at_rest, make};
+use crate::block::{Block, BlockInput, Initial, Report, Wrong, beam_axes, evaluate_at_rest, make};
 use crate::contact::Contact;
 use crate::contact::messages::NO_STEP;
 use crate::contact::springs::Springs;
@@ -29,7 +29,7 @@ use crate::load::non_reflecting::{Behind, NonReflecting};
 use crate::masses::PartMasses;
 use crate::material::messages::INITIAL_STATE;
 use crate::mesh::ElementGroup;
-use crate::mesh::messages::SHELLS;
+use crate::mesh::messages::{BEAMS, SHELLS};
 use crate::mesh::surface::Surface;
 use crate::mesh::surface::tributary::Depth;
 use crate::model::messages::UNKNOWN_NAME;
@@ -42,6 +42,7 @@ use crate::step::relaxation::Relaxation;
 use crate::step::rotations::NodalRotations;
 use crate::step::{CHUNK, Governor, NodalBound, System};
 use crate::tensor::Dim;
+use crate::vector::{minus, place, unit};
 use embate_lanes::{Level, Team};
 use std::mem::take;
 
@@ -293,7 +294,12 @@ where
             let rotates = |node: &u32| rotating.binary_search(node).is_ok() && self.bodies.of_node(*node).is_none();
             if !self.mesh.nodes(on).is_some_and(|nodes| nodes.iter().any(rotates)) {
                 let message = format!("no node of \"{on}\" can rotate by itself");
-                self.faults.push(Fault::new(&SHELLS, format!("load[{i}].on"), message, "name a set of nodes of shells that deform"));
+                self.faults.push(Fault::new(
+                    &SHELLS,
+                    format!("load[{i}].on"),
+                    message,
+                    "name a set of nodes of shells or beams that deform",
+                ));
             }
         }
     }
@@ -317,6 +323,7 @@ where
             let input = BlockInput {
                 area: part.area.unwrap_or(0.0),
                 section: part.section.as_ref(),
+                profile: part.profile.as_ref(),
                 directions: self.mesh.directions.get(index).map_or(&[], |own| &own[..]),
                 damping: self.model.stiffness_damping(part),
                 options: ElementOptions { hourglass: part.hourglass },
@@ -324,6 +331,7 @@ where
                 viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
                 ..BlockInput::new(element, material, &group.connectivity, &self.mesh.positions)
             };
+            self.faults.extend(lying(part, i, &group.connectivity, &self.mesh.positions));
             match make(&input) {
                 Some(mut block) => {
                     let initial = Initial { stress: part.stress_initial.as_ref(), temperature: part.temperature_initial };
@@ -384,6 +392,16 @@ where
         self.faults.extend(faults);
         made
     }
+}
+
+/// A beam whose height can't be across it.
+fn lying<const D: usize>(part: &model::Part, index: usize, connectivity: &[u32], positions: &[[f64; D]]) -> Option<Fault> {
+    let up = part.profile.as_ref().filter(|_| part.is_of_beams())?.up?;
+    let mut beams = connectivity.as_chunks::<2>().0.iter().map(|nodes| nodes.map(|node| positions[node as usize]));
+    let [from, _] =
+        beams.find(|&[from, to]| unit(model::in_3d(minus(to, from))).is_some_and(|along| beam_axes(along, Some(up)).is_none()))?;
+    let message = format!("the beam that begins at {} m goes along it", place(from));
+    Some(Fault::new(&BEAMS, format!("part[{index}].profile.up"), message, "give a direction across all beams of the part"))
 }
 
 /// What was made, or its faults noted and what stands in for it.

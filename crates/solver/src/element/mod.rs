@@ -5,6 +5,7 @@
 //! line in `elements!`.
 
 mod bar2;
+mod beam2;
 mod shell2;
 mod shell3;
 mod shell4;
@@ -20,6 +21,7 @@ mod tri3;
 mod wedge6;
 
 pub use bar2::BAR2;
+pub use beam2::BEAM2;
 pub use hex8::Hex8;
 pub use hex8_reduced::{Hex8Reduced, Hex8ReducedAssumedStrain, Hex8ReducedViscous};
 pub use quad4::{Quad4, Quad4Full};
@@ -341,8 +343,8 @@ macro_rules! elements {
             }
         })*
 
-        /// Every element of a dimension, in the order in which it is listed, but for [`BARS`] and [`SHELLS`];
-        /// none of a dimension that there is not.
+        /// Every element of a dimension, in the order in which it is listed, but for [`BARS`], [`BEAMS`] and
+        /// [`SHELLS`]; none of a dimension that there is not.
         #[must_use]
         pub fn elements_of(dimension: usize) -> &'static [ElementKind] {
             match dimension {
@@ -384,12 +386,15 @@ pub const ELEMENTS_OF_SPACE: &[ElementKind] = <Dim<3> as Registered<3>>::ELEMENT
 /// into.
 pub const BARS: &[ElementKind] = &[BAR2];
 
+/// Lines whose nodes rotate and whose points are fibres over a cross-section: blocks of their own.
+pub const BEAMS: &[ElementKind] = &[BEAM2];
+
 /// Elements of a mid surface, a line in 2D, whose points are layers through the thickness: blocks of their
 /// own too.
 pub const SHELLS: &[ElementKind] = &[SHELL2, SHELL4, SHELL3];
 
-/// Every element: those in 2D, bars and shells too, then those in 3D.
+/// Every element: those in 2D, bars, beams and shells too, then those in 3D.
 #[must_use]
 pub fn registry() -> Vec<ElementKind> {
-    ELEMENTS.iter().chain(BARS).chain(SHELLS).chain(ELEMENTS_OF_SPACE).copied().collect()
+    ELEMENTS.iter().chain(BARS).chain(BEAMS).chain(SHELLS).chain(ELEMENTS_OF_SPACE).copied().collect()
 }

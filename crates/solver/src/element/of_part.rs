@@ -1,6 +1,6 @@
 //! Which elements a part is made of.
 
-use super::{BARS, ELEMENTS, ElementKind, SHELLS, elements_of};
+use super::{BARS, BEAMS, ELEMENTS, ElementKind, SHELLS, elements_of};
 use crate::mesh::cell::CellKind;
 use crate::model::{Model, Part};
 
@@ -9,6 +9,24 @@ impl Part {
     #[must_use]
     pub fn is_of_bars(&self) -> bool {
         BARS.iter().any(|kind| kind.name == self.element)
+    }
+
+    /// Whether it consists of beams: lines without a surface, whose nodes rotate.
+    #[must_use]
+    pub fn is_of_beams(&self) -> bool {
+        BEAMS.iter().any(|kind| kind.name == self.element)
+    }
+
+    /// Whether it consists of lines that nothing can touch but by their nodes.
+    #[must_use]
+    pub fn has_no_surface(&self) -> bool {
+        self.is_of_bars() || self.is_of_beams()
+    }
+
+    /// Whether its nodes rotate.
+    #[must_use]
+    pub fn has_rotations(&self) -> bool {
+        self.is_of_shells() || self.is_of_beams()
     }
 
     /// Whether it consists of shells: a mid surface with a thickness.
@@ -26,7 +44,7 @@ impl Part {
     /// Whether its elements are lines.
     #[must_use]
     pub fn is_of_lines(&self) -> bool {
-        BARS.iter().chain(SHELLS).any(|kind| kind.name == self.element && kind.cell == CellKind::Line)
+        BARS.iter().chain(BEAMS).chain(SHELLS).any(|kind| kind.name == self.element && kind.cell == CellKind::Line)
     }
 
     /// What its cells of a kind are in a model of so many dimensions: the element that it names, in 3D
@@ -35,8 +53,8 @@ impl Part {
     #[must_use]
     pub fn element_in(&self, dimension: usize, cell: CellKind) -> Option<&'static ElementKind> {
         let is_named = |kind: &&ElementKind| [&self.element, &self.element_triangles].iter().any(|name| *name == kind.name);
-        let shells = || SHELLS.iter().filter(|kind| kind.dimension <= dimension);
-        let kinds = || elements_of(dimension).iter().chain(BARS).chain(shells()).filter(|kind| kind.cell == cell);
+        let turning = || BEAMS.iter().chain(SHELLS).filter(|kind| kind.dimension <= dimension);
+        let kinds = || elements_of(dimension).iter().chain(BARS).chain(turning()).filter(|kind| kind.cell == cell);
         let stands_in = |kind: &&ElementKind| dimension == 3 && ELEMENTS.iter().filter(is_named).any(|own| own.extruded == Some(kind.name));
         kinds().find(|kind| is_named(kind) || stands_in(kind)).or_else(|| kinds().find(|kind| kind.is_default))
     }

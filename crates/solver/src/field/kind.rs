@@ -29,6 +29,8 @@ pub enum Needs {
     Failure,
     /// A part of shells.
     Shells,
+    /// A part of beams.
+    Beams,
 }
 
 /// Description of a field: the same for all its frames.

@@ -95,6 +95,8 @@ pub(crate) enum Components {
     Section,
     /// Across a section of a shell: a number (in 3D 1 2).
     Across,
+    /// Of a cross-section of a beam: along it, y, z.
+    Profile,
 }
 
 impl Components {
@@ -105,6 +107,7 @@ impl Components {
             (Self::Across, _) => &["1", "2"],
             (Self::Vector, 3) => &["x", "y", "z"],
             (Self::Vector, _) => &["x", "y"],
+            (Self::Profile, _) => &["1", "2", "3"],
             (Self::Section, 3) => &["11", "22", "12"],
             (Self::Section, _) => &["11", "22"],
             (Self::Stress, 3) => &["xx", "yy", "zz", "xy", "yz", "zx"],
@@ -176,6 +179,7 @@ fields! {
     laws;
     erosion;
     shells;
+    beams;
     equations_of_state;
     energy;
 }

@@ -14,6 +14,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &OVERLAP,
     &BARS,
     &SHELLS,
+    &BEAMS,
     &NEGATIVE_RADIUS,
     &DIMENSION,
     &TINY_STEP,
@@ -141,6 +142,17 @@ pub(crate) static SHELLS: Message = Message {
     ),
     cause: "Shells have a section with a thickness, and layers through it of a law that can bear a stress along them.",
     remedy: "Give `section`, a solid as the law, and leave out what the message names.",
+};
+
+pub(crate) static BEAMS: Message = Message {
+    code: "E0214",
+    title: "what beams need, and what they can't be",
+    example: Example::Model(
+        "[[part]]\nname = \"mast\"\nmaterial = \"steel\"\nelement = \"beam2\"\n\
+         space_truss = { lines = [[[0, 0, 0], [0, 0, \"1 m\"]]], elements = 4 }\n",
+    ),
+    cause: "Beams are lines in 3D with a cross-section, of a law that is the same in all directions.",
+    remedy: "Give `profile` with the sizes of its shape, an isotropic solid as the law, and leave out what the message names; in 2D take `shell2`.",
 };
 
 pub(crate) static NEGATIVE_RADIUS: Message = Message {

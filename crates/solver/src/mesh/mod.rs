@@ -140,7 +140,7 @@ impl ElementGroup {
     }
 
     /// Whether its elements bound a body in so many dimensions: surfaces in 2D, volumes in 3D, and shells
-    /// with their thickness; no bars.
+    /// with their thickness; no bars or beams.
     #[must_use]
     pub fn is_body(&self, dimension: usize) -> bool {
         self.outer_cell_nodes().0.dimension() == dimension
@@ -253,7 +253,7 @@ where
             return Err(faults);
         }
         mesh.imported = imported;
-        mesh.reorder(|part| model.parts[part].is_of_shells());
+        mesh.reorder(|part| model.parts[part].has_rotations());
         Dim::<D>::add_skins(&mut mesh, model);
         mesh.check_thickness(&mut faults);
         if faults.is_empty() { Ok(mesh) } else { Err(faults) }

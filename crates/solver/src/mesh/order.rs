@@ -21,7 +21,7 @@ where
     Dim<D>: Meshed<D>,
 {
     /// Renumbers nodes, elements and corners; `user_nodes` and `user_elements` lead back. Lines of parts that
-    /// are `directed` keep their direction: shells have a left and a right.
+    /// are `directed` keep their direction: shells have a left and a right, beams a first node.
     pub(super) fn reorder(&mut self, directed: impl Fn(usize) -> bool) {
         let mut owner = vec![u32::MAX; self.positions.len()];
         for (index, part) in self.parts.iter().enumerate().rev() {

@@ -44,7 +44,7 @@ section! {
     };
     on: String = Reference, Required, "The set.";
     "fixed" = Kind::Choices(Choices::Words(&["x", "y", "z", "rotation"])), Optional("none"),
-        "Components that don't move; `rotation`: nodes of shells don't rotate either, so that they are clamped.";
+        "Components that don't move; `rotation`: nodes of shells and beams don't rotate either, so that they are clamped.";
     velocity: [Option<Drive>; 3] = Kind::Components(Dimension::VELOCITY), Optional("none"),
         "Prescribed velocity of components: a number or a curve, such as `{ x = \"1 m/s\", y = \"ramp\" }`.",
         read velocities;
@@ -54,9 +54,9 @@ section! {
     acceleration: [Option<Drive>; 3] = Kind::Components(Dimension::ACCELERATION), Optional("none"),
         "Prescribed acceleration of components, from the initial velocity on.",
         read |values| components(values, "acceleration");
-    rotation: Option<Rotation> = Table(&TURN_OF_NODES), Optional("none"), "Leads the nodes around a point; those of shells rotate with it.";
+    rotation: Option<Rotation> = Table(&TURN_OF_NODES), Optional("none"), "Leads the nodes around a point; those of shells and beams rotate with it.";
     spin: [Option<Drive>; 3] = Kind::Components(Dimension::RATE), Optional("none"),
-        "Prescribed angular velocity of the nodes of shells, such as `{ z = \"2 rad/s\" }`; in 2D about z.",
+        "Prescribed angular velocity of the nodes of shells and beams, such as `{ z = \"2 rad/s\" }`; in 2D about z.",
         read spins;
 }
 
@@ -169,7 +169,7 @@ pub enum Load {
         /// Key of [`super::Model::curves`]: a factor.
         curve: Option<String>,
     },
-    /// A moment on a set of nodes of shells, shared equally.
+    /// A moment on a set of nodes of shells or beams, shared equally.
     Moment {
         /// A set of nodes.
         on: String,
@@ -244,7 +244,7 @@ pub(crate) static LOAD: Section = Section {
             "moment",
             Spatial(Dimension::FORCE, Finite),
             Optional("another load"),
-            "Moment on a set of nodes of shells in all, about x, y and z (in 2D `[0, 0, \"5 N\"]`: N m per metre of depth), shared \
+            "Moment on a set of nodes of shells or beams in all, about x, y and z (in 2D `[0, 0, \"5 N\"]`: N m per metre of depth), shared \
                 equally: its axes do not rotate with the nodes.",
         ),
         key(

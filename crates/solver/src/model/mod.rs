@@ -17,6 +17,7 @@ mod obstacle;
 mod output;
 mod part;
 pub(crate) mod placement;
+mod profile;
 pub mod reference;
 mod run;
 mod shell;
@@ -31,6 +32,8 @@ pub use obstacle::{Obstacle, ObstacleShape};
 pub use output::{Cadence, Camera, Output, PictureView, Probe, ProbeAt};
 pub use part::Part;
 pub use placement::{Copies, Mirror, Placement};
+pub(crate) use profile::PROFILE;
+pub use profile::{BOX, GIVEN, I, PROFILES, Profile, RECTANGLE, ROUND, TUBE};
 pub use run::{MassScaling, Relaxation, Run, StableStep};
 pub(crate) use shell::SHELL_SECTION;
 pub use shell::{GAUSS, LOBATTO, ShellSection};
@@ -117,20 +120,22 @@ impl Model {
         matches!(part.shape, Shape::Group { mesh, .. } if part.sweep.is_none() && mesh >= self.meshes.len())
     }
 
-    /// Dimension of a part: of a group of a mesh file that of the file, unless it is swept.
+    /// Dimension of a part: of a group of a mesh file that of the file, unless it is swept, or of beams.
     #[must_use]
     pub fn dimension_of(&self, part: &Part) -> usize {
         match &part.shape {
-            Shape::Group { mesh, .. } if part.sweep.is_none() && !part.is_of_sheets() => {
+            Shape::Group { mesh, .. } if part.sweep.is_none() && !part.is_of_sheets() && !part.is_of_beams() => {
                 self.meshes.get(*mesh).map_or(2, |imported| imported.dimension())
             }
             _ => part.dimension(),
         }
     }
 
-    /// Dimension of a mesh file: 3 also where a part is made of its surfaces as shells in 3D.
+    /// Dimension of a mesh file: 3 also where a part is made of its surfaces as shells in 3D, or of its lines
+    /// as beams.
     pub(crate) fn dimension_of_mesh(&self, mesh: usize) -> usize {
-        let is_sheet = |part: &Part| part.sweep.is_none() && part.is_of_sheets() && part.shape.group_of(mesh).is_some();
+        let is_sheet =
+            |part: &Part| part.sweep.is_none() && (part.is_of_sheets() || part.is_of_beams()) && part.shape.group_of(mesh).is_some();
         if self.parts.iter().any(is_sheet) { 3 } else { self.meshes.get(mesh).map_or(2, |imported| imported.dimension()) }
     }
 }

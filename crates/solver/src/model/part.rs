@@ -2,7 +2,10 @@
 
 use super::initial::STRESS_INITIAL;
 use super::placement::{COPIES, MIRROR, ROTATION};
-use super::{EXTRUDE, InitialStress, Motion, Placement, REVOLVE, SHAPES, SHELL_SECTION, Shape, ShellSection, Sweep, Values, section};
+use super::{
+    EXTRUDE, InitialStress, Motion, PROFILE, Placement, Profile, REVOLVE, SHAPES, SHELL_SECTION, Shape, ShellSection, Sweep, Values,
+    section,
+};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
 use crate::stress_state::STRESS_STATES;
@@ -30,7 +33,7 @@ section! {
     name: String = Name, Required, "Unique name.";
     material: String = Reference, Required, "Name of a `[material.NAME]` section.";
     element: String = Choice(Choices::Elements), Default("\"quad4\""),
-        "Kind of element: what quadrilaterals are; `bar2` for bars, `shell2` for shells in 2D, \
+        "Kind of element: what quadrilaterals are; `bar2` for bars, `beam2` for beams in 3D, `shell2` for shells in 2D, \
             `shell4` for those in 3D (`shell3` where they are of triangles only).";
     element_triangles: String = Choice(Choices::Triangles), Optional("`tri3`"),
         "What triangles are, where the part has some; those of shells in 3D are `shell3`.",
@@ -39,6 +42,7 @@ section! {
         "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre; \
             between solids whole, `\"1e-4 m^2\"`.";
     section: Option<ShellSection> = Table(&SHELL_SECTION), Optional("only with shells"), "Section of shells: thickness and layers.";
+    profile: Option<Profile> = Table(&PROFILE), Optional("only with beams"), "Cross-section of beams, and the fibres in it.";
     hourglass: Option<f64> = Quantity(Dimension::NONE, NotNegative), Optional("that of the control's source"),
         "Coefficient of the hourglass control of elements that have one.";
     stress_state: String = Choice(Choices::StressStates), Default("\"plane_strain\""),
@@ -88,10 +92,11 @@ impl Part {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.state.is_axisymmetric)
     }
 
-    /// 3 where it is swept, has a solid shape or is a shell in 3D, else 2; of other groups of mesh files
-    /// its model knows ([`super::Model::dimension_of`]).
+    /// 3 where it is swept, has a solid shape, is a shell in 3D or a group of beams, else 2; of other groups
+    /// of mesh files its model knows ([`super::Model::dimension_of`]).
     #[must_use]
     pub fn dimension(&self) -> usize {
-        if self.sweep.is_some() || self.shape.solid().is_some() || self.is_of_sheets() { 3 } else { 2 }
+        let is_frame = self.is_of_beams() && matches!(self.shape, Shape::Group { .. });
+        if self.sweep.is_some() || self.shape.solid().is_some() || self.is_of_sheets() || is_frame { 3 } else { 2 }
     }
 }

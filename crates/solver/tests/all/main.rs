@@ -13,6 +13,7 @@ mod adding;
 mod allocations;
 mod assembled_bound;
 mod bars;
+mod beams;
 mod blocks;
 mod certificate;
 mod certificate_in_3d;

@@ -15,6 +15,8 @@ use std::sync::{Mutex, PoisonError};
 struct Strain<'a, K, const D: usize> {
     facts: &'a Facts,
     points: usize,
+    /// β over the step; 0: none.
+    damping: f64,
     motion: &'a [Batch],
     state: &'a mut [Batch],
     elements: &'a [ShellBatch],
@@ -47,6 +49,7 @@ where
             stress: &mut self.stress[points.start * components..points.end * components],
             rotation: &mut self.rotation[points.start * turn..points.end * turn],
             thickness: [&own.thickness, &own.thickness_initial],
+            damping: self.damping,
             flow: &own.flow,
             live: &own.live,
         };
@@ -139,6 +142,9 @@ where
         L::select(there, squared, infinite).store(&mut own.time_step_squared, at);
         L::select(there, answer.determinant, infinite).store(&mut own.determinant, at);
         L::select(there, answer.hourglass, L::load(&own.hourglass, at)).store(&mut own.hourglass, at);
+        let [stored, damped] = answer.besides;
+        L::select(there, stored, L::splat(0.0)).store(&mut own.besides[0], at);
+        L::select(there, damped, L::load(&own.besides[1], at)).store(&mut own.besides[1], at);
         for (kept, new) in own.flow.iter_mut().zip(answer.flow) {
             L::select(there, new, L::splat(0.0)).store(kept, at);
         }
@@ -268,6 +274,7 @@ where
             level.run(ForEachBatch(Strain::<K, D> {
                 facts,
                 points,
+                damping: if motion.time_step > 0.0 { common.damping / motion.time_step } else { 0.0 },
                 motion: moved,
                 state: &mut *state,
                 elements: &*elements,
@@ -349,13 +356,13 @@ fn summed(elements: &[ShellBatch], marks: &[Batch]) -> Report {
     for (batch, own) in elements.iter().enumerate() {
         for lane in 0..BATCH {
             report.dissipated += own.dissipated.0[lane];
-            report.damping += own.damping.0[lane];
+            report.damping += own.damping.0[lane] + own.besides[1].0[lane];
             report.hourglass += own.hourglass.0[lane];
             if own.live.0[lane] == 0.0 {
                 continue;
             }
             let squared = own.time_step_squared.0[lane];
-            report.stored += own.stored.0[lane];
+            report.stored += own.stored.0[lane] + own.besides[0].0[lane];
             report.time_step_squared = report.time_step_squared.min(squared);
             report.determinant = report.determinant.min(own.determinant.0[lane]);
             if let Some(mark) = marks.get(batch) {

@@ -167,6 +167,7 @@ impl Line {
 }
 
 impl ShellKernel<2> for Line {
+    type Tensor = Tensor<2, f64>;
     const NODES: usize = 2;
     const MOTION: usize = 6;
     const STATE: usize = STATE;
@@ -374,6 +375,7 @@ impl ShellKernel<2> for Line {
             determinant,
             thickness,
             hourglass: zero,
+            besides: [zero; 2],
             flow: [zero; 2],
             resultants: resultants(facts, &now, [normal, hoop, moment, hoop_moment, transverse], thickness),
         }

@@ -34,7 +34,7 @@ use super::surface::{
     self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, rotated, scaled, times,
     turn_at_start,
 };
-use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
+use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
 use crate::block::Motion;
 use crate::tensor::{Dim, Matrix, Space, cross, dot};
 use crate::vector::{minus, plus};
@@ -202,6 +202,7 @@ impl Quad {
 }
 
 impl ShellKernel<3> for Quad {
+    type Tensor = Tensor<3, f64>;
     const NODES: usize = 4;
     const MOTION: usize = 28;
     const STATE: usize = STATE;
@@ -296,6 +297,7 @@ impl ShellKernel<3> for Quad {
             determinant: to.determinant,
             thickness: to.thickness,
             hourglass,
+            besides: [L::splat(0.0); 2],
             flow: to.flow,
             resultants: to.resultants,
         }

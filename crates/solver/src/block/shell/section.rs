@@ -1,4 +1,5 @@
-//! Points through the thickness of shells: heights and weights of Gauss' and Lobatto's rules.
+//! Points through the thickness of shells, and over the cross-section of beams: heights and weights of Gauss'
+//! and Lobatto's rules.
 //!
 //! Gauss' points are inside, and as few as two integrate elastic bending exactly; Lobatto's have one on each
 //! face, and take three. Of an ideally plastic hinge Gauss' odd numbers have less than the true moment, even
@@ -7,11 +8,13 @@
 
 use crate::angle::cos_sin;
 
-/// Points through a thickness of one, from the lower to the upper face: heights over the middle, and weights,
-/// which sum to one.
+/// Points through a thickness of one, from the lower to the upper face, or those of a cross-section: heights
+/// over the middle, and weights, which sum to one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Points {
     pub(super) heights: Vec<f64>,
+    /// Places across the heights, of cross-sections alone.
+    pub(super) sides: Vec<f64>,
     pub(super) weights: Vec<f64>,
 }
 
@@ -67,7 +70,28 @@ impl Points {
             (0.5 * if 2 * k < n { x } else { -x }, 0.5 * w)
         });
         let (heights, weights) = all.unzip();
-        Self { heights, weights }
+        Self { heights, sides: Vec::new(), weights }
+    }
+
+    /// At places y and z, with weights by their sum.
+    pub(super) fn at(places: impl IntoIterator<Item = ([f64; 2], f64)>) -> Self {
+        let mut points = Self::default();
+        for ([y, z], weight) in places {
+            points.sides.push(y);
+            points.heights.push(z);
+            points.weights.push(weight);
+        }
+        let sum: f64 = points.weights.iter().sum();
+        points.weights.iter_mut().for_each(|weight| *weight /= sum);
+        points
+    }
+
+    /// Gauss' points of a rectangle, `count` along each side.
+    pub(super) fn grid(count: usize, [width, height]: [f64; 2]) -> Self {
+        let one = Self::new(count, false);
+        let all =
+            |k: usize| ([width * one.heights[k % count], height * one.heights[k / count]], one.weights[k % count] * one.weights[k / count]);
+        Self::at((0..count * count).map(all))
     }
 
     pub(super) fn count(&self) -> usize {

@@ -16,7 +16,7 @@
 use super::surface::{
     self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, rotated, scaled, turn_at_start,
 };
-use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
+use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
 use crate::block::Motion;
 use crate::tensor::{Dim, Space, cross, dot};
 use crate::vector::{minus, plus};
@@ -150,6 +150,7 @@ impl Triangle {
 }
 
 impl ShellKernel<3> for Triangle {
+    type Tensor = Tensor<3, f64>;
     const NODES: usize = 3;
     const MOTION: usize = 21;
     const STATE: usize = STATE;
@@ -247,6 +248,7 @@ impl ShellKernel<3> for Triangle {
             determinant: to.determinant,
             thickness: to.thickness,
             hourglass: L::splat(0.0),
+            besides: [L::splat(0.0); 2],
             flow: [L::splat(0.0); 2],
             resultants: to.resultants,
         }

@@ -6,6 +6,7 @@
 //! `parts.rs`, contacts in `contact.rs`, what moves in `motion.rs`, loads and joins in `load.rs`. What is no
 //! fault and should be known all the same is in `warnings.rs`.
 
+mod beams;
 mod contact;
 mod discrete;
 mod load;
@@ -39,6 +40,11 @@ const ROWS_MAX: f64 = 1e8;
 /// What to do about bars where a surface is meant.
 const NO_SURFACE: &str =
     "contact, obstacles and pressure see elements with an area only: name another part, or a strip of thin elements beside the bars";
+
+/// What a part without a surface is made of.
+fn lines_of(part: &Part) -> &'static str {
+    if part.is_of_beams() { "beams" } else { "bars" }
+}
 
 impl Model {
     /// All faults that can be reported without meshing; empty for a sound model. Paths are those of the model
@@ -355,9 +361,10 @@ impl Check<'_> {
     fn reference(&mut self, path: &str, name: &str, wanted: Wanted) -> Option<Reference> {
         match self.model.reference(name, wanted) {
             Ok(Reference::Part(part) | Reference::Side { part, .. })
-                if wanted == Wanted::Surface && self.model.parts[part].is_of_bars() =>
+                if wanted == Wanted::Surface && self.model.parts[part].has_no_surface() =>
             {
-                let message = format!("part `{}` is made of bars, which have no surface", excerpt(&self.model.parts[part].name));
+                let part = &self.model.parts[part];
+                let message = format!("part `{}` is made of {}, which have no surface", excerpt(&part.name), lines_of(part));
                 self.fault(&BARS, path, message, NO_SURFACE);
                 None
             }
@@ -401,13 +408,14 @@ impl Check<'_> {
     fn with_surface(&mut self, path: &str, parts: &[String]) {
         let model = self.model;
         for (index, name) in parts.iter().enumerate() {
-            if model.parts.iter().any(|part| part.name == *name && part.is_of_bars()) {
-                let message = format!("part `{}` is made of bars, which have no surface", excerpt(name));
+            if let Some(part) = model.parts.iter().find(|part| part.name == *name && part.has_no_surface()) {
+                let message = format!("part `{}` is made of {}, which have no surface", excerpt(name), lines_of(part));
                 self.fault(&BARS, format!("{path}[{index}]"), message, NO_SURFACE);
             }
         }
-        if parts.is_empty() && !model.parts.is_empty() && model.parts.iter().all(Part::is_of_bars) {
-            self.fault(&BARS, path, "all parts are made of bars, which have no surface", NO_SURFACE);
+        if parts.is_empty() && !model.parts.is_empty() && model.parts.iter().all(Part::has_no_surface) {
+            let message = format!("all parts are made of {}, which have no surface", lines_of(&model.parts[0]));
+            self.fault(&BARS, path, message, NO_SURFACE);
         }
     }
 

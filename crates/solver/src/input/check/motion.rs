@@ -320,9 +320,9 @@ impl Check<'_> {
     pub(super) fn rotates(&mut self, path: &str, on: Option<&Reference>) {
         if let Some(Reference::Part(part) | Reference::Side { part, .. }) = on {
             let part = &self.model.parts[*part];
-            if !part.is_of_shells() {
+            if !part.has_rotations() {
                 let message = format!("nodes of part `{}` have no rotations", excerpt(&part.name));
-                self.fault(&SHELLS, path, message, "name a set of a part of shells; on others couples are pairs of forces");
+                self.fault(&SHELLS, path, message, "name a set of a part of shells or beams; on others couples are pairs of forces");
             } else if part.rigid.is_some() {
                 let message = format!("part `{}` is rigid: its nodes rotate with it", excerpt(&part.name));
                 self.fault(&SHELLS, path, message, "prescribe its motion, or let a pair of forces act on it");

@@ -39,6 +39,7 @@ impl Check<'_> {
             self.sweep(&path, part);
             self.initial(&path, part);
             self.bars(&path, part);
+            self.beams(&path, part);
             self.shells(&path, part);
             self.falling(&path, part);
             let count = model.element_count(part);
@@ -111,6 +112,7 @@ impl Check<'_> {
         let Some(softening) = parameters(it).and_then(|parameters| material::softening(&it.law, &parameters)) else { return };
         let (stiffness, of) = match part {
             part if part.is_of_bars() => (softening.bar, "a bar"),
+            part if part.is_of_beams() => (softening.bar, "a fibre of a beam"),
             part if part.is_of_shells() => (softening.plate, "a shell"),
             part if part.stress_state == PLANE_STRESS.name => (softening.plate, "plane stress"),
             _ => return,
@@ -289,6 +291,7 @@ impl Check<'_> {
             let word = |dimension: usize, part: &Part| match (dimension, lines(part)) {
                 (2, _) => "2D",
                 _ if part.is_of_sheets() => "a shell in 3D",
+                (_, true) if part.is_of_beams() => "of beams in 3D",
                 (_, true) => "of bars in 3D",
                 _ => "a solid",
             };
@@ -296,6 +299,8 @@ impl Check<'_> {
             let own = word(self.model.dimension_of(part), part);
             let help = match (lines(part), dimension) {
                 (true, 3) if part.is_of_shells() => "take `extrude` or `revolve` with `element = \"shell4\"`: shells in 3D",
+                // Beams in 2D have their own fault.
+                (true, _) if part.is_of_beams() && self.model.dimension_of(part) == 2 => return,
                 (true, 2) => "take `truss`: bars in 2D; or make the other parts solids, such as by `extrude`",
                 (true, _) => "take `space_truss` with `element = \"bar2\"`: bars in 3D",
                 _ => "make all parts solids, such as by `extrude`, or none",
@@ -452,6 +457,9 @@ impl Check<'_> {
     /// Whether a part has an element for cells of a kind; `has` says at `path` that it has such cells.
     fn takes(&mut self, part_path: &str, part: &Part, cell: CellKind, path: &str, has: &str) {
         let dimension = self.model.dimension_of(part);
+        if part.is_of_beams() && dimension == 2 {
+            return;
+        }
         let is_triangle = cell == CellKind::Triangle;
         if part.element_in(dimension, cell).is_some() || (!is_triangle && !element::registry().iter().any(|kind| kind.name == part.element))
         {

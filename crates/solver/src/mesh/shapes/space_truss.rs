@@ -1,4 +1,4 @@
-//! Bars along lines in 3D: trusses, cables, nets between solids or alone.
+//! Bars or beams along lines in 3D: trusses, frames, cables, nets between solids or alone.
 
 use super::truss::Net;
 use super::{Body, BuiltIn, Count, ELEMENTS, ShapeCheck, Values, Wrong, shape_key};
@@ -7,7 +7,7 @@ use crate::vocabulary::Kind::{Integer, SpatialOutlines};
 use crate::vocabulary::Need::{Default as Written, Required};
 use crate::vocabulary::{Key, Section, key};
 
-/// Bars along straight pieces from point to point in 3D, as [`super::Truss`] has them in 2D.
+/// Bars or beams along straight pieces from point to point in 3D, as [`super::Truss`] has them in 2D.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpaceTruss {
     /// Lines, each a list of points, m.
@@ -16,11 +16,15 @@ pub struct SpaceTruss {
     pub elements: usize,
 }
 
-pub(super) const KEY: Key = shape_key("space_truss", &SECTION, "Bars along lines in 3D: trusses, cables, nets; with `element = \"bar2\"`.");
+pub(super) const KEY: Key = shape_key(
+    "space_truss",
+    &SECTION,
+    "Bars or beams along lines in 3D: trusses, frames, cables, nets; with `element = \"bar2\"` or `\"beam2\"`.",
+);
 
 static SECTION: Section = Section {
     name: "space_truss",
-    doc: "Bars along straight pieces from point to point in 3D, for `element = \"bar2\"`. Points in one place are one node; lines that cross elsewhere do not meet. \
+    doc: "Bars along straight pieces from point to point in 3D, for `element = \"bar2\"`, or beams, for `\"beam2\"`. Points in one place are one node (beams are rigidly connected there); lines that cross elsewhere do not meet. \
           Its points can be named as `point0`, `point1`, ... in the order in which they are first given. `join` ties them to other parts.",
     keys: &[
         key(
@@ -33,7 +37,7 @@ static SECTION: Section = Section {
             ELEMENTS,
             Integer(1),
             Written("1"),
-            "Bars along each piece between two points: 1 for a truss, more for a cable, which has no stiffness in bending.",
+            "Elements along each piece between two points: of bars 1 for a truss, more for a cable, which has no stiffness in bending; of beams 4 to 10.",
         ),
     ],
     ..Section::EMPTY

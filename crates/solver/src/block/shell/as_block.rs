@@ -1,0 +1,194 @@
+//! Shells and beams as blocks: what the solver asks of them.
+
+use super::{ShellKernel, Shells};
+use crate::archive::{Archive, ArchiveResult, Persist};
+use crate::block::initial::{self, Initial, Wrong};
+use crate::block::{Block, ElementState, Motion, NodalForces, Report, damping};
+use crate::failure::{Criterion, Seen};
+use crate::material::Variable;
+use crate::material::points::{PointLaw, RESPONSE};
+use crate::tensor::{Dim, Space};
+use embate_lanes::{BATCH, Batch, Level, Team};
+
+/// A point of a batch of elements as criteria see it.
+struct Look<'a, K, const D: usize> {
+    shells: &'a Shells<K, D>,
+    batch: usize,
+    point: usize,
+}
+
+impl<K, const D: usize> Seen for Look<'_, K, D>
+where
+    K: ShellKernel<D>,
+    Dim<D>: Space<D>,
+{
+    fn stress(&self) -> [Batch; 6] {
+        let mut stress = [Batch::default(); 6];
+        for lane in 0..BATCH {
+            let own = self.shells.stress_of(self.batch * BATCH + lane, self.point);
+            stress.iter_mut().zip(own).for_each(|(batch, value)| batch.0[lane] = value);
+        }
+        stress
+    }
+    fn variable(&self, variable: &Variable) -> Batch {
+        let first = (self.batch * self.shells.points() + self.point) * self.shells.facts.width;
+        self.shells.law.place(variable).map_or(Batch::default(), |place| self.shells.history[first + place])
+    }
+    fn time_step_squared(&self) -> Batch {
+        self.shells.elements[self.batch].time_step_squared
+    }
+}
+
+impl<K, const D: usize> Block<D> for Shells<K, D>
+where
+    K: ShellKernel<D>,
+    Dim<D>: Space<D>,
+{
+    fn elements(&self) -> usize {
+        self.count
+    }
+
+    fn slots(&self) -> &[u32] {
+        &self.slots
+    }
+
+    fn moment_slots(&self) -> &[u32] {
+        &self.slots
+    }
+
+    fn rotating_nodes(&self) -> Vec<(u32, f64)> {
+        let share = |(k, &node): (usize, &u32)| {
+            let element = k / K::NODES;
+            (node, self.corner_mass[k] * self.elements[element / BATCH].inertia.0[element % BATCH])
+        };
+        self.slots.iter().enumerate().map(share).collect()
+    }
+
+    fn advance(&mut self, motion: &Motion<'_, D>, level: Level, pulls: NodalForces<'_, D>, team: &mut Team) -> Report {
+        self.find_places(motion.rotations);
+        self.advance_all(motion, level, pulls, team);
+        self.joined()
+    }
+
+    fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D] {
+        slots[K::NODES * element + corner]
+    }
+
+    fn mass(&self, element: usize) -> f64 {
+        self.corner_mass[element * K::NODES..][..K::NODES].iter().sum()
+    }
+
+    fn corner_mass(&self, element: usize, corner: usize) -> f64 {
+        self.corner_mass[element * K::NODES + corner]
+    }
+
+    fn time_step_squared(&self, element: usize) -> f64 {
+        self.elements[element / BATCH].time_step_squared.0[element % BATCH]
+    }
+
+    fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
+        for (element, nodes) in self.slots.chunks_exact(K::NODES).enumerate().filter(|(element, _)| self.is_alive(*element)) {
+            let mass = self.elements[element / BATCH].mass_least.0[element % BATCH] / K::NODES as f64;
+            let stiffness = damping::bounding_stiffness(mass, self.time_step_squared(element), shortest, self.damping > 0.0);
+            nodes.iter().for_each(|&node| add(node, stiffness, mass));
+        }
+    }
+
+    fn mark_time_steps(&mut self) {
+        self.marks = self.elements.iter().map(|own| own.time_step_squared).collect();
+    }
+
+    fn state(&self, element: usize) -> ElementState {
+        let (batch, lane) = (element / BATCH, element % BATCH);
+        let state = &self.state[batch * K::STATE..][..K::STATE];
+        let stresses = (0..self.points()).map(|point| self.stress_of(element, point));
+        let worst = stresses.max_by(|a, b| crate::tensor::von_mises(a).total_cmp(&crate::tensor::von_mises(b))).unwrap_or_default();
+        let mut shown = ElementState { stress: K::turned(state, worst, lane), ..ElementState::default() };
+        for (value, variable) in shown.variables.iter_mut().zip(self.law.variables()) {
+            let of = |point: usize| self.history[(batch * self.points() + point) * self.facts.width + variable.place].0[lane];
+            *value = (0..self.points()).map(of).fold(f64::NEG_INFINITY, f64::max);
+        }
+        let own = &self.elements[batch];
+        shown.energy_density = (own.stored.0[lane] + own.besides[0].0[lane]) / self.volume[element];
+        let response = vec![Batch::default(); self.points() * RESPONSE];
+        let mut pulls = vec![Batch::default(); K::PULLS];
+        shown.shell = K::forces::<f64>(&self.facts, state, &self.layers(batch, &response), 1.0, &mut pulls, lane).resultants;
+        shown
+    }
+
+    fn law(&self) -> Option<&dyn PointLaw> {
+        Some(self.law.as_ref())
+    }
+
+    fn scale_mass(&mut self, element: usize, factor: f64) {
+        self.corner_mass[element * K::NODES..][..K::NODES].iter_mut().for_each(|mass| *mass *= factor);
+        self.elements[element / BATCH].mass_least.0[element % BATCH] *= factor;
+    }
+
+    fn begin(&mut self, initial: &Initial<'_>, _positions: &[[f64; D]]) -> Result<(), Wrong> {
+        if let Some(temperature) = initial.temperature {
+            initial::warm(self.law.as_ref(), &mut self.history, temperature)?;
+        }
+        Ok(())
+    }
+
+    fn is_alive(&self, element: usize) -> bool {
+        self.elements[element / BATCH].live.0[element % BATCH] > 0.0
+    }
+
+    fn failed(&self, criteria: &[Criterion], _parallel: bool) -> Vec<(u32, u32)> {
+        let mut failed = Vec::new();
+        let needed = self.failed_share * self.points() as f64 - 1e-9;
+        for batch in 0..self.elements.len() {
+            let mut first = [None; BATCH];
+            for (number, criterion) in (0..).zip(criteria) {
+                let mut counts = [0.0; BATCH];
+                for point in 0..self.points() {
+                    let fails = (criterion.kind.fails)(&Look { shells: self, batch, point }, criterion.limit);
+                    counts.iter_mut().zip(fails).for_each(|(count, fails)| *count += f64::from(u8::from(fails)));
+                }
+                for (first, count) in first.iter_mut().zip(counts) {
+                    *first = first.or((count > 0.0 && count >= needed).then_some(number));
+                }
+            }
+            let elements = (batch * BATCH..).zip(first).filter(|&(element, _)| element < self.count && self.is_alive(element));
+            failed.extend(elements.filter_map(|(element, first)| Some((element as u32, first?))));
+        }
+        failed
+    }
+
+    fn determinant(&self, element: usize, _positions: &[[f64; D]]) -> f64 {
+        self.elements[element / BATCH].determinant.0[element % BATCH]
+    }
+
+    fn erode(&mut self, elements: &[u32], pulls: NodalForces<'_, D>) -> Vec<f64> {
+        let take = |&element: &u32| {
+            let (element, first) = (element as usize, element as usize * K::NODES);
+            pulls.forces[first..first + K::NODES].fill([0.0; D]);
+            pulls.moments[first..first + K::NODES].fill([0.0; 3]);
+            let own = &mut self.elements[element / BATCH];
+            own.live.0[element % BATCH] = 0.0;
+            own.stored.0[element % BATCH] + own.besides[0].0[element % BATCH]
+        };
+        let stored = elements.iter().map(take).collect();
+        self.sum_reports();
+        stored
+    }
+
+    fn report(&self, _positions: &[[f64; D]]) -> Report {
+        self.joined()
+    }
+
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let mut nothing = Vec::new();
+        let damped = if self.damping > 0.0 { &mut self.damped } else { &mut nothing };
+        for list in [&mut self.state, &mut self.stress, &mut self.history, damped, &mut self.marks] {
+            list.persist(archive)?;
+        }
+        self.elements[..].persist(archive)?;
+        if archive.reads() {
+            self.sum_reports();
+        }
+        Ok(())
+    }
+}

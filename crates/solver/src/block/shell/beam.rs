@@ -1,0 +1,424 @@
+//! `beam2`: a beam of two nodes in 3D.
+//!
+//! Each node has a triad that is fixed to it; at the start both are those of the element, axis 1 along it, 2
+//! and 3 (y and z) those of the cross-section. With their quaternions q₁ and q₂ (of the two signs of q₂ the
+//! nearer to q₁) the element sees the two nodes from half way between them:
+//!
+//! ```text
+//! q̄ = (q₁ + q₂)/2c,   c = ½ |q₁ + q₂| = cos(δ/4),   p = vec(q̄* q₂) = sin(δ/4) e
+//! Γ = R̄ᵀ (x₂ − x₁) = (l, s_y, s_z),   ψ = δ e, δ = 4 atan2(|p|, c): the rotation from node 1 to node 2
+//! a fibre at (y, z) is l + z ψ₂ − y ψ₃ long: a stack of bars, each with the law under uniaxial stress
+//! N = Σ σ A,   M₂ = Σ σ A z,   M₃ = −Σ σ A y
+//! Q_y = k_y µ A s_y/L,   Q_z = k_z µ A s_z/L,   M₁ = µ J ψ₁/L, with µ and L of the start
+//! ```
+//!
+//! Transverse shear and torsion are elastic: potentials of the start. The arc δ itself, not its chord, so
+//! that a beam rolls up exactly with any number of elements; dψ = H (dφ₂ − dφ₁) seen from half way, where
+//! H = f 1 + (1 − f) e eᵀ, f = (δ/2)/sin(δ/2). With n = (N, Q_y, Q_z) and m = n × Γ the work is
+//!
+//! ```text
+//! dW = n·d(x₂ − x₁) + (½ m − w)·dφ₁ + (½ m + w)·dφ₂,   w = H M + p × m/2c
+//! ```
+//!
+//! whose forces and moments keep both momenta to round-off. Nothing depends on which node is the first: the
+//! section is the same from behind. A rotation of both nodes is no strain, whatever its size; nearly half a
+//! turn of one against the other counts as inverted, for nothing says which way it went.
+//!
+//! Of laws in rate form y and z follow the square root of the area; hyperelastic ones keep those of the
+//! start, so that forces are the gradient of the energy.
+//!
+//! *Step.* At rest stretch, bending, torsion and shear are orthogonal: m ω² = max(4 E A/l, 4 E I/(α l), 4 µ
+//! J/(α l), k µ A l (4/l² + 1/α)), and α is chosen such that the first is the largest: max(I/A, µ J/(E A),
+//! l²/(4 (E/(k µ) − 1))). A slide s = |(s_y, s_z)| makes rotations stretch the beam: of E A/l (4 + s²/α), k µ
+//! A/L (4 + (l² + s²)/α) and what both have in common, s l/α, it is the larger eigenvalue; rotations of the
+//! nodes against each other join bending and shear at the cosine t = tan(δ/4). E is E + |σ| of what is
+//! compressed, as of bars. Besides forces add by rotating what they add in `shell2`, and ½ (|N| s + |Q|
+//! l)/α + |M|/α.
+//!
+//! Derived for this program; the lineage is Simo and Vu-Quoc, Comput. Meth. Appl. Mech. Engng 58 (1986)
+//! 79-116, and Crisfield and Jelenić, Proc. R. Soc. A 455 (1999) 1125-1147.
+
+use super::surface::{self, loaded, rotated, scaled};
+use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
+use crate::angle::arc_of_tangent;
+use crate::block::{Motion, SHELL_VALUES};
+use crate::material::Family;
+use crate::material::points::RESPONSE;
+use crate::tensor::{Plane, cross, dot};
+use crate::vector::{minus, plus};
+use embate_lanes::{Batch, Lane};
+
+type Vector<L> = [L; 3];
+/// w, x, y, z.
+type Quaternion<L> = [L; 4];
+
+/// Places in the state: triad and length at the start; now Γ, ψ, p, c and q̄; forces of the damping against
+/// s_y, s_z and ψ₁, and what it has taken.
+const TRIAD: usize = 0;
+const LENGTH: usize = 4;
+const SHAPE: usize = 5;
+const PART: usize = 11;
+const FRAME: usize = 15;
+const DAMPED: usize = 19;
+const TAKEN: usize = 22;
+const STATE: usize = 23;
+
+/// Least cosine of half the rotation between the nodes.
+const STRAIGHT: f64 = 0.05;
+
+/// The two nodes of a beam.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::block) struct Beam;
+
+/// What both nodes are to each other.
+#[derive(Clone, Copy)]
+struct Shape<L> {
+    /// Γ and ψ.
+    gamma: Vector<L>,
+    psi: Vector<L>,
+    /// p, c and q̄.
+    part: Vector<L>,
+    cosine: L,
+    frame: Quaternion<L>,
+}
+
+/// a, then b, as rotations from the right to the left.
+#[inline(always)]
+fn product<L: Lane>(a: Quaternion<L>, b: Quaternion<L>) -> Quaternion<L> {
+    let (u, v) = ([a[1], a[2], a[3]], [b[1], b[2], b[3]]);
+    let axis = plus(plus(scaled(a[0], v), scaled(b[0], u)), cross(u, v));
+    [a[0] * b[0] - dot(u, v), axis[0], axis[1], axis[2]]
+}
+
+impl<L: Lane> Shape<L> {
+    /// From the way from node 1 to node 2, and the triads of both.
+    #[inline(always)]
+    fn new(way: Vector<L>, [one, mut two]: [Quaternion<L>; 2]) -> Self {
+        let (zero, half, unit) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
+        let along = one[0] * two[0] + one[1] * two[1] + one[2] * two[2] + one[3] * two[3];
+        let sign = L::select(along.less(zero), -unit, unit);
+        let (mut frame, mut square) = ([zero; 4], zero);
+        for k in 0..4 {
+            two[k] = sign * two[k];
+            frame[k] = one[k] + two[k];
+            square += frame[k] * frame[k];
+        }
+        let size = square.sqrt();
+        for k in 0..4 {
+            frame[k] = frame[k] / size;
+        }
+        // vec(q₁* q₂): no rotation between equal triads, to the last bit.
+        let (u, v) = ([one[1], one[2], one[3]], [two[1], two[2], two[3]]);
+        let between = minus(minus(scaled(one[0], v), scaled(two[0], u)), cross(u, v));
+        let part = scaled(unit / size, between);
+        let cosine = half * size;
+        let slope = dot(part, part) / (cosine * cosine);
+        let arc = unit - slope * arc_of_tangent(slope);
+        let psi = scaled(L::splat(4.0) * arc / cosine, part);
+        let back = [frame[0], -frame[1], -frame[2], -frame[3]];
+        Self { gamma: rotated(back, way), psi, part, cosine, frame }
+    }
+
+    #[inline(always)]
+    fn load(state: &[Batch], at: usize) -> Self {
+        let (shape, part) = (loaded::<L, 6>(state, SHAPE, at), loaded::<L, 4>(state, PART, at));
+        Self {
+            gamma: [shape[0], shape[1], shape[2]],
+            psi: [shape[3], shape[4], shape[5]],
+            part: [part[0], part[1], part[2]],
+            cosine: part[3],
+            frame: loaded(state, FRAME, at),
+        }
+    }
+
+    #[inline(always)]
+    fn all(&self) -> [L; 14] {
+        let Self { gamma: g, psi: s, part: p, cosine, frame: f } = *self;
+        [g[0], g[1], g[2], s[0], s[1], s[2], p[0], p[1], p[2], cosine, f[0], f[1], f[2], f[3]]
+    }
+
+    /// Keeps it where the element is there.
+    #[inline(always)]
+    fn replace(&self, there: L::Mask, state: &mut [Batch], at: usize) {
+        let all = self.all();
+        for k in 0..14 {
+            let kept = L::load(&state[SHAPE + k], at);
+            L::select(there, all[k], kept).store(&mut state[SHAPE + k], at);
+        }
+    }
+
+    /// Length of the fibre at a place.
+    #[inline(always)]
+    fn fibre(&self, [y, z]: [L; 2]) -> L {
+        self.gamma[0] + z * self.psi[1] - y * self.psi[2]
+    }
+
+    /// H M.
+    #[inline(always)]
+    fn spread(&self, moment: Vector<L>) -> Vector<L> {
+        let one = L::splat(1.0);
+        let square = self.cosine * self.cosine;
+        let slope = dot(self.part, self.part) / square;
+        let rest = arc_of_tangent(slope);
+        // f = (atan t/t)/c², and (1 − f)/|p|².
+        let straight = (one - slope * rest) / square;
+        let along = (rest / square - one) / square;
+        plus(scaled(straight, moment), scaled(along * dot(self.part, moment), self.part))
+    }
+}
+
+/// The quaternion of a matrix with these columns.
+fn of_columns([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
+    // Four times the square of each part; the largest is at least one.
+    let squares = [1.0 + x[0] + y[1] + z[2], 1.0 + x[0] - y[1] - z[2], 1.0 - x[0] + y[1] - z[2], 1.0 - x[0] - y[1] + z[2]];
+    let largest = (0..4).fold(0, |best, k| if squares[k] > squares[best] { k } else { best });
+    let half = 0.5 / squares[largest].sqrt();
+    let (wx, wy, wz) = (y[2] - z[1], z[0] - x[2], x[1] - y[0]);
+    let (xy, yz, zx) = (x[1] + y[0], y[2] + z[1], z[0] + x[2]);
+    let all = match largest {
+        0 => [squares[0], wx, wy, wz],
+        1 => [wx, squares[1], xy, zx],
+        2 => [wy, xy, squares[2], yz],
+        _ => [wz, zx, yz, squares[3]],
+    };
+    all.map(|part| half * part)
+}
+
+/// Axes of a beam along a unit vector, whose height points `up` as far as it is across; `None`: it is not.
+pub(crate) fn axes(along: [f64; 3], up: Option<[f64; 3]>) -> Option<[[f64; 3]; 3]> {
+    let across = |up: [f64; 3]| {
+        let part = minus(up, scaled(dot(up, along), along));
+        let length = dot(part, part).sqrt();
+        (length > 1e-6 * dot(up, up).sqrt()).then(|| scaled(1.0 / length, part))
+    };
+    let z = match up {
+        Some(up) => across(up)?,
+        None => across([0.0, 0.0, 1.0]).or_else(|| across([1.0, 0.0, 0.0]))?,
+    };
+    Some([along, cross(z, along), z])
+}
+
+/// Stiffness against s_y, s_z and ψ₁ by their change: k µ A/L and µ J/L.
+#[inline(always)]
+fn besides<L: Lane>(facts: &Facts, length: L) -> Vector<L> {
+    let (profile, shear) = (&facts.profile, facts.at_rest[1]);
+    let of = [shear * profile.shear[0] * profile.area, shear * profile.shear[1] * profile.area, shear * profile.torsion];
+    [L::splat(of[0]) / length, L::splat(of[1]) / length, L::splat(of[2]) / length]
+}
+
+impl ShellKernel<3> for Beam {
+    type Tensor = Plane<f64>;
+    const NODES: usize = 2;
+    const MOTION: usize = 14;
+    const STATE: usize = STATE;
+    const PULLS: usize = 12;
+
+    /// None: its triads follow from the section.
+    fn directions(connectivity: &[u32], _: &[[f64; 3]], _: f64) -> Vec<[f64; 3]> {
+        vec![[0.0; 3]; connectivity.len()]
+    }
+
+    fn start(facts: &Facts, positions: &[[f64; 3]], _: &[[f64; 3]], area: f64, [bulk, shear]: [f64; 2]) -> Start {
+        let profile = &facts.profile;
+        let way = minus(positions[1], positions[0]);
+        let length = dot(way, way).sqrt();
+        let along = scaled(1.0 / length, way);
+        // That its height is across is seen before.
+        let triad = of_columns(axes(along, profile.up).or_else(|| axes(along, None)).unwrap_or_default());
+        let shape = Shape::<f64>::new(way, [triad; 2]);
+        let mut state: Vec<f64> = triad.into_iter().chain([length]).chain(shape.all()).collect();
+        state.resize(STATE, 0.0);
+        let young = facts.membrane_modulus(bulk, shear);
+        let (round, factor) = (profile.inertia[0].max(profile.inertia[1]), profile.shear[0].max(profile.shear[1]));
+        let by_shear = young / (factor * shear) - 1.0;
+        let sheared = if by_shear > 0.0 { length * length / (4.0 * by_shear) } else { 0.25 * length * length };
+        let inertia = (round / area).max(shear * profile.torsion / (young * area)).max(sheared);
+        let volumes = facts.section.weights.iter().map(|weight| area * weight * length).collect();
+        Start { state, areas: vec![0.5 * length; 2], volumes, inertia }
+    }
+
+    fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
+        surface::gather(node, place, motion, to, lane);
+    }
+
+    #[inline(always)]
+    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+        let (half, one, two, zero) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(0.0));
+        let there = half.less(L::load(strains.live, at));
+        let triad = loaded::<L, 4>(state, TRIAD, at);
+        let (mut x, mut q) = ([[zero; 3]; 2], [triad; 2]);
+        for a in 0..2 {
+            let own = loaded::<L, 7>(motion, 7 * a, at);
+            x[a] = [own[0], own[1], own[2]];
+            q[a] = product([own[3], own[4], own[5], own[6]], triad);
+        }
+        let (before, now) = (Shape::<L>::load(state, at), Shape::new(minus(x[1], x[0]), q));
+        now.replace(there, state, at);
+        damp(facts, [&before, &now], strains.damping, there, state, at);
+        let length = L::load(&state[LENGTH], at);
+        let (section, initial) = (L::load(strains.thickness[0], at), L::load(strains.thickness[1], at));
+        let is_rate = matches!(facts.family, Family::Rate);
+        let scale = if is_rate { (section / initial).sqrt() } else { one };
+        for p in 0..facts.section.weights.len() {
+            let place = [L::splat(facts.section.sides[p]) * scale, L::splat(facts.section.heights[p]) * scale];
+            let (new, old) = (now.fibre(place), before.fibre(place));
+            let stretch = new / length;
+            let area = initial * L::splat(facts.section.weights[p]);
+            let (along, rest, volume) = if is_rate {
+                (two * (new - old) / (new + old), zero, area * half * (new + old))
+            } else {
+                (stretch * stretch, one, area * length)
+            };
+            // What is not there, or only fills the batch up, is not strained.
+            let own = &mut strains.strain[p * facts.components..][..facts.components];
+            L::select(there, along, rest).store(&mut own[0], at);
+            rest.store(&mut own[1], at);
+            rest.store(&mut own[2], at);
+            zero.store(&mut own[3], at);
+            L::select(there, volume, zero).store(&mut strains.volume[p], at);
+            L::select(there, stretch, one).store(&mut strains.ratio[p], at);
+        }
+    }
+
+    #[inline(always)]
+    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L> {
+        let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
+        let now = Shape::<L>::load(state, at);
+        let length = L::load(&state[LENGTH], at);
+        let initial = L::load(layers.thickness, at);
+        let mut section = zero;
+        for (p, &weight) in facts.section.weights.iter().enumerate() {
+            let [_, stretch] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
+            section += L::splat(weight) * stretch;
+        }
+        let square = if matches!(facts.family, Family::Rate) { section } else { one };
+        let section = initial * section;
+        let scale = square.sqrt();
+        let (mut force, mut moment) = ([zero; 3], [zero; 3]);
+        let (mut young, mut determinant) = (zero, one);
+        for (p, &weight) in facts.section.weights.iter().enumerate() {
+            let [_, stretch] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
+            let [along, ..] = layers.stress_of::<Plane<L>, L>(p, at).0;
+            let (bulk, stiff) = (L::load(&layers.response[p * RESPONSE + 2], at), L::load(&layers.response[p * RESPONSE + 3], at));
+            let [y, z] = [L::splat(facts.section.sides[p]) * scale, L::splat(facts.section.heights[p]) * scale];
+            let pull = along * initial * L::splat(weight) * stretch;
+            force[0] += pull;
+            moment[1] += pull * z;
+            moment[2] += -(pull * y);
+            // The section of what is compressed grows: bars have E + |σ|.
+            young = young.max(facts.membrane_modulus(bulk, stiff) + (-along).max(zero));
+            determinant = determinant.min(now.fibre([y, z]) / now.gamma[0]);
+        }
+        let (held, damped) = (besides(facts, length), loaded::<L, 3>(state, DAMPED, at));
+        let slides = [now.gamma[1], now.gamma[2], now.psi[0]];
+        let mut stored = zero;
+        for k in 0..3 {
+            let elastic = held[k] * slides[k];
+            stored += half * elastic * slides[k];
+            if k < 2 { force[k + 1] = elastic + damped[k] } else { moment[0] = elastic + damped[k] }
+        }
+        pull(&now, force, moment, pulls, at);
+        let halved = L::splat(2.0) * now.cosine * now.cosine - one - L::splat(STRAIGHT);
+        Answer {
+            stiffness: bound(facts, &now, [force, moment], [section, square, young], [length, inertia]),
+            determinant: determinant.min(now.gamma[0] / length).min(halved),
+            thickness: section,
+            hourglass: zero,
+            besides: [stored, L::load(&state[TAKEN], at)],
+            flow: [zero; 2],
+            resultants: resultants(force, moment),
+        }
+    }
+
+    #[inline(always)]
+    fn elastic<L: Lane>(facts: &Facts, strain: &[Batch], [bulk, shear]: [L; 2], at: usize) -> [L; 6] {
+        let mut stress = [L::splat(0.0); 6];
+        stress[0] = facts.membrane_modulus(bulk, shear) * L::load(&strain[0], at);
+        stress
+    }
+
+    fn turned(state: &[Batch], [along, ..]: [f64; 6], lane: usize) -> [f64; 6] {
+        let [x, y, z] = rotated(loaded::<f64, 4>(state, FRAME, lane), [1.0, 0.0, 0.0]);
+        [x * x, y * y, z * z, x * y, y * z, z * x].map(|part| part * along)
+    }
+}
+
+/// Damping of transverse shear and torsion, by their elastic stiffness.
+#[inline(always)]
+fn damp<L: Lane>(facts: &Facts, [before, now]: [&Shape<L>; 2], damping: f64, there: L::Mask, state: &mut [Batch], at: usize) {
+    let held = besides(facts, L::load(&state[LENGTH], at));
+    let steps = [now.gamma[1] - before.gamma[1], now.gamma[2] - before.gamma[2], now.psi[0] - before.psi[0]];
+    let mut work = L::splat(0.0);
+    for k in 0..3 {
+        let old = L::load(&state[DAMPED + k], at);
+        let new = L::select(there, L::splat(damping) * held[k] * steps[k], L::splat(0.0));
+        work += L::splat(0.5) * (old + new) * steps[k];
+        new.store(&mut state[DAMPED + k], at);
+    }
+    let taken = L::load(&state[TAKEN], at);
+    L::select(there, taken + work, taken).store(&mut state[TAKEN], at);
+}
+
+/// Forces and moments of a normal and two transverse forces, and a torque and two bending moments.
+#[inline(always)]
+fn pull<L: Lane>(now: &Shape<L>, force: Vector<L>, moment: Vector<L>, pulls: &mut [Batch], at: usize) {
+    let (half, one) = (L::splat(0.5), L::splat(1.0));
+    let lever = cross(force, now.gamma);
+    let between = plus(now.spread(moment), scaled(half / now.cosine, cross(now.part, lever)));
+    let common = scaled(half, lever);
+    let force = rotated(now.frame, force);
+    let couples = [rotated(now.frame, minus(between, common)), rotated(now.frame, scaled(-one, plus(common, between)))];
+    for k in 0..3 {
+        force[k].store(&mut pulls[k], at);
+        couples[0][k].store(&mut pulls[3 + k], at);
+        (-force[k]).store(&mut pulls[6 + k], at);
+        couples[1][k].store(&mut pulls[9 + k], at);
+    }
+}
+
+/// m ω² of the head of the file, N/m; `square` is that of the present places of fibres by those of the start.
+#[inline(always)]
+fn bound<L: Lane>(
+    facts: &Facts,
+    now: &Shape<L>,
+    [force, moment]: [Vector<L>; 2],
+    [section, square, young]: [L; 3],
+    [start, inertia]: [L; 2],
+) -> L {
+    let (zero, half, one, four) = (L::splat(0.0), L::splat(0.5), L::splat(1.0), L::splat(4.0));
+    let (profile, shear) = (&facts.profile, facts.at_rest[1]);
+    let length = now.gamma[0];
+    let slide = now.gamma[1] * now.gamma[1] + now.gamma[2] * now.gamma[2];
+    let tangent = dot(now.part, now.part) / (now.cosine * now.cosine);
+    let round = L::splat(profile.inertia[0].max(profile.inertia[1]) / profile.area) * square;
+    // Stretch and slide by motion of the nodes and by their rotation, and what both have in common.
+    let (stiff, sheared) = (young * section / length, L::splat(shear * profile.shear[0].max(profile.shear[1]) * profile.area) / start);
+    let turned = (one + tangent) / inertia;
+    let along = stiff * (four + slide * turned);
+    let across = sheared * (four + (length * length + slide) * turned);
+    let apart = along - across;
+    let common = four * stiff * sheared * slide * (length * turned) * (length * turned);
+    let moved = half * (along + across + (apart * apart + common).sqrt());
+    // Bending and torsion, whose rotations move the axes the more the nodes have rotated against each other.
+    let spread = (one - tangent * arc_of_tangent(tangent)) / (now.cosine * now.cosine);
+    let twist = L::splat(shear * profile.torsion) / start;
+    let bent = four * spread * spread * (stiff * round).max(twist) / inertia;
+    let material = surface::joined([moved, bent, one.min(tangent.sqrt())], zero);
+    let (d, b) = (length * length / inertia, L::splat(2.0) * length / inertia.sqrt());
+    let root = (d * d + four * b * b).sqrt();
+    let normal = force[0].abs();
+    let taut = L::select(zero.less(force[0]), root - d, root + d);
+    let transverse = (force[1] * force[1] + force[2] * force[2]).sqrt();
+    let slide = slide.sqrt();
+    let levers = half * (normal * slide + transverse * length) + dot(moment, moment).sqrt();
+    material + (half * normal * taut + transverse * (b + d * slide / length)) / length + levers / inertia
+}
+
+/// Forces and moments in the axes of the element; nothing is its thickness.
+#[inline(always)]
+fn resultants<L: Lane>(force: Vector<L>, moment: Vector<L>) -> [L; SHELL_VALUES] {
+    let mut values = [L::splat(0.0); SHELL_VALUES];
+    values[..3].copy_from_slice(&force);
+    values[3..6].copy_from_slice(&moment);
+    values
+}

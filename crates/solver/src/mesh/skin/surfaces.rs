@@ -14,6 +14,7 @@ use crate::model::{Model, Part};
 use crate::rows::Rows;
 use crate::tensor::cross;
 use crate::vector::{dot, minus, plus, times, unit};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Cosine up to which an edge is along a plane.
 const ALONG: f64 = 1e-6;
@@ -23,6 +24,19 @@ struct Shells {
     elements: Vec<Shell>,
     corners: Rows<Corner>,
     wings: Vec<Wing>,
+}
+
+/// Edges at each node, their elements, and the normals of symmetry planes.
+struct Around<'a> {
+    planes: BTreeMap<u32, Vec<[f64; 3]>>,
+    at_nodes: Rows<u32>,
+    edges: Vec<&'a [Wing]>,
+}
+
+impl Around<'_> {
+    fn planes_at(&self, node: u32) -> &[[f64; 3]] {
+        self.planes.get(&node).map_or(&[], |planes| planes)
+    }
 }
 
 impl Mesh<3> {
@@ -82,28 +96,88 @@ impl Mesh<3> {
     /// The faces around each node of shells, ascending; joints are noted.
     fn faces_of_surfaces(&mut self, model: &Model, shells: &Shells) -> Vec<(u32, Faces)> {
         let planes = self.symmetry_normals(model);
-        let planes_at = |node: u32| planes.get(&node).map_or(&[][..], |planes| &planes[..]);
         let edges: Vec<&[Wing]> = shells.wings.chunk_by(|a, b| a.edge == b.edge).collect();
         let ends = edges.iter().zip(0..).flat_map(|(wings, number)| wings[0].edge.map(|node| (node, number)));
-        let at_nodes: Rows<u32> = Rows::new(self.positions.len(), ends);
-        let mut all = Vec::new();
-        for node in (0..self.positions.len() as u32).filter(|&node| !shells.corners.of(node as usize).is_empty()) {
-            let mut hub = Hub::new(&shells.elements, shells.corners.of(node as usize), planes_at(node));
-            for &number in at_nodes.of(node as usize) {
-                let wings = edges[number as usize];
-                let [a, b] = wings[0].edge;
-                let axis = unit(minus(self.positions[b as usize], self.positions[a as usize])).unwrap_or_default();
-                // Both ends may be on planes with the same normal, and the edge between them.
-                let is_along = |plane: &&[f64; 3]| dot(axis, **plane).abs() < ALONG && planes_at(b).contains(plane);
-                let planes = planes_at(a).iter().filter(is_along).copied().collect();
-                let count = hub.add_edge(&Edge { axis, wings, planes });
-                if count > 2 && node == a {
-                    self.joints.push(([a, b], wings.len() as u32));
+        let around = Around { planes, at_nodes: Rows::new(self.positions.len(), ends), edges };
+        let nodes = (0..self.positions.len() as u32).filter(|&node| !shells.corners.of(node as usize).is_empty());
+        let (mut all, mut rims) = (Vec::new(), BTreeSet::new());
+        for node in nodes {
+            let (hub, counts) = self.hub(shells, &around, node, shells.corners.of(node as usize));
+            for (&number, count) in around.at_nodes.of(node as usize).iter().zip(counts) {
+                let wings = around.edges[number as usize];
+                if count > 2 && node == wings[0].edge[0] {
+                    self.joints.push((wings[0].edge, wings.len() as u32));
                 }
+                rims.extend((count == 1).then_some(wings[0].edge));
             }
             all.push((node, hub.faces()));
         }
+        self.extrapolate(shells, &around, &rims, &mut all);
         all
+    }
+
+    /// What is around a node with these corners, and the number of elements and images at each of its edges.
+    fn hub<'a>(&self, shells: &'a Shells, around: &'a Around<'_>, node: u32, corners: &'a [Corner]) -> (Hub<'a>, Vec<usize>) {
+        let mut hub = Hub::new(&shells.elements, corners, around.planes_at(node));
+        let mut counts = Vec::new();
+        for &number in around.at_nodes.of(node as usize) {
+            let wings = around.edges[number as usize];
+            let [a, b] = wings[0].edge;
+            let axis = unit(minus(self.positions[b as usize], self.positions[a as usize])).unwrap_or_default();
+            // Both ends may be on planes with the same normal, and the edge between them.
+            let is_along = |plane: &&[f64; 3]| dot(axis, **plane).abs() < ALONG && around.planes_at(b).contains(plane);
+            let planes = around.planes_at(a).iter().filter(is_along).copied().collect();
+            counts.push(hub.add_edge(&Edge { axis, wings, planes }));
+        }
+        (hub, counts)
+    }
+
+    /// Directions at free rims: there a mean of normals would lean by half an element, and curved shells be
+    /// too stiff. They lean towards the node behind as much as the direction there leans away from them, which is
+    /// exact where the curvature is the same; at a corner of the sheet the direction of the node across the
+    /// element is mirrored on its normal.
+    fn extrapolate(&self, shells: &Shells, around: &Around<'_>, rims: &BTreeSet<[u32; 2]>, all: &mut [(u32, Faces)]) {
+        let on_rims: BTreeSet<u32> = rims.iter().flatten().copied().collect();
+        let known: BTreeMap<(u32, usize), [f64; 3]> = (all.iter())
+            .filter(|(node, _)| !on_rims.contains(node))
+            .flat_map(|(node, faces)| shells.corners.of(*node as usize).iter().zip(&faces.corners))
+            .map(|(at, (direction, _))| ((at.shell, at.corner), *direction))
+            .collect();
+        for (node, faces) in all.iter_mut().filter(|(node, _)| on_rims.contains(node)) {
+            let mut corners = shells.corners.of(*node as usize).to_vec();
+            let mut is_new = false;
+            for at in &mut corners {
+                let Shell { group, element, .. } = shells.elements[at.shell as usize];
+                let nodes = self.groups[group].cell(element).corners();
+                let count = nodes.len();
+                let is_rim = |other: usize| rims.contains(&[nodes[other].min(*node), nodes[other].max(*node)]);
+                let behind = match [(at.corner + 1) % count, (at.corner + count - 1) % count].map(|other| (other, is_rim(other))) {
+                    [(_, true), (other, false)] | [(other, false), (_, true)] => other,
+                    // A corner of the sheet; or a corner that no rim of its own element touches.
+                    [(_, true), (_, true)] if count == 4 => (at.corner + 2) % count,
+                    _ => continue,
+                };
+                let Some(&direction) = known.get(&(at.shell, behind)) else { continue };
+                let along = unit(minus(self.positions[nodes[behind] as usize], self.positions[*node as usize]));
+                let (Some(normal), Some(along)) = (self.normal_of(nodes), along) else { continue };
+                let is_corner = (behind + 2) % 4 == at.corner && count == 4;
+                at.normal = if is_corner {
+                    minus(times(2.0 * dot(normal, direction), normal), direction)
+                } else {
+                    unit(minus(at.normal, times(dot(direction, along), along))).unwrap_or(at.normal)
+                };
+                is_new = true;
+            }
+            if is_new {
+                *faces = self.hub(shells, around, *node, &corners).0.faces();
+            }
+        }
+    }
+
+    /// Unit normal of an element as a whole.
+    fn normal_of(&self, nodes: &[u32]) -> Option<[f64; 3]> {
+        let x = |k: usize| self.positions[nodes[k] as usize];
+        unit(if nodes.len() == 4 { cross(minus(x(2), x(0)), minus(x(3), x(1))) } else { cross(minus(x(1), x(0)), minus(x(2), x(0))) })
     }
 
     /// Adds the nodes of the faces around a node, and gives them to its elements.

@@ -366,6 +366,25 @@ fn one_row_between_two_parallel_symmetry_planes_has_no_faces_between_its_element
 }
 
 #[test]
+fn rims_of_curved_sheets_have_the_normals_of_the_surface() {
+    // Parts of a cylinder and of a sphere, whose rims are free.
+    let part = |round: bool| {
+        move |i: f64, j: f64| {
+            let ([c, s], [up, along]) = (cos_sin(0.15 * i), if round { cos_sin(0.15 * j) } else { [1.0, 0.3 * j] });
+            [up * c, up * s, along]
+        }
+    };
+    for (round, most) in [(false, 1e-12), (true, 2e-3)] {
+        let mesh = mesh(&sheet([5, 5], part(round)), &[]);
+        for (owner, arm) in mesh.skins.iter().map(|skin| (mesh.positions[skin.owner as usize], skin.arm)) {
+            let normal = if round { owner } else { [owner[0], owner[1], 0.0] };
+            let off = minus(arm, times(dot(arm, normal), normal));
+            assert!(length(off) < most * HALF, "{round} {owner:?}: {off:?}");
+        }
+    }
+}
+
+#[test]
 fn folds_on_symmetry_planes_are_those_of_the_whole() {
     let planes = |normals: &[usize]| -> Vec<(Place, Place)> {
         normals.iter().map(|&k| ([0.0; 3], std::array::from_fn(|d| if d == k { 1.0 } else { 0.0 }))).collect()

@@ -190,7 +190,7 @@ pub(super) struct Strains<'a> {
     /// Time β of the damping in proportion to the stiffness over the step; 0: none.
     damping: f64,
     /// See [`Answer::flow`].
-    flow: &'a [Batch; 2],
+    flow: &'a [Batch; 3],
     /// 1: it is there.
     live: &'a Batch,
 }
@@ -209,8 +209,8 @@ pub(super) struct Answer<L> {
     /// Energy that it stores besides in its layers, and damping took besides in these, J.
     besides: [L; 2],
     /// Part of the work of the last step that flow took, in the mean over the points and by the square of
-    /// their heights.
-    flow: [L; 2],
+    /// their heights; and the mean of their equivalent stress, Pa.
+    flow: [L; 3],
     /// See [`super::ElementState::shell`].
     resultants: [L; SHELL_VALUES],
 }
@@ -266,7 +266,7 @@ struct ShellBatch {
     damping: Batch,
     hourglass: Batch,
     besides: [Batch; 2],
-    flow: [Batch; 2],
+    flow: [Batch; 3],
     time_step_squared: Batch,
     /// See [`Answer::determinant`].
     determinant: Batch,

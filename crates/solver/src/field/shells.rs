@@ -1,6 +1,6 @@
 //! Forces, moments and thickness of shells. In 2D axis 1 is along the shell, 2 out of the plane (around the
-//! axis of an axisymmetric model). In 3D axis 1 is at the start the projection of x on the element (of z where
-//! the element is normal to x), 3 its normal; both turn with the element.
+//! axis of an axisymmetric model). In 3D axis 1 is at the start the projection of x on the element (of z
+//! where the element is normal to x), 3 its normal; both turn with the element.
 
 use super::{Cell, Components, Description, Source, of_cells};
 use crate::block::SHELL_VALUES;

@@ -106,9 +106,9 @@ impl<H: Hardening> Law for J2With<H> {
     }
 
     /// With Δε_p = Δγ s (s the new deviator) and σ₃₃ = 0: σ₁₁ + σ₂₂ is that of the elastic trial over 1 + E
-    /// Δγ/(3 (1 − ν)), σ₁₁ − σ₂₂ and the shear stresses over 1 + 2µ Δγ; the equivalent plastic strain grows by
-    /// ⅔ Δγ q. Newton's method for the Δγ of q(Δγ) = σ_y. Source: Simo and Taylor, Int. J. Numer. Meth. Engng
-    /// 22 (1986) 649-670.
+    /// Δγ/(3 (1 − ν)), σ₁₁ − σ₂₂ and the shear stresses over 1 + 2µ Δγ; the equivalent plastic strain grows
+    /// by ⅔ Δγ q. Newton's method for the Δγ of q(Δγ) = σ_y. Source: Simo and Taylor, Int. J. Numer. Meth.
+    /// Engng 22 (1986) 649-670.
     #[inline(always)]
     fn layer<L: Lane, T: SymmetricTensor<L>>(&self, strain: [L; 6], old: [L; 6], state: &mut Self::State<L, T>) -> Layer<L> {
         let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));

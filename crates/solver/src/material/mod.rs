@@ -172,8 +172,8 @@ pub trait Law: Copy + Send + Sync + 'static {
         false
     }
 
-    /// Rate: what [`Law::update`] would give with the strain across at which the stress across vanishes, where
-    /// [`Law::has_layer`]; see [`Layer`].
+    /// Rate: what [`Law::update`] would give with the strain across at which the stress across vanishes,
+    /// where [`Law::has_layer`]; see [`Layer`].
     #[inline(always)]
     fn layer<L: Lane, T: SymmetricTensor<L>>(&self, _strain: [L; 6], old: [L; 6], _state: &mut Self::State<L, T>) -> Layer<L> {
         Layer { stress: old, across: L::splat(0.0), dissipated: L::splat(0.0) }

@@ -102,8 +102,8 @@ pub trait PointLaw: Send + Sync {
     fn has_layer(&self) -> bool {
         false
     }
-    /// The same of layers without stress in the component `across` (yy or zz), whose strain it finds; the last
-    /// of the state of a point is λ across, which follows.
+    /// The same of layers without stress in the component `across` (yy or zz), whose strain it finds; the
+    /// last of the state of a point is λ across, which follows.
     fn respond_layer(&self, _level: Level, _across: usize, _points: Points<'_>) {}
 }
 

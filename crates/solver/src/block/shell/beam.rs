@@ -325,7 +325,7 @@ impl ShellKernel<3> for Beam {
             thickness: section,
             hourglass: zero,
             besides: [stored, L::load(&state[TAKEN], at)],
-            flow: [zero; 2],
+            flow: [zero; 3],
             resultants: resultants(force, moment),
         }
     }

@@ -376,7 +376,7 @@ impl ShellKernel<2> for Line {
             thickness,
             hourglass: zero,
             besides: [zero; 2],
-            flow: [zero; 2],
+            flow: [zero; 3],
             resultants: resultants(facts, &now, [normal, hoop, moment, hoop_moment, transverse], thickness),
         }
     }

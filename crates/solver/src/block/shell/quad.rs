@@ -17,10 +17,11 @@
 //! ```
 //!
 //! that is the assumed strain of Belytschko and Bindeman (1991) in plane stress for the membrane and for
-//! bending, and what MITC4 has beside its mean. As the layers flow so do the amplitudes: of a step that
-//! drives one further against its force the part that flow took of the layers' work (the mean for m, by the
-//! square of the height for b) is no longer held. The work of the held and of the flown part is the energy of
-//! hourglass control.
+//! bending, and what MITC4 has beside its mean. Where the layers flow, m and b flow as well: what leads
+//! beyond 0.4 of their stress (the quadratic mean over the element) is no longer held, by the part that flow
+//! took of the layers' last work (its mean for m, by the square of the height for b). Less would let patterns
+//! of hourglass grow in hinges, an elastic stabilisation makes these too stiff. What is held and what has
+//! flowed is the energy of hourglass control.
 //!
 //! Forces are the gradient of the energy by x_a, moments m_a = −d_a × ∂W/∂d_a: momentum and angular momentum
 //! are kept to round-off, a rigid motion of any size is no strain, renumbering changes nothing. Nothing holds
@@ -45,6 +46,9 @@ const XI: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
 const ETA: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
 const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
+/// Stress that the stabilisation may have where the layers flow, in the quadratic mean over the element, over
+/// theirs.
+const STRENGTH: f64 = 0.4;
 /// See [`surface::arc`].
 const ARC: f64 = 3.0;
 
@@ -180,24 +184,30 @@ impl Quad {
         Kind { area: Self::AREA, shear: L::splat(SHEAR.sqrt()) }
     }
 
-    /// Lets amplitudes flow on their way to `new`, as the layers have done: see the head of the file.
+    /// Goes to the `new` amplitudes, and lets what is held of them flow as far as the layers have done:
+    /// `part` of what leads beyond the energy `most` (J). The work of that.
     #[inline(always)]
-    fn flow<L: Lane>(state: &mut [Batch], stiffness: &Matrix<L, 2>, which: usize, new: [L; 2], part: L, there: L::Mask, at: usize) -> L {
+    fn flow<L: Lane>(
+        state: &mut [Batch],
+        stiffness: &Matrix<L, 2>,
+        which: usize,
+        new: [L; 2],
+        [part, most]: [L; 2],
+        there: L::Mask,
+        at: usize,
+    ) -> L {
         let (half, zero, one) = (L::splat(0.5), L::splat(0.0), L::splat(1.0));
         let old = loaded::<L, 2>(state, AMPLITUDES + 2 * which, at);
         let gone = loaded::<L, 2>(state, FLOWN + 2 * which, at);
-        let (step, held) = (minus(new, old), minus(old, gone));
-        let force = times(stiffness, held);
-        let part = L::select(zero.less(both(force, step)), part, zero);
-        let more = [part * step[0], part * step[1]];
-        let kept = [(one - part) * step[0], (one - part) * step[1]];
-        let after = plus(force, times(stiffness, kept));
-        let lost = half * both(plus(force, after), more);
+        let held = minus(new, gone);
+        let energy = half * both(times(stiffness, held), held);
+        let kept = L::select(most.less(energy), (most / energy).sqrt(), one);
+        let flows = part * (one - kept);
         for k in 0..2 {
             L::select(there, new[k], old[k]).store(&mut state[AMPLITUDES + 2 * which + k], at);
-            L::select(there, gone[k] + more[k], gone[k]).store(&mut state[FLOWN + 2 * which + k], at);
+            L::select(there, gone[k] + flows * held[k], gone[k]).store(&mut state[FLOWN + 2 * which + k], at);
         }
-        L::select(there, lost, zero)
+        L::select(there, flows * (one + one - flows) * energy, zero)
     }
 }
 
@@ -261,10 +271,15 @@ impl ShellKernel<3> for Quad {
         let now = form.measures(&frame);
         now.replace(there, state, NOW, at);
         surface::strain(facts, Self::kind(), [&begin, &before, &now], strains, at);
-        let held = Held::new(facts, &begin, L::load(strains.thickness[1], at));
+        let thickness = L::load(strains.thickness[1], at);
+        let held = Held::new(facts, &begin, thickness);
         let [warp, twist] = form.warped(loaded(state, SKEW, at));
-        let lost = Self::flow(state, &held.membrane, 0, frame.seen(warp), L::load(&strains.flow[0], at), there, at)
-            + Self::flow(state, &held.bending, 1, frame.seen(twist), L::load(&strains.flow[1], at), there, at);
+        let [mean, bending, stress] = loaded::<L, 3>(strains.flow, 0, at);
+        let [young, _] = facts.elastic();
+        let volume = thickness * L::splat(Self::AREA) * Dim::<2>::determinant(&begin.map);
+        let most = L::splat(STRENGTH * STRENGTH / (2.0 * young)) * stress * stress * volume;
+        let lost = Self::flow(state, &held.membrane, 0, frame.seen(warp), [mean, most], there, at)
+            + Self::flow(state, &held.bending, 1, frame.seen(twist), [bending, most], there, at);
         (L::load(&state[LOST], at) + lost).store(&mut state[LOST], at);
     }
 

@@ -7,7 +7,7 @@
 //! start ê₁ is the projection of x on the shell (of z where x is normal to it).
 //!
 //! ```text
-//! layer at z: F = G + z D,   G_iα = ê_i·g_α,   D_iα = w ê_i·d_α;   its area is |F| times that of the natural axes
+//! layer at z: F = G + z D,   G_iα = ê_i·g_α,   D_iα = w ê_i·d_α;   |F| its area
 //! rate: Δε and the turn in the plane from F_old and F_new as in 2D (Hughes and Winget 1980)
 //! transverse: 2 Δε_i3 = √k Σ_α Δs_α (G⁻¹)_αi at mid-step,   k = 5/6
 //! hyperelastic: [F F₀⁻¹, 0; γ, λ] with γ_i = √k Σ_α (s_α − s_α,0) (G₀⁻¹)_αi
@@ -202,10 +202,11 @@ pub(super) fn turn_at_start(g: &[[f64; 3]; 2], director: [f64; 3]) -> [f64; 2] {
 /// How far the barrier of [`arc`] reaches.
 const BARRIER: f64 = 0.02;
 
-/// What makes of the chord d_α between directors the arc between them, and its derivative by the size c of the
-/// mean director: w = n/(n − 1 + c) + ε (1 − c²)/c. With n = 3 it is 3 sin x/(2 + cos x), x but for x⁵/180, for
-/// directors at ±x (n = 2: the same of triangles): chords alone would let a hinge become the softer the
-/// more it has turned. The second term keeps an element from folding over (1 % at x = 45°, 5 % at 75°).
+/// What makes of the chord d_α between directors the arc between them, and its derivative by the size c of
+/// the mean director: w = n/(n − 1 + c) + ε (1 − c²)/c. With n = 3 it is 3 sin x/(2 + cos x), x but for
+/// x⁵/180, for directors at ±x (n = 2: the same of triangles): chords alone would let a hinge become the
+/// softer the more it has turned. The second term keeps an element from folding over (1 % at x = 45°, 5 % at
+/// 75°).
 #[inline(always)]
 pub(super) fn arc<L: Lane>(c: L, n: f64) -> [L; 2] {
     let (one, barrier) = (L::splat(1.0), L::splat(BARRIER));
@@ -321,8 +322,8 @@ pub(super) struct Flux<L> {
     pub(super) thickness: L,
     /// Least area of a layer over that of the middle, and of the middle over that at the start.
     pub(super) determinant: L,
-    /// Part of the last step's work that flow took: in the mean, and by the square of the height.
-    pub(super) flow: [L; 2],
+    /// See [`super::Answer::flow`].
+    pub(super) flow: [L; 3],
     /// See [`super::Answer::resultants`].
     pub(super) resultants: [L; SHELL_VALUES],
 }
@@ -351,7 +352,7 @@ pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measur
         moduli: [zero; 2],
         thickness,
         determinant: area / Dim::<2>::determinant(&begin.map),
-        flow: [zero; 2],
+        flow: [zero; 3],
         resultants: [zero; SHELL_VALUES],
     };
     let (mut sheared, mut squares) = ([zero; 2], 0.0);
@@ -393,6 +394,8 @@ pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measur
             let part = L::select(zero.less(work), (lost / work).min(one).max(zero), zero);
             to.flow[0] += L::splat(weight) * part;
             to.flow[1] += L::splat(weight * height * height) * part;
+            let square = xx * xx + yy * yy - xx * yy + L::splat(3.0) * (xy * xy + yz * yz + zx * zx);
+            to.flow[2] += L::splat(weight) * square.sqrt();
             squares += weight * height * height;
         }
     }

@@ -249,7 +249,7 @@ impl ShellKernel<3> for Triangle {
             thickness: to.thickness,
             hourglass: L::splat(0.0),
             besides: [L::splat(0.0); 2],
-            flow: [L::splat(0.0); 2],
+            flow: [L::splat(0.0); 3],
             resultants: to.resultants,
         }
     }

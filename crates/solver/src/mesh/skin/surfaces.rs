@@ -133,9 +133,9 @@ impl Mesh<3> {
     }
 
     /// Directions at free rims: there a mean of normals would lean by half an element, and curved shells be
-    /// too stiff. They lean towards the node behind as much as the direction there leans away from them, which is
-    /// exact where the curvature is the same; at a corner of the sheet the direction of the node across the
-    /// element is mirrored on its normal.
+    /// too stiff. They lean towards the node behind as much as the direction there leans away from them,
+    /// which is exact where the curvature is the same; at a corner of the sheet the direction of the node
+    /// across the element is mirrored on its normal.
     fn extrapolate(&self, shells: &Shells, around: &Around<'_>, rims: &BTreeSet<[u32; 2]>, all: &mut [(u32, Faces)]) {
         let on_rims: BTreeSet<u32> = rims.iter().flatten().copied().collect();
         let known: BTreeMap<(u32, usize), [f64; 3]> = (all.iter())

@@ -204,7 +204,7 @@ mod tests {
     #[test]
     fn torsion_and_shear_of_known_sections_are_found() {
         // Timoshenko and Goodier: 0.1406 of a square, 0.229 of 1 to 2, 0.312 of 1 to 10.
-        for (ratio, part) in [(1.0, 0.140_577), (2.0, 0.228_682), (10.0, 0.312_328)] {
+        for (ratio, part) in [(1.0, 0.140_577), (2.0, 0.228_682), (10.0, 0.312_325)] {
             assert!(
                 (torsion_of_rectangle(ratio, 1.0) / ratio - part).abs() < 1e-6,
                 "{ratio}: {}",

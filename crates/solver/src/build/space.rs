@@ -11,6 +11,8 @@ impl Builder<'_, 3> {
     pub(crate) fn rigid_part_in_3d(&self, index: usize, motion: &Motion, own: &[(u32, f64)]) -> Body<3> {
         let (part, positions) = (&self.model.parts[index], &self.mesh.positions);
         // The whole mass of the nodes: that of other parts at common nodes belongs to the body.
+        let nodes: Vec<u32> = own.iter().map(|&(node, _)| node).collect();
+        let faces = self.mesh.faces_of(&nodes);
         let whole: Vec<(u32, f64)> = own.iter().map(|&(node, _)| (node, self.mass[node as usize])).collect();
         let bulk = Bulk::of(&whole, positions);
         let drives = self.drives_in_3d(motion);
@@ -22,7 +24,13 @@ impl Builder<'_, 3> {
             turning: Turning::of_masses(whole.iter().map(|&(node, mass)| (mass, bulk.arm(positions[node as usize])))),
             drives,
             of_elements: true,
-            members: self.mesh.parts[index].nodes.iter().map(|&node| Member { node, arm: bulk.arm(positions[node as usize]) }).collect(),
+            members: self.mesh.parts[index]
+                .nodes
+                .iter()
+                .copied()
+                .chain(faces)
+                .map(|node| Member { node, arm: bulk.arm(positions[node as usize]) })
+                .collect(),
             shared: own.iter().filter(|&&(node, share)| self.mass[node as usize] != share).map(|&(node, _)| node).collect(),
             ..Body::default()
         }

@@ -68,6 +68,7 @@ mod segment_in_3d;
 mod self_contact;
 mod shell_models;
 mod shell_benchmarks;
+mod sheet_models;
 mod shells;
 mod shells_in_space;
 mod shocks;

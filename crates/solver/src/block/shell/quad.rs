@@ -199,15 +199,18 @@ impl Quad {
         let (half, zero, one) = (L::splat(0.5), L::splat(0.0), L::splat(1.0));
         let old = loaded::<L, 2>(state, AMPLITUDES + 2 * which, at);
         let gone = loaded::<L, 2>(state, FLOWN + 2 * which, at);
-        let held = minus(new, gone);
-        let energy = half * both(times(stiffness, held), held);
+        let (held, before) = (minus(new, gone), minus(old, gone));
+        let force = times(stiffness, held);
+        let energy = half * both(force, held);
         let kept = L::select(most.less(energy), (most / energy).sqrt(), one);
         let flows = part * (one - kept);
         for k in 0..2 {
             L::select(there, new[k], old[k]).store(&mut state[AMPLITUDES + 2 * which + k], at);
             L::select(there, gone[k] + flows * held[k], gone[k]).store(&mut state[FLOWN + 2 * which + k], at);
         }
-        L::select(there, flows * (one + one - flows) * energy, zero)
+        // The mean of the forces before and after does the work.
+        let before = both(times(stiffness, before), held);
+        L::select(there, half * flows * (before + (one - flows) * both(force, held)), zero)
     }
 }
 

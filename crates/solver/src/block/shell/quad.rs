@@ -21,7 +21,7 @@
 //! beyond 0.4 of their stress (the quadratic mean over the element) is no longer held, by the part that flow
 //! took of the layers' last work (its mean for m, by the square of the height for b). Less would let patterns
 //! of hourglass grow in hinges, an elastic stabilisation makes these too stiff. What is held and what has
-//! flowed is the energy of hourglass control.
+//! flowed is the energy of hourglass control; the third term, a part of MITC4, is stored.
 //!
 //! Forces are the gradient of the energy by x_a, moments m_a = −d_a × ∂W/∂d_a: momentum and angular momentum
 //! are kept to round-off, a rigid motion of any size is no strain, renumbering changes nothing. Nothing holds
@@ -304,7 +304,7 @@ impl ShellKernel<3> for Quad {
         let (sheared, start) = (form.sheared(), loaded::<L, 2>(state, SHEARED, at));
         let change = minus(sheared, start);
         let a = [held.shear[0] * change[0], held.shear[1] * change[1]];
-        let hourglass = half * (both(w, m) + both(u, b) + both(a, change)) + L::load(&state[LOST], at);
+        let hourglass = half * (both(w, m) + both(u, b)) + L::load(&state[LOST], at);
         pull(&form, &frame, &to, skew, [w, u, a], pulls, at);
         let stiffness = bounds(facts, &form, [&begin, &now], skew, [initial, to.thickness], to.moduli, inertia, to.volume);
         let inverse = now.inverse();
@@ -315,7 +315,7 @@ impl ShellKernel<3> for Quad {
             determinant: to.determinant,
             thickness: to.thickness,
             hourglass,
-            besides: [L::splat(0.0); 2],
+            besides: [half * both(a, change), L::splat(0.0)],
             flow: to.flow,
             resultants: to.resultants,
         }

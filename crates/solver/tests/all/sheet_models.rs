@@ -42,7 +42,7 @@ fn all_touch(model: &mut Model, friction: f64) {
 fn crash(end: f64, elements: usize) -> Model {
     let mut model = steel(end, 300e6);
     sheet(&mut model, "lower", square(0.1, elements), 0.002, [0.0; 3], [0.0; 3]);
-    sheet(&mut model, "upper", square(0.06, elements), 0.001, [0.01, 0.005, 0.006], [30.0, 0.0, -60.0]);
+    sheet(&mut model, "upper", square(0.06, elements), 0.001, [0.01, 0.005, 0.008], [30.0, 0.0, -60.0]);
     let turned = &mut model.parts[1].placement;
     (turned.rotation, turned.rotation_axis) = (0.1, [1.0, 0.3, 0.5]);
     let pipe = Cylinder {
@@ -53,7 +53,7 @@ fn crash(end: f64, elements: usize) -> Model {
         elements: [4, elements],
         ..Cylinder::default()
     };
-    sheet(&mut model, "pipe", pipe, 0.001, [0.0, 0.0, -0.015], [0.0, 10.0, 50.0]);
+    sheet(&mut model, "pipe", pipe, 0.001, [0.0, 0.0, -0.022], [0.0, 10.0, 80.0]);
     all_touch(&mut model, 0.3);
     model
 }

@@ -186,19 +186,12 @@ fn cylinder(element: &str, n: usize, smooth: bool) -> f64 {
     -cylinder.displacement(0, n, 2) / 1.8248e-5
 }
 
-/// `tilted`: directors at free rims are the normals of the elements there.
-fn hemisphere(element: &str, n: usize, tilted: bool) -> f64 {
+/// With directors that lean by half an element at its free rims it would lock: 0.08 with n = 4.
+fn hemisphere(element: &str, n: usize) -> f64 {
     let mut shell = Problem::new(element, [n, n], &elastic(6.825e7, 0.3), 0.04, true, |u, v| {
         let ((sin, cos), (up, out)) = ((FRAC_PI_2 * u).sin_cos(), (72.0f64.to_radians() * v).sin_cos());
-        let tilt = if tilted && v == 0.0 {
-            36.0 / n as f64
-        } else if tilted && v == 1.0 {
-            -36.0 / n as f64
-        } else {
-            0.0
-        };
-        let (rise, reach) = (72.0f64.to_radians() * v + tilt.to_radians()).sin_cos();
-        [[out * cos, out * sin, up].map(|x| 10.0 * x), [reach * cos, reach * sin, rise]]
+        let normal = [out * cos, out * sin, up];
+        [normal.map(|x| 10.0 * x), normal]
     });
     shell.hold(|i, _| i == 0, &[1, 3, 5]);
     shell.hold(|i, _| i == n, &[0, 4, 5]);
@@ -260,10 +253,7 @@ fn roofs_cylinders_and_hemispheres_bend_as_in_the_literature() {
     }
     // With the normals of the surface itself, as symmetry planes give them, they are as near.
     is_near("roof, its normals", roof("shell4", 12, true), 1.0, 0.012);
-    is_near("hemisphere, its normals", hemisphere("shell4", 12, false), 0.994, 0.01);
-    for (n, expected) in [(4, 0.816), (8, 0.995)] {
-        is_near("hemisphere", hemisphere("shell4", n, true), expected, 0.01);
-    }
+    is_near("hemisphere, its normals", hemisphere("shell4", 12), 0.994, 0.01);
     is_near("roof, shell3", roof("shell3", 8, false), 0.853, 0.02);
     is_near("pinched cylinder, shell3", cylinder("shell3", 8, false), 0.737, 0.02);
 }

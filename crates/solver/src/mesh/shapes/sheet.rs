@@ -326,7 +326,7 @@ mod tests {
         let mut flat = folded();
         flat.positions.iter_mut().for_each(|x| x[2] = 0.0);
         assert_eq!(model("flat", flat.clone()).dimension(), 3);
-        assert_eq!(Mesh::<3>::new(&model("flat", flat.clone())).unwrap().positions.len(), 4);
+        assert_eq!(Mesh::<3>::new(&model("flat", flat.clone())).unwrap().first_skin_node(), 4);
         let bad = Mesh::<3>::new(&model("all", flat)).unwrap_err();
         assert!(bad.len() == 2 && bad.iter().all(|fault| fault.message.contains("is degenerate")), "{bad:?}");
         assert!(faults(&model("edge", folded())).iter().any(|fault| fault.contains("E0206") && fault.contains("not of surfaces")));

@@ -164,7 +164,8 @@ impl Mesh<3> {
                 at.normal = if is_corner {
                     minus(times(2.0 * dot(normal, direction), normal), direction)
                 } else {
-                    unit(minus(at.normal, times(dot(direction, along), along))).unwrap_or(at.normal)
+                    let lean = dot(direction, along);
+                    unit(minus(times((1.0 - lean * lean).sqrt(), at.normal), times(lean, along))).unwrap_or(at.normal)
                 };
                 is_new = true;
             }

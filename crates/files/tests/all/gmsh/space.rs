@@ -355,7 +355,7 @@ fn a_group_of_surfaces_is_a_shell_in_space_beside_solids_or_alone() {
     let alone = format!("run.end = 1\n[material.steel]\nlaw = \"elastic\"\ndensity = 1\nyoung = 1\npoisson = 0\n{part}");
     let model = load_text("m", &alone, folder.path(), &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
     let mesh = Mesh::<3>::new(&model).unwrap_or_else(|faults| panic!("{faults:#?}"));
-    assert_eq!((mesh.positions.len(), mesh.groups.len(), mesh.nodes("ridge").map(|nodes| nodes.len())), (5, 2, Some(2)));
+    assert_eq!((mesh.first_skin_node(), mesh.groups.len(), mesh.nodes("ridge").map(|nodes| nodes.len())), (5, 2, Some(2)));
     assert!(mesh.positions.iter().any(|x| x[2] == 2.0));
     let [a, b, c] = [0, 1, 2].map(|k| mesh.positions[mesh.groups[0].nodes_of(0)[k] as usize]);
     assert!((b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0]), "clockwise seen along z");

@@ -27,9 +27,16 @@
 //! are kept to round-off, a rigid motion of any size is no strain, renumbering changes nothing. Nothing holds
 //! the spin about d_a, and nothing drives it.
 //!
-//! *Step*, with Λ the larger eigenvalue and T the trace of ¼ G⁻ᵀ G⁻¹, C = E/(1 − ν²), s = 2 µ/C and the mass
-//! m in quarters at the corners: membrane m ω² = 4 C V/t… see [`bound`]. α is chosen such that the membrane
-//! decides.
+//! *Step*, with the mass m in quarters at the corners, the volume V, C = E/(1 − ν²), s = 2 µ/C, trace T and
+//! larger eigenvalue Λ of the metric g^αβ, and λ for the largest eigenvalue of a matrix:
+//!
+//! ```text
+//! in the plane  a = C V (max(1 − s, 0) T + s Λ) + (1 + p₁² + p₂²) λ(t E K)
+//! across        p = max(k µ V λ(g S), bending) + λ(k µ t (A/3) g^αα A),   bending a t²/(12 α)
+//! ```
+//!
+//! S and A are the Gram matrices of s and of a in the norm of the mass. Both together as in
+//! [`surface::joined`]; α is chosen such that a decides at the start.
 
 use super::surface::{
     self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, rotated, scaled, times,

@@ -255,7 +255,8 @@ fn roofs_cylinders_and_hemispheres_bend_as_in_the_literature() {
     is_near("roof, its normals", roof("shell4", 12, true), 1.0, 0.012);
     is_near("hemisphere, its normals", hemisphere("shell4", 12), 0.994, 0.01);
     is_near("roof, shell3", roof("shell3", 8, false), 0.853, 0.02);
-    // Triangles of constant strain come from below: 0.737 with mean directions (a prototype), less of it with the normals.
+    // Triangles of constant strain come from below: 0.737 with mean directions (a prototype), less of it with
+    // the normals.
     is_near("pinched cylinder, shell3", cylinder("shell3", 8, true), 1.0, 0.12);
 }
 

@@ -51,6 +51,14 @@ impl Results {
         assert!(self.figure("ledger_residual") < 1e-10 && self.figure("energy_drift") < drift, "{}", self.summary);
     }
 
+    /// Both momenta are what they were, to round-off.
+    fn keeps_momenta(&self) {
+        for direction in ["linear", "angular"] {
+            let drift = self.summary["momentum_drift"][direction].as_f64().unwrap();
+            assert!(drift < 1e-12, "{direction}: {drift}");
+        }
+    }
+
     /// Time and value of the rows where `is` holds for the column's value.
     fn rows_where(&self, name: &str, is: impl Fn(f64) -> bool) -> Vec<(f64, f64)> {
         self.column("time").into_iter().zip(self.column(name)).filter(|(_, value)| is(*value)).collect()
@@ -376,10 +384,7 @@ fn tubes_that_cross_dent_each_other_alike() {
         is_near(lower / upper, 1.0, 1e-9);
         let plastic = results.column("energy.plastic").last().unwrap() / results.column("energy.kinetic")[0];
         assert!((0.8..=1.0).contains(&plastic), "{plastic}");
-        for direction in ["linear", "angular"] {
-            let drift = results.summary["momentum_drift"][direction].as_f64().unwrap();
-            assert!(drift < 1e-12, "{direction}: {drift}");
-        }
+        results.keeps_momenta();
     }
 }
 
@@ -429,10 +434,7 @@ fn a_projectile_takes_a_row_of_plates_along_and_none_lets_it_through() {
     let results = run("thin-plates", "example-thin-plates");
     results.is_sound(1e-3);
     is_near(*results.column("disk.vx").last().unwrap(), 106.3, 0.03 * 106.3);
-    for direction in ["linear", "angular"] {
-        let drift = results.summary["momentum_drift"][direction].as_f64().unwrap();
-        assert!(drift < 1e-12, "{direction}: {drift}");
-    }
+    results.keeps_momenta();
 }
 
 #[test]
@@ -561,10 +563,7 @@ fn a_bullet_tears_a_plate_and_flies_on_behind_a_cap() {
 fn an_explosive_gives_a_ring_the_velocity_of_gurney() {
     let results = run("explosive-ring", "example-explosive-ring");
     results.is_sound(1e-3);
-    for direction in ["linear", "angular"] {
-        let drift = results.summary["momentum_drift"][direction].as_f64().unwrap();
-        assert!(drift < 1e-12, "{direction}: {drift}");
-    }
+    results.keeps_momenta();
     // The energy of the gases on their isentrope goes to a ring of constant area and to gases with u ~ r; see
     // the README.
     let (inner, outer, density, charge) = (0.020_f64, 0.025_f64, 8960.0, 1630.0 * PI * 0.020 * 0.020);

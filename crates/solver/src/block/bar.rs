@@ -17,7 +17,7 @@ use super::{Block, ElementState, Motion, NodalForces, Report};
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::failure::{Criterion, Seen, failing};
 use crate::material::points::{self, PointLaw, Points, RESPONSE, Scratch};
-use crate::material::{Family, Parameters, Variable};
+use crate::material::{Family, Parameters, Variable, young_and_poisson};
 use crate::tensor::{Dim, Plane, Space, SymmetricTensor, Turn};
 use crate::vector::{dot, minus};
 use embate_lanes::{BATCH, Batch, Level, Team};
@@ -262,7 +262,7 @@ where
             // Per volume, times the ratio of cross-sections already.
             let response: [f64; RESPONSE] = std::array::from_fn(|k| self.response[element / BATCH * RESPONSE + k].0[element % BATCH]);
             let [stored, dissipated, bulk, shear] = response;
-            let young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+            let [young, _] = young_and_poisson([bulk, shear]);
             let strain = bar.strain();
             let damped = if motion.time_step > 0.0 { self.damping * young * strain / motion.time_step } else { 0.0 };
             let force = if bar.is_gone { 0.0 } else { (stress + damped) * area };

@@ -10,6 +10,7 @@ use super::batch::element_of;
 use super::make::BlockInput;
 use super::store::ElementStore;
 use super::{Block, evaluate_at_rest};
+use crate::material::young_and_poisson;
 use crate::model::Material;
 use crate::tensor::{Dim, Space};
 use embate_lanes::{BATCH, Level};
@@ -95,8 +96,7 @@ where
     Dim<D>: Space<D>,
 {
     fn made(&self, input: &ElasticInput<'_, D>, level: Level) -> Option<Box<dyn Block<D>>> {
-        let [bulk, shear] = self.law.stiffness();
-        let (young, poisson) = (9.0 * bulk * shear / (3.0 * bulk + shear), (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear));
+        let [young, poisson] = young_and_poisson(self.law.stiffness());
         let parameters = [("density", self.density), ("young", young), ("poisson", poisson)];
         let material = Material {
             law: "elastic".into(),

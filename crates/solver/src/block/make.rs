@@ -95,14 +95,11 @@ impl Blocks<2> for Dim<2> {
 
 impl Blocks<3> for Dim<3> {
     fn make(input: &BlockInput<'_, 3>) -> Option<Box<dyn Block<3>>> {
-        let shells = || Some((points::layer_in_3d(input.material)?, [false; 2]));
         if input.element == SHELL4.name {
-            let (law, state) = shells()?;
-            return Some(Box::new(Shells::<Quad, 3>::new(input, law, state)?));
+            return Some(Box::new(Shells::<Quad, 3>::new(input, points::layer_in_3d(input.material)?, [false; 2])?));
         }
         if input.element == SHELL3.name {
-            let (law, state) = shells()?;
-            return Some(Box::new(Shells::<Triangle, 3>::new(input, law, state)?));
+            return Some(Box::new(Shells::<Triangle, 3>::new(input, points::layer_in_3d(input.material)?, [false; 2])?));
         }
         if input.element == BEAM2.name {
             return Some(Box::new(Shells::<Beam, 3>::of_beams(input, points::uniaxial(input.material)?)?));

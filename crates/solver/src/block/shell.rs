@@ -34,7 +34,7 @@ use super::make::BlockInput;
 use super::{Motion, Report, SHELL_VALUES};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::material::points::{PointLaw, Scratch};
-use crate::material::{Family, Parameters};
+use crate::material::{Family, Parameters, young_and_poisson};
 use crate::rotations::Rotations;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use embate_lanes::{BATCH, Batch, Lane};
@@ -120,9 +120,7 @@ impl Facts {
     /// E, Pa, and ν at rest.
     #[inline(always)]
     fn elastic(&self) -> [f64; 2] {
-        let [bulk, shear] = self.at_rest;
-        let both = 3.0 * bulk + shear;
-        [9.0 * bulk * shear / both, (1.5 * bulk - shear) / both]
+        young_and_poisson(self.at_rest)
     }
 
     /// λ across of a point, and its product with that out of the plane, from its history.
@@ -164,6 +162,17 @@ pub(super) struct Layers<'a> {
 }
 
 impl Layers<'_> {
+    /// Present thickness, m.
+    #[inline(always)]
+    fn thickness_now<L: Lane>(&self, facts: &Facts, at: usize) -> L {
+        let mut sum = L::splat(0.0);
+        for (p, &weight) in facts.section.weights.iter().enumerate() {
+            let [across, _] = facts.stretches::<L>(&self.history[p * facts.width..][..facts.width], at);
+            sum += L::splat(weight) * across;
+        }
+        L::load(self.thickness, at) * sum
+    }
+
     /// Stress of a point with that of the damping, components of the dimension.
     #[inline(always)]
     fn stress_of<T: SymmetricTensor<L>, L: Lane>(&self, point: usize, at: usize) -> T {
@@ -236,8 +245,8 @@ where
     /// Directions of the nodes of each element (its tangents; in 3D its normals), which are common to the
     /// elements around a node as far as these differ by less than an angle with the cosine `fold`.
     fn directions(connectivity: &[u32], positions: &[[f64; D]], fold: f64) -> Vec<[f64; D]>;
-    /// An element at the start; `stiffness`: K and µ, Pa.
-    fn start(facts: &Facts, positions: &[[f64; D]], directions: &[[f64; D]], thickness: f64, stiffness: [f64; 2]) -> Start;
+    /// An element at the start.
+    fn start(facts: &Facts, positions: &[[f64; D]], directions: &[[f64; D]], thickness: f64) -> Start;
     /// Gathers the motion of a node.
     fn gather(node: usize, place: usize, motion: &Motion<'_, D>, to: &mut [Batch], lane: usize);
     /// Strains the layers, and keeps what forces need.
@@ -403,7 +412,7 @@ where
             let (batch, lane) = (element / BATCH, element % BATCH);
             let positions: Vec<[f64; D]> = nodes.iter().map(|&node| input.positions[node as usize]).collect();
             let own = &directions[element * K::NODES..][..K::NODES];
-            let start = K::start(&self.facts, &positions, own, thickness, self.law.stiffness());
+            let start = K::start(&self.facts, &positions, own, thickness);
             let state = &mut self.state[batch * K::STATE..][..K::STATE];
             state.iter_mut().zip(&start.state).for_each(|(batch, &value)| batch.0[lane] = value);
             let masses = start.areas.iter().map(|area| density * thickness * area);

@@ -11,7 +11,10 @@
 
 use super::hardening::{Flow, Hardening, Linear, Ludwik, Rate, StoredFlow, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
-use super::{Family, History, Kinematics, Law, LawKind, Layer, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable};
+use super::{
+    Family, History, Kinematics, Law, LawKind, Layer, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable,
+    young_and_poisson,
+};
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
 
@@ -112,8 +115,7 @@ impl<H: Hardening> Law for J2With<H> {
     #[inline(always)]
     fn layer<L: Lane, T: SymmetricTensor<L>>(&self, strain: [L; 6], old: [L; 6], state: &mut Self::State<L, T>) -> Layer<L> {
         let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
-        let both = 3.0 * self.bulk + self.shear;
-        let (young, poisson) = (9.0 * self.bulk * self.shear / both, (1.5 * self.bulk - self.shear) / both);
+        let [young, poisson] = young_and_poisson([self.bulk, self.shear]);
         let twice = L::splat(2.0 * self.shear);
         let sum = old[0] + old[1] + L::splat(young / (1.0 - poisson)) * (strain[0] + strain[1]);
         let difference = old[0] - old[1] + twice * (strain[0] - strain[1]);

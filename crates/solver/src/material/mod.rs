@@ -18,6 +18,7 @@ mod stress_constrained;
 pub mod variable;
 
 pub use j2::J2With;
+pub(crate) use parameters::young_and_poisson;
 pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};
 pub use softening::Softening;
 pub use state::{Orientation, State, Tensors};

@@ -76,3 +76,10 @@ pub fn bulk_and_shear(parameters: &Parameters<'_>) -> [f64; 2] {
     let (young, poisson) = (parameters.value("young"), parameters.value("poisson"));
     [young / (3.0 * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson))]
 }
+
+/// The other way: E = 9 K µ/(3 K + µ) and ν = (3 K − 2 µ)/(2 (3 K + µ)).
+#[inline(always)]
+#[must_use]
+pub(crate) fn young_and_poisson([bulk, shear]: [f64; 2]) -> [f64; 2] {
+    [9.0 * bulk * shear / (3.0 * bulk + shear), (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))]
+}

@@ -12,7 +12,7 @@
 //! Journal of the Mechanics and Physics of Solids 6 (1958) 236-249; de Borst et al., Non-linear Finite
 //! Element Analysis of Solids and Structures (2012).
 
-use super::ParameterFault;
+use super::{ParameterFault, young_and_poisson};
 use crate::material::messages::SOFTENS_TOO_STEEPLY;
 
 /// Largest fall over that at which stress has no answer to strain any more.
@@ -39,14 +39,14 @@ impl Softening {
     /// Of a law after von Mises with the moduli K and µ.
     #[must_use]
     pub(super) fn von_mises(name: &'static str, slope: f64, gone_at: Option<f64>, [bulk, shear]: [f64; 2]) -> Self {
-        let (young, poisson) = elastic(bulk, shear);
+        let [young, poisson] = young_and_poisson([bulk, shear]);
         Self { name, slope, gone_at, solid: 3.0 * shear, plate: young / (2.0 * (1.0 - poisson)), bar: young }
     }
 
     /// Of a foam with α² and c.
     #[must_use]
     pub(super) fn foam(name: &'static str, slope: f64, [bulk, shear]: [f64; 2], square: f64, scale: f64) -> Self {
-        let (young, poisson) = elastic(bulk, shear);
+        let [young, poisson] = young_and_poisson([bulk, shear]);
         let solid = (3.0 * shear).min(bulk * square) / scale;
         let plate = (young * (0.5 + 2.0 * square / 9.0) / (1.0 - poisson)).min(3.0 * shear) / scale;
         Self { name, slope, gone_at: None, solid, plate, bar: young }
@@ -77,9 +77,4 @@ impl Softening {
         };
         it.filter(|it| it.is_too_steep(it.solid)).map(fault).into_iter().collect()
     }
-}
-
-/// Young's modulus and Poisson's ratio.
-fn elastic(bulk: f64, shear: f64) -> (f64, f64) {
-    (9.0 * bulk * shear / (3.0 * bulk + shear), (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear)))
 }

@@ -3,30 +3,20 @@
 
 use crate::bodies::*;
 use crate::patches::{Spread, YOUNG, eigenvalues, material, solids};
-use embate_lanes::{Level, Team};
-use embate_solver::block::{Block, BlockInput, Motion, NodalForces, Report, evaluate_at_rest, make};
+use crate::shells_in_space::{Driven, unit};
+use crate::solids::{Vector, cross};
+use embate_solver::block::BlockInput;
 use embate_solver::material::bears_uniaxial_stress;
 use embate_solver::model::{
     Constraint, Curve, CurveShape, Load, Material, Model, Part, Probe, ProbeAt, Profile, Shape, SpaceTruss, StableStep,
 };
 use embate_solver::rigid::space::Attitude;
-use embate_solver::rotations::Rotations;
 use embate_solver::simulation::Simulation;
 use std::f64::consts::{PI, TAU};
-
-type Vector = [f64; 3];
 
 fn plus(a: Vector, b: Vector) -> Vector {
     [0, 1, 2].map(|k| a[k] + b[k])
 }
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-fn unit(a: Vector) -> Vector {
-    let length = a.iter().map(|x| x * x).sum::<f64>().sqrt();
-    a.map(|x| x / length)
-}
-
 fn shape(name: &str) -> Profile {
     Profile { shape: name.into(), ..Profile::default() }
 }
@@ -56,40 +46,9 @@ fn profiles(scale: f64) -> Vec<Profile> {
     ]
 }
 
-/// One beam, driven by places and rotations of its nodes.
-struct One {
-    block: Box<dyn Block<3>>,
-    forces: [Vector; 2],
-    moments: [Vector; 2],
-    positions: [Vector; 2],
-    rotations: Rotations,
-    report: Report,
-}
-
-impl One {
-    fn new(material: &Material, profile: &Profile, positions: [Vector; 2]) -> Self {
-        let input = BlockInput { profile: Some(profile), ..BlockInput::new("beam2", material, &[0, 1], &positions) };
-        let mut block = make(&input).unwrap();
-        let report = evaluate_at_rest(block.as_mut(), &positions, Level::best());
-        let rotations = Rotations::at_rest(0..2, 3);
-        Self { block, forces: [[0.0; 3]; 2], moments: [[0.0; 3]; 2], positions, rotations, report }
-    }
-
-    /// A step to places and rotations.
-    fn go(&mut self, positions: [Vector; 2], turns: [Attitude; 2]) {
-        let velocities = [0, 1].map(|k| [0, 1, 2].map(|d| (positions[k][d] - self.positions[k][d]) / 1e-3));
-        self.rotations.attitudes.copy_from_slice(&turns);
-        let motion = Motion { rotations: &self.rotations, ..Motion::new(&positions, &velocities, 1e-3) };
-        let pulls = NodalForces { forces: &mut self.forces, moments: &mut self.moments };
-        self.report = self.block.advance(&motion, Level::best(), pulls, &mut Team::alone());
-        self.positions = positions;
-    }
-
-    /// Force and moment of each node.
-    fn pulls(&self) -> [f64; 12] {
-        let all = [self.forces[0], self.moments[0], self.forces[1], self.moments[1]];
-        std::array::from_fn(|k| all[k / 3][k % 3])
-    }
+/// One beam.
+fn one_of(material: &Material, profile: &Profile, positions: [Vector; 2]) -> Driven {
+    Driven::of(&BlockInput { profile: Some(profile), ..BlockInput::new("beam2", material, &[0, 1], &positions) })
 }
 
 /// Where nodes are after a way and a rotation vector of each.
@@ -99,11 +58,11 @@ fn moved(start: [Vector; 2], by: &[f64; 12]) -> ([Vector; 2], [Attitude; 2]) {
 }
 
 /// A beam that goes there in equal steps.
-fn led(material: &Material, profile: &Profile, start: [Vector; 2], by: &[f64; 12], steps: usize) -> One {
-    let mut one = One::new(material, profile, start);
+fn led(material: &Material, profile: &Profile, start: [Vector; 2], by: &[f64; 12], steps: usize) -> Driven {
+    let mut one = one_of(material, profile, start);
     for k in 1..=steps {
         let (places, turns) = moved(start, &by.map(|x| x * k as f64 / steps as f64));
-        one.go(places, turns);
+        one.go(&places, &turns);
     }
     one
 }
@@ -133,8 +92,8 @@ fn forces_and_moments_of_rubber_are_the_slope_of_the_energy() {
             let rubber = material(law, 0.3);
             let (places, turns) = moved(start, &by);
             let at = |places: [Vector; 2], turns: [Attitude; 2]| {
-                let mut one = One::new(&rubber, &profile, start);
-                one.go(places, turns);
+                let mut one = one_of(&rubber, &profile, start);
+                one.go(&places, &turns);
                 one
             };
             let pulls = at(places, turns).pulls();
@@ -188,8 +147,8 @@ fn a_rotation_of_any_size_in_one_step_is_no_strain() {
             for profile in profiles(1.0) {
                 let (start, _) = random(&mut numbers, 1.0, 0.0);
                 let turn = Attitude::exponential(unit(numbers.in_3d(1.0)).map(|x| angle * x));
-                let mut one = One::new(&material(law, 0.3), &profile, start);
-                one.go(start.map(|x| plus(turn.turned(x), [3.0, -7.0, 1.0])), [turn; 2]);
+                let mut one = one_of(&material(law, 0.3), &profile, start);
+                one.go(&start.map(|x| plus(turn.turned(x), [3.0, -7.0, 1.0])), &[turn; 2]);
                 assert!(largest(&one.block.state(0).stress) < 1e-13 * YOUNG, "{law}: {:?}", one.block.state(0).stress);
                 assert!(largest(&one.pulls()) < 1e-13 * YOUNG * 0.01, "{law} {}: {:?}", profile.shape, one.pulls());
             }
@@ -203,12 +162,12 @@ fn a_rotation_of_a_loaded_beam_rotates_its_forces() {
     for law in ["elastic", "neo_hookean", "j2"] {
         let (start, by) = random(&mut numbers, 1.0, 0.2);
         let mut one = led(&material(law, 0.3), &profiles(2.0)[0], start, &by, 10);
-        let before = [one.forces, one.moments].concat();
+        let before = [&one.forces[..], &one.moments].concat();
         let turn = Attitude::exponential(numbers.in_3d(3.0));
         let (places, turns) = moved(start, &by);
-        one.go(places.map(|x| turn.turned(x)), turns.map(|own| turn.after(&own)));
+        one.go(&places.map(|x| turn.turned(x)), &turns.map(|own| turn.after(&own)));
         let size = before.iter().map(|v| largest(v)).fold(0.0, f64::max);
-        for (old, new) in before.iter().zip([one.forces, one.moments].concat()) {
+        for (old, new) in before.iter().zip([&one.forces[..], &one.moments].concat()) {
             let expected = turn.turned(*old);
             assert!(largest(&[0, 1, 2].map(|k| new[k] - expected[k])) < 2e-13 * size.max(YOUNG * 1e-2), "{law}: {new:?} {expected:?}");
         }
@@ -244,8 +203,8 @@ fn frequency_and_bound(material: &Material, profile: &Profile, start: [Vector; 2
         } else {
             turns[k / 6] = Attitude::exponential(axis).after(&turns[k / 6])
         }
-        let mut one = One::new(material, profile, start);
-        one.go(places, turns);
+        let mut one = one_of(material, profile, start);
+        one.go(&places, &turns);
         one
     };
     let one = at(0, 0.0);

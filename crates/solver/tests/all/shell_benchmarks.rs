@@ -2,7 +2,7 @@
 //! of the literature and closed forms.
 
 use crate::shells::section;
-use crate::shells_in_space::Sheet;
+use crate::shells_in_space::Driven;
 use embate_solver::model::Material;
 use embate_solver::rigid::space::Attitude;
 use std::f64::consts::FRAC_PI_2;
@@ -11,7 +11,7 @@ type Vector = [f64; 3];
 
 /// A mesh of n × m quadrilaterals (or twice as many triangles), held and loaded.
 struct Problem {
-    sheet: Sheet,
+    sheet: Driven,
     start: Vec<Vector>,
     cells: Vec<u32>,
     corners: usize,
@@ -45,7 +45,7 @@ impl Problem {
         let cells: Vec<u32> = quads.flat_map(|[a, b, c, d]| if corners == 4 { vec![a, b, c, d] } else { vec![a, b, c, a, c, d] }).collect();
         // Else the mean of the elements around each node.
         let directions: Vec<Vector> = cells.iter().filter(|_| smooth).map(|&node| points[node as usize][1]).collect();
-        let sheet = Sheet::new(element, material, &section(thickness), &start, &cells, &directions);
+        let sheet = Driven::new(element, material, &section(thickness), &start, &cells, &directions);
         let count = 6 * start.len();
         Self { sheet, start, cells, corners, size: [n, m], held: vec![false; count], load: vec![0.0; count] }
     }
@@ -203,7 +203,7 @@ fn hemisphere(element: &str, n: usize) -> f64 {
 
 /// Tip displacement in the plane of its end and across it.
 fn twisted_beam(element: &str, thickness: f64, [n, m]: [usize; 2]) -> [f64; 2] {
-    [(2, 0.0), (1, 0.0)].map(|(along, _)| {
+    [2, 1].map(|along| {
         let mut beam = Problem::new(element, [n, m], &elastic(29e6, 0.22), thickness, true, |u, v| {
             let (sin, cos) = (FRAC_PI_2 * u).sin_cos();
             let width = 1.1 * (v - 0.5);

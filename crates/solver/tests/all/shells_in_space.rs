@@ -3,6 +3,7 @@
 
 use crate::patches::{Spread, YOUNG, eigenvalues, material, solids};
 use crate::shells::section;
+use crate::solids::{cross, dot};
 use embate_lanes::{Level, Team};
 use embate_solver::block::{Block, BlockInput, Motion, NodalForces, Report, evaluate_at_rest, make};
 use embate_solver::model::{Material, ShellSection};
@@ -13,32 +14,26 @@ type Vector = [f64; 3];
 
 const ELEMENTS: [(&str, usize); 2] = [("shell4", 4), ("shell3", 3)];
 
-fn minus(a: Vector, b: Vector) -> Vector {
+pub(crate) fn minus(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-fn unit(a: Vector) -> Vector {
+pub(crate) fn unit(a: Vector) -> Vector {
     a.map(|x| x / dot(a, a).sqrt())
 }
 
-/// Some shells, driven by places and rotation vectors of their nodes.
-pub(crate) struct Sheet {
-    block: Box<dyn Block<3>>,
+/// Elements whose nodes rotate, driven by places and rotations of these.
+pub(crate) struct Driven {
+    pub(crate) block: Box<dyn Block<3>>,
     connectivity: Vec<u32>,
-    forces: Vec<Vector>,
-    moments: Vec<Vector>,
-    positions: Vec<Vector>,
+    pub(crate) forces: Vec<Vector>,
+    pub(crate) moments: Vec<Vector>,
+    pub(crate) positions: Vec<Vector>,
     rotations: Rotations,
-    report: Report,
+    pub(crate) report: Report,
     time_step: f64,
 }
 
-impl Sheet {
+impl Driven {
     pub(crate) fn new(
         element: &str,
         material: &Material,
@@ -48,11 +43,16 @@ impl Sheet {
         directions: &[Vector],
     ) -> Self {
         let input = BlockInput { section: Some(section), directions, ..BlockInput::new(element, material, connectivity, positions) };
-        let mut block = make(&input).unwrap();
+        Self::of(&input)
+    }
+
+    pub(crate) fn of(input: &BlockInput<'_, 3>) -> Self {
+        let positions = input.positions;
+        let mut block = make(input).unwrap();
         let slots = block.slots().len();
         let report = evaluate_at_rest(block.as_mut(), positions, Level::best());
         Self {
-            connectivity: connectivity.to_vec(),
+            connectivity: input.connectivity.to_vec(),
             forces: vec![[0.0; 3]; slots],
             moments: vec![[0.0; 3]; slots],
             positions: positions.to_vec(),
@@ -107,9 +107,9 @@ fn led(
     directions: &[Vector],
     by: &[f64],
     steps: usize,
-) -> Sheet {
+) -> Driven {
     let nodes: Vec<u32> = (0..start.len() as u32).collect();
-    let mut one = Sheet::new(element, material, section, start, &nodes, directions);
+    let mut one = Driven::new(element, material, section, start, &nodes, directions);
     for k in 1..=steps {
         let part: Vec<f64> = by.iter().map(|x| x * k as f64 / steps as f64).collect();
         let (places, turns) = moved(start, &part);
@@ -160,7 +160,7 @@ fn forces_and_moments_of_rubber_are_the_slope_of_the_energy() {
                             turns[k / 6] = Attitude::exponential(axis).after(&turns[k / 6]);
                         }
                         let nodes: Vec<u32> = (0..corners as u32).collect();
-                        let mut one = Sheet::new(element, &rubber, &section, &start, &nodes, &directors);
+                        let mut one = Driven::new(element, &rubber, &section, &start, &nodes, &directors);
                         one.go(&places, &turns);
                         one.energy()
                     };
@@ -210,7 +210,7 @@ fn a_turn_of_any_size_in_one_step_is_no_strain() {
                 let (start, directors) = random(&mut numbers, corners, 0.2);
                 let turn = Attitude::exponential(unit(numbers.in_3d(1.0)).map(|x| turn * x));
                 let nodes: Vec<u32> = (0..corners as u32).collect();
-                let mut one = Sheet::new(element, &material(law, 0.3), &section(0.05), &start, &nodes, &directors);
+                let mut one = Driven::new(element, &material(law, 0.3), &section(0.05), &start, &nodes, &directors);
                 let turned: Vec<Vector> = start.iter().map(|x| minus(turn.turned(*x), [3.0, -7.0, 1.0])).collect();
                 one.go(&turned, &vec![turn; corners]);
                 let state = one.block.state(0);
@@ -295,8 +295,6 @@ fn the_step_bounds_the_frequency_of_any_element() {
                 let part = (stretch - 1.0) * dot(*x, along);
                 *x = minus(*x, along.map(|a| -part * a));
             });
-            let nodes: Vec<u32> = (0..corners as u32).collect();
-            let _ = nodes;
             let directions = if case % 2 == 0 || stretch > 1.0 { Vec::new() } else { directions };
             let elastic = material("elastic", numbers.between(0.0, 0.49));
             let [frequency, bound] = frequency_and_bound(element, &elastic, &section(thickness), &start, &directions);
@@ -326,7 +324,7 @@ fn patches_have_the_stress_and_the_moments_of_their_motion() {
         let (start, cells) = patch(corners);
         let small = 1e-3;
         let at = |place: &dyn Fn(Vector) -> [f64; 6]| {
-            let mut sheet = Sheet::new(element, &steel, &section, &start, &cells, &[]);
+            let mut sheet = Driven::new(element, &steel, &section, &start, &cells, &[]);
             let by: Vec<f64> = start.iter().flat_map(|x| place(*x).map(|value| small * value)).collect();
             let (places, turns) = moved(&start, &by);
             sheet.go(&places, &turns);

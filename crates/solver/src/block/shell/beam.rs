@@ -38,7 +38,7 @@
 //! Derived for this program; the lineage is Simo and Vu-Quoc, Comput. Meth. Appl. Mech. Engng 58 (1986)
 //! 79-116, and Crisfield and Jelenić, Proc. R. Soc. A 455 (1999) 1125-1147.
 
-use super::surface::{self, loaded, rotated, scaled};
+use super::surface::{self, Vector, loaded, replace, rotated, scaled};
 use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
 use crate::angle::arc_of_tangent;
 use crate::block::{Motion, SHELL_VALUES};
@@ -48,7 +48,6 @@ use crate::tensor::{Plane, cross, dot};
 use crate::vector::{minus, plus};
 use embate_lanes::{Batch, Lane};
 
-type Vector<L> = [L; 3];
 /// w, x, y, z.
 type Quaternion<L> = [L; 4];
 
@@ -137,16 +136,6 @@ impl<L: Lane> Shape<L> {
         [g[0], g[1], g[2], s[0], s[1], s[2], p[0], p[1], p[2], cosine, f[0], f[1], f[2], f[3]]
     }
 
-    /// Keeps it where the element is there.
-    #[inline(always)]
-    fn replace(&self, there: L::Mask, state: &mut [Batch], at: usize) {
-        let all = self.all();
-        for k in 0..14 {
-            let kept = L::load(&state[SHAPE + k], at);
-            L::select(there, all[k], kept).store(&mut state[SHAPE + k], at);
-        }
-    }
-
     /// Length of the fibre at a place.
     #[inline(always)]
     fn fibre(&self, [y, z]: [L; 2]) -> L {
@@ -218,7 +207,7 @@ impl ShellKernel<3> for Beam {
         vec![[0.0; 3]; connectivity.len()]
     }
 
-    fn start(facts: &Facts, positions: &[[f64; 3]], _: &[[f64; 3]], area: f64, [bulk, shear]: [f64; 2]) -> Start {
+    fn start(facts: &Facts, positions: &[[f64; 3]], _: &[[f64; 3]], area: f64) -> Start {
         let profile = &facts.profile;
         let way = minus(positions[1], positions[0]);
         let length = dot(way, way).sqrt();
@@ -228,7 +217,7 @@ impl ShellKernel<3> for Beam {
         let shape = Shape::<f64>::new(way, [triad; 2]);
         let mut state: Vec<f64> = triad.into_iter().chain([length]).chain(shape.all()).collect();
         state.resize(STATE, 0.0);
-        let young = facts.membrane_modulus(bulk, shear);
+        let [young, shear] = facts.moduli();
         let (round, factor) = (profile.inertia[0].max(profile.inertia[1]), profile.shear[0].max(profile.shear[1]));
         let by_shear = young / (factor * shear) - 1.0;
         let sheared = if by_shear > 0.0 { length * length / (4.0 * by_shear) } else { 0.25 * length * length };
@@ -253,7 +242,7 @@ impl ShellKernel<3> for Beam {
             q[a] = product([own[3], own[4], own[5], own[6]], triad);
         }
         let (before, now) = (Shape::<L>::load(state, at), Shape::new(minus(x[1], x[0]), q));
-        now.replace(there, state, at);
+        replace(there, &now.all(), state, SHAPE, at);
         damp(facts, [&before, &now], strains.damping, there, state, at);
         let length = L::load(&state[LENGTH], at);
         let (section, initial) = (L::load(strains.thickness[0], at), L::load(strains.thickness[1], at));

@@ -144,8 +144,9 @@ fn shape<L: Lane>([x, y]: [[L; 2]; 2], mean: L, bend: L) -> (Shape<L>, [L; 4]) {
 
 impl Line {
     /// Inertia of a node by its mass, m²: see the head of the file.
-    fn inertia(facts: &Facts, thickness: f64, [length, radius]: [f64; 2], [bulk, shear]: [f64; 2]) -> f64 {
-        let (membrane, shear) = (facts.membrane_modulus(bulk, shear), SHEAR * shear);
+    fn inertia(facts: &Facts, thickness: f64, [length, radius]: [f64; 2]) -> f64 {
+        let [membrane, shear] = facts.moduli();
+        let shear = SHEAR * shear;
         let least = thickness * thickness / 12.0;
         if !facts.is_axisymmetric {
             return least.max(length * length / (4.0 * (membrane / shear - 1.0)));
@@ -206,7 +207,7 @@ impl ShellKernel<2> for Line {
         directions
     }
 
-    fn start(facts: &Facts, positions: &[[f64; 2]], directions: &[[f64; 2]], thickness: f64, stiffness: [f64; 2]) -> Start {
+    fn start(facts: &Facts, positions: &[[f64; 2]], directions: &[[f64; 2]], thickness: f64) -> Start {
         let [x, y] = [positions[0], positions[1]];
         let d = minus(y, x);
         let chord = dot(d, d).sqrt();
@@ -229,12 +230,7 @@ impl ShellKernel<2> for Line {
             let around = if facts.is_axisymmetric { TAU * now.radius_at(height) } else { 1.0 };
             thickness * weight * now.layer(height) * around
         });
-        Start {
-            state,
-            areas: areas.to_vec(),
-            volumes: volumes.collect(),
-            inertia: Self::inertia(facts, thickness, [chord, now.radius], stiffness),
-        }
+        Start { state, areas: areas.to_vec(), volumes: volumes.collect(), inertia: Self::inertia(facts, thickness, [chord, now.radius]) }
     }
 
     fn gather(node: usize, place: usize, motion: &Motion<'_, 2>, to: &mut [Batch], lane: usize) {
@@ -319,12 +315,7 @@ impl ShellKernel<2> for Line {
         let (cos_one, cos_two) = (L::load(&state[AXES + 2], at), L::load(&state[AXES + 3], at));
         let initial = L::load(layers.thickness, at);
         let is_rate = matches!(facts.family, Family::Rate);
-        let mut thickness = zero;
-        for (p, &weight) in facts.section.weights.iter().enumerate() {
-            let [across, _] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
-            thickness += L::splat(weight) * across;
-        }
-        let thickness = initial * thickness;
+        let thickness = layers.thickness_now::<L>(facts, at);
         let heights = if is_rate { thickness } else { initial };
         // Normal force, moment, transverse force; of revolution also what pulls inwards, and its moment.
         let (mut normal, mut moment, mut transverse, mut hoop, mut hoop_moment) = (zero, zero, zero, zero, zero);

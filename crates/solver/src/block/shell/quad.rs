@@ -39,8 +39,8 @@
 //! [`surface::joined`]; α is chosen such that a decides at the start.
 
 use super::surface::{
-    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, rotated, scaled, times,
-    turn_at_start,
+    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, moved, replace,
+    replace_vectors, scaled, times, turn_at_start, vectors,
 };
 use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
 use crate::block::Motion;
@@ -111,24 +111,13 @@ impl<L: Lane> Form<L> {
 
     #[inline(always)]
     fn load(state: &[Batch], at: usize) -> Self {
-        let mut v = [[L::splat(0.0); 3]; 7];
-        for k in 0..21 {
-            v[k / 3][k % 3] = L::load(&state[FORM + k], at);
-        }
-        Self { g: [v[0], v[1]], q: v[2], mean: v[3], d: [v[4], v[5]], r: v[6] }
+        let [g1, g2, q, mean, d1, d2, r] = vectors(state, FORM, at);
+        Self { g: [g1, g2], q, mean, d: [d1, d2], r }
     }
 
     #[inline(always)]
     fn all(&self) -> [Vector<L>; 7] {
         [self.g[0], self.g[1], self.q, self.mean, self.d[0], self.d[1], self.r]
-    }
-
-    #[inline(always)]
-    fn replace(&self, there: L::Mask, state: &mut [Batch], at: usize) {
-        let all = self.all();
-        for k in 0..21 {
-            L::select(there, all[k / 3][k % 3], L::load(&state[FORM + k], at)).store(&mut state[FORM + k], at);
-        }
     }
 
     #[inline(always)]
@@ -233,7 +222,7 @@ impl ShellKernel<3> for Quad {
         surface::directions::<4>(connectivity, positions, fold)
     }
 
-    fn start(facts: &Facts, positions: &[[f64; 3]], directions: &[[f64; 3]], thickness: f64, _: [f64; 2]) -> Start {
+    fn start(facts: &Facts, positions: &[[f64; 3]], directions: &[[f64; 3]], thickness: f64) -> Start {
         let x: [[f64; 3]; 4] = std::array::from_fn(|k| positions[k]);
         let d: [[f64; 3]; 4] = std::array::from_fn(|k| directions[k]);
         let form = Form::<f64>::new(&x, &d);
@@ -242,23 +231,22 @@ impl ShellKernel<3> for Quad {
         let measures = form.measures(&frame);
         let skew = times(&measures.inverse(), frame.seen(form.q));
         let [_, bent] = form.warped(skew).map(|v| frame.seen(v));
-        let mut state = vec![Batch::default(); STATE];
-        measures.store(&mut state, BEGIN, 0);
-        measures.store(&mut state, NOW, 0);
-        let rest = turn.into_iter().chain(d.into_iter().flatten()).chain(skew).chain(form.sheared()).chain(bent);
-        state[TURN..].iter_mut().zip(rest).for_each(|(batch, value)| batch.0[0] = value);
-        (0..2).for_each(|k| state[AMPLITUDES + 2 + k].0[0] = bent[k]);
-        (0..2).for_each(|k| state[FLOWN + 2 + k].0[0] = bent[k]);
-        state[FORM..].iter_mut().zip(form.all().into_iter().flatten()).for_each(|(batch, value)| batch.0[0] = value);
+        let of_layers = [measures.all(); 2].into_iter().flatten().chain(turn);
+        let stabilised = skew.into_iter().chain(form.sheared()).chain(bent);
+        // Amplitudes, what has flowed of them, and the work of that: bent as it is, it holds nothing.
+        let amplitudes = [[0.0; 2], bent, [0.0; 2], bent].into_iter().flatten().chain([0.0]);
+        let now = form.all().into_iter().flatten();
+        let state = of_layers.chain(d.into_iter().flatten()).chain(stabilised).chain(amplitudes).chain(now).collect();
         let area = Dim::<2>::determinant(&measures.map);
         let (along, across) = (dot(frame.axes[2], cross(form.g[0], form.q)), dot(frame.axes[2], cross(form.q, form.g[1])));
         let areas = (0..4).map(|k| area + (XI[k] * along + ETA[k] * across) / 3.0).collect();
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
+        let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, thickness));
         let inertia = surface::inertia(thickness, Self::AREA * area, 0.0, |inertia| {
-            bounds(facts, &form, [&measures, &measures], skew, [thickness; 2], facts.moduli(), inertia, volume)
+            bounds(&form, &inverse, &held, skew, [thickness; 2], facts.moduli(), [inertia, volume])
         });
-        Start { state: state.into_iter().map(|batch| batch.0[0]).collect(), areas, volumes, inertia }
+        Start { state, areas, volumes, inertia }
     }
 
     fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
@@ -268,18 +256,13 @@ impl ShellKernel<3> for Quad {
     #[inline(always)]
     fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
         let there = L::splat(0.5).less(L::load(strains.live, at));
-        let (mut x, mut d) = ([[L::splat(0.0); 3]; 4], [[L::splat(0.0); 3]; 4]);
-        for a in 0..4 {
-            let own = loaded::<L, 7>(motion, 7 * a, at);
-            x[a] = [own[0], own[1], own[2]];
-            d[a] = rotated([own[3], own[4], own[5], own[6]], loaded(state, DIRECTORS + 3 * a, at));
-        }
+        let [x, d] = moved(motion, state, DIRECTORS, at);
         let form = Form::new(&x, &d);
         let frame = form.frame(loaded(state, TURN, at));
         let (begin, before) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
-        form.replace(there, state, at);
+        replace_vectors(there, &form.all(), state, FORM, at);
         let now = form.measures(&frame);
-        now.replace(there, state, NOW, at);
+        replace(there, &now.all(), state, NOW, at);
         surface::strain(facts, Self::kind(), [&begin, &before, &now], strains, at);
         let thickness = L::load(strains.thickness[1], at);
         let held = Held::new(facts, &begin, thickness);
@@ -313,19 +296,10 @@ impl ShellKernel<3> for Quad {
         let a = [held.shear[0] * change[0], held.shear[1] * change[1]];
         let hourglass = half * (both(w, m) + both(u, b)) + L::load(&state[LOST], at);
         pull(&form, &frame, &to, skew, [w, u, a], pulls, at);
-        let stiffness = bounds(facts, &form, [&begin, &now], skew, [initial, to.thickness], to.moduli, inertia, to.volume);
         let inverse = now.inverse();
-        let tilted = surface::tilted(&frame, &form.g, &inverse, to.moduli[0] * to.volume, inertia);
-        Answer {
-            stiffness: surface::joined(stiffness, tilted)
-                + surface::taut(to.strained, surface::steepest(&surface::metric(&inverse)), inertia),
-            determinant: to.determinant,
-            thickness: to.thickness,
-            hourglass,
-            besides: [half * both(a, change), L::splat(0.0)],
-            flow: to.flow,
-            resultants: to.resultants,
-        }
+        let bounds = bounds(&form, &inverse, &held, skew, [initial, to.thickness], to.moduli, [inertia, to.volume]);
+        let answer = surface::answer(&to, &frame, &form.g, &inverse, bounds, 1.0, inertia);
+        Answer { hourglass, besides: [half * both(a, change), L::splat(0.0)], ..answer }
     }
 
     #[inline(always)]
@@ -361,19 +335,10 @@ fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [
     let turn = (w[0] * seen[1] - w[1] * seen[0] + u[0] * bent[1] - u[1] * bent[0]) / frame.trace;
     let f1 = plus(frame.vector([to.membrane[0][0], to.membrane[1][0]]), scaled(turn, frame.natural[1]));
     let f2 = minus(frame.vector([to.membrane[0][1], to.membrane[1][1]]), scaled(turn, frame.natural[0]));
-    let [arc, arc_slope] = surface::arc(frame.size, ARC);
-    let k1 = scaled(arc, frame.vector([to.moment[0][0], to.moment[1][0]]));
-    let k2 = scaled(arc, frame.vector([to.moment[0][1], to.moment[1][1]]));
-    // What the size of the mean director does to the arc.
-    let chord = frame.matrix(&form.d);
-    let folded = arc_slope * (both(chord[0], to.moment[0]) + both(chord[1], to.moment[1]));
+    let ([k1, k2], folded) = surface::bent(frame, &form.d, &to.moment, ARC);
     let (v, bend) = (frame.vector(w), frame.vector(u));
-    // Its tilt with the mean director.
-    let normal = frame.axes[2];
-    let mut tilt = scaled(dot(normal, form.g[0]), f1);
-    for (height, by) in [(form.g[1], f2), (form.d[0], k1), (form.d[1], k2), (warp, v), (twist, bend)] {
-        tilt = plus(tilt, scaled(dot(normal, height), by));
-    }
+    let pulled = [[form.g[0], f1], [form.g[1], f2], [form.d[0], k1], [form.d[1], k2], [warp, v], [twist, bend]];
+    let tilt = surface::tilt(frame, &pulled);
     let [q1, q2] = to.transverse;
     let sum = a[0] + a[1];
     let on_g1 = join(f1, scaled(q1, form.mean), scaled(a[0], form.d[1]));
@@ -382,7 +347,7 @@ fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [
     let on_d1 = join(k1, scaled(q2, form.q), scaled(a[1], form.g[1]));
     let on_d2 = join(k2, scaled(q1, form.q), scaled(a[0], form.g[0]));
     let on_mean = join(scaled(q1, form.g[0]), scaled(q2, form.g[1]), scaled(sum, form.q));
-    let on_mean = plus(on_mean, minus(scaled(folded, normal), scaled(frame.shortening, tilt)));
+    let on_mean = plus(on_mean, minus(scaled(folded, frame.axes[2]), scaled(frame.shortening, tilt)));
     // By the patterns; γ = h − p₁ ξ − p₂ η.
     let quarter = L::splat(0.25);
     let x_xi = scaled(quarter, minus(on_g1, scaled(skew[0], v)));
@@ -407,23 +372,18 @@ fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [
 /// m ω² of motion in the plane and across it, N/m, and the cosine between both: see the head of the file.
 #[inline(always)]
 fn bounds<L: Lane>(
-    facts: &Facts,
     form: &Form<L>,
-    [begin, now]: [&Measures<L>; 2],
+    inverse: &Matrix<L, 2>,
+    held: &Held<L>,
     skew: [L; 2],
     [initial, thickness]: [L; 2],
     [membrane, shear]: [L; 2],
-    inertia: L,
-    volume: L,
+    [inertia, volume]: [L; 2],
 ) -> [L; 3] {
-    let (one, half, two, four) = (L::splat(1.0), L::splat(0.5), L::splat(2.0), L::splat(4.0));
-    let g = now.inverse();
-    let upper = surface::metric(&g);
-    let along = surface::membrane(&upper, [membrane, shear], volume);
-    let held = Held::new(facts, begin, initial);
-    let [[a, b], [_, d]] = held.membrane;
-    let spread = one + skew[0] * skew[0] + skew[1] * skew[1];
-    let warping = half * (a + d + ((a - d) * (a - d) + four * b * b).sqrt()) * spread;
+    let (zero, one, two) = (L::splat(0.0), L::splat(1.0), L::splat(2.0));
+    let metric = surface::metric(inverse);
+    let along = surface::membrane(&metric, [membrane, shear], volume);
+    let warping = surface::steepest(&held.membrane) * (one + skew[0] * skew[0] + skew[1] * skew[1]);
     let bend = surface::folding(form.mean, &form.d, ARC) * thickness * thickness / (L::splat(12.0) * inertia);
     let bend_held = initial * initial / (L::splat(12.0) * inertia);
     // Gram matrices of s and of a in the norm of the mass.
@@ -435,8 +395,7 @@ fn bounds<L: Lane>(
     let slid = [[d0 + d2 + turning * (g1 + q), mixed], [mixed, d0 + d1 + turning * (g2 + q)]];
     let mixed = d0 + turning * q;
     let varied = [[slid[0][0], mixed], [mixed, slid[1][1]]];
-    let zero = L::splat(0.0);
-    let across = L::splat(SHEAR) * shear * volume * largest(&upper, &slid);
+    let across = L::splat(SHEAR) * shear * volume * largest(&metric, &slid);
     let across_held = largest(&[[held.shear[0], zero], [zero, held.shear[1]]], &varied);
     let plane = along + warping;
     let plate = across.max(along * bend + warping * bend_held) + across_held;

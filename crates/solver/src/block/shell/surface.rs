@@ -17,7 +17,7 @@
 //! V is the volume of a layer, s_α the covariant transverse shear of the kernel. Derived for this program;
 //! the lineage is Simo and Fox, Comput. Meth. Appl. Mech. Engng 72 (1989) 267-304.
 
-use super::{Facts, Layers, Strains, Tensor};
+use super::{Answer, Facts, Layers, Strains, Tensor};
 use crate::block::{Motion, SHELL_VALUES};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
@@ -53,6 +53,45 @@ pub(super) fn loaded<L: Lane, const N: usize>(state: &[Batch], first: usize, at:
         all[k] = L::load(&state[first + k], at);
     }
     all
+}
+
+/// Replaces numbers of the state where `there`.
+#[inline(always)]
+pub(super) fn replace<L: Lane, const N: usize>(there: L::Mask, new: &[L; N], state: &mut [Batch], first: usize, at: usize) {
+    for k in 0..N {
+        L::select(there, new[k], L::load(&state[first + k], at)).store(&mut state[first + k], at);
+    }
+}
+
+/// Vectors of the state, one after the other.
+#[inline(always)]
+pub(super) fn vectors<L: Lane, const N: usize>(state: &[Batch], first: usize, at: usize) -> [Vector<L>; N] {
+    let mut all = [[L::splat(0.0); 3]; N];
+    for k in 0..N {
+        all[k] = loaded(state, first + 3 * k, at);
+    }
+    all
+}
+
+/// Replaces vectors of the state where `there`.
+#[inline(always)]
+pub(super) fn replace_vectors<L: Lane, const N: usize>(there: L::Mask, new: &[Vector<L>; N], state: &mut [Batch], first: usize, at: usize) {
+    for k in 0..N {
+        replace(there, &new[k], state, first + 3 * k, at);
+    }
+}
+
+/// Positions of the corners, and their directors, which are at `first` of the state as they were at the
+/// start.
+#[inline(always)]
+pub(super) fn moved<L: Lane, const N: usize>(motion: &[Batch], state: &[Batch], first: usize, at: usize) -> [[Vector<L>; N]; 2] {
+    let (mut x, mut d) = ([[L::splat(0.0); 3]; N], vectors::<L, N>(state, first, at));
+    for a in 0..N {
+        let own = loaded::<L, 7>(motion, 7 * a, at);
+        x[a] = [own[0], own[1], own[2]];
+        d[a] = rotated([own[3], own[4], own[5], own[6]], d[a]);
+    }
+    [x, d]
 }
 
 /// m v.
@@ -96,32 +135,15 @@ impl<L> Measures<L> {
 impl<L: Lane> Measures<L> {
     #[inline(always)]
     pub(super) fn load(state: &[Batch], first: usize, at: usize) -> Self {
-        let all: [L; 10] = loaded(state, first, at);
+        let all: [L; Measures::<f64>::WIDTH] = loaded(state, first, at);
         Self { map: [[all[0], all[1]], [all[2], all[3]]], bend: [[all[4], all[5]], [all[6], all[7]]], slide: [all[8], all[9]] }
     }
 
     #[inline(always)]
-    fn all(&self) -> [L; 10] {
+    pub(super) fn all(&self) -> [L; Measures::<f64>::WIDTH] {
         let [[a, b], [c, d]] = self.map;
         let [[e, f], [g, h]] = self.bend;
         [a, b, c, d, e, f, g, h, self.slide[0], self.slide[1]]
-    }
-
-    #[inline(always)]
-    pub(super) fn store(&self, state: &mut [Batch], first: usize, at: usize) {
-        let all = self.all();
-        for k in 0..10 {
-            all[k].store(&mut state[first + k], at);
-        }
-    }
-
-    /// Replaces what is in the state where `there`.
-    #[inline(always)]
-    pub(super) fn replace(&self, there: L::Mask, state: &mut [Batch], first: usize, at: usize) {
-        let all = self.all();
-        for k in 0..10 {
-            L::select(there, all[k], L::load(&state[first + k], at)).store(&mut state[first + k], at);
-        }
     }
 
     /// F of the layer at a height.
@@ -333,13 +355,7 @@ pub(super) struct Flux<L> {
 pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measures<L>; 2], layers: &Layers<'_>, at: usize) -> Flux<L> {
     let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
     let is_rate = matches!(facts.family, Family::Rate);
-    let initial = L::load(layers.thickness, at);
-    let mut thickness = zero;
-    for (p, &weight) in facts.section.weights.iter().enumerate() {
-        let [across, _] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
-        thickness += L::splat(weight) * across;
-    }
-    let thickness = initial * thickness;
+    let (initial, thickness) = (L::load(layers.thickness, at), layers.thickness_now::<L>(facts, at));
     let heights = if is_rate { thickness } else { initial };
     let area = Dim::<2>::determinant(&now.map);
     let mut sums = [[zero; 3]; 2];
@@ -430,6 +446,51 @@ pub(super) fn turned(axes: &[[f64; 3]; 3], stress: [f64; 6]) -> [f64; 6] {
     crate::tensor::Solid(stress).rotated(&columns).0
 }
 
+/// Forces on d₁ and d₂ of moments M, and what the size of the mean director does to the arcs between them.
+#[inline(always)]
+pub(super) fn bent<L: Lane>(frame: &Frame<L>, d: &[Vector<L>; 2], moment: &Matrix<L, 2>, n: f64) -> ([Vector<L>; 2], L) {
+    let [w, slope] = arc(frame.size, n);
+    let on = [scaled(w, frame.vector([moment[0][0], moment[1][0]])), scaled(w, frame.vector([moment[0][1], moment[1][1]]))];
+    let chord = frame.matrix(d);
+    (on, slope * (both(chord[0], moment[0]) + both(chord[1], moment[1])))
+}
+
+/// What tilts the frame with the mean director: forces on vectors, by the heights of these over the plane.
+#[inline(always)]
+pub(super) fn tilt<L: Lane, const N: usize>(frame: &Frame<L>, pulled: &[[Vector<L>; 2]; N]) -> Vector<L> {
+    let normal = frame.axes[2];
+    let mut sum = scaled(dot(normal, pulled[0][0]), pulled[0][1]);
+    for k in 1..N {
+        sum = plus(sum, scaled(dot(normal, pulled[k][0]), pulled[k][1]));
+    }
+    sum
+}
+
+/// What an element answers without hourglass control, given its [`joined`] bounds; `sharp` is the sum of the
+/// squares of the derivatives of the shape functions over the mass of a corner, by natural axes.
+#[inline(always)]
+pub(super) fn answer<L: Lane>(
+    to: &Flux<L>,
+    frame: &Frame<L>,
+    g: &[Vector<L>; 2],
+    inverse: &Matrix<L, 2>,
+    bounds: [L; 3],
+    sharp: f64,
+    inertia: L,
+) -> Answer<L> {
+    let tilted = tilted(frame, g, inverse, to.moduli[0] * to.volume, inertia);
+    let taut = taut(to.strained, L::splat(sharp) * steepest(&metric(inverse)), inertia);
+    Answer {
+        stiffness: joined(bounds, tilted) + taut,
+        determinant: to.determinant,
+        thickness: to.thickness,
+        hourglass: L::splat(0.0),
+        besides: [L::splat(0.0); 2],
+        flow: to.flow,
+        resultants: to.resultants,
+    }
+}
+
 /// Larger eigenvalue of the product of two symmetric matrices that are positive semidefinite.
 #[inline(always)]
 pub(super) fn largest<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>) -> L {
@@ -478,7 +539,7 @@ pub(super) fn joined<L: Lane>([a, p, cosine]: [L; 3], tilted: L) -> L {
 /// C V |t|²/(|d₀|² α) with the slope t_j = Σ_α n̂·g_α (G⁻¹)_αj of an element against its mean director: G
 /// changes by it when that rotates.
 #[inline(always)]
-pub(super) fn tilted<L: Lane>(frame: &Frame<L>, g: &[Vector<L>; 2], inverse: &Matrix<L, 2>, stiffness: L, inertia: L) -> L {
+fn tilted<L: Lane>(frame: &Frame<L>, g: &[Vector<L>; 2], inverse: &Matrix<L, 2>, stiffness: L, inertia: L) -> L {
     let normal = frame.axes[2];
     let (one, two) = (dot(normal, g[0]), dot(normal, g[1]));
     let (a, b) = (one * inverse[0][0] + two * inverse[1][0], one * inverse[0][1] + two * inverse[1][1]);
@@ -496,7 +557,7 @@ pub(super) fn folding<L: Lane>(mean: Vector<L>, d: &[Vector<L>; 2], n: f64) -> L
 /// m ω² that stresses add by turning with the nodes: S ½ (1/α + √(1/α² + 4 `gradient`/α)) with S = Σ V |σ|
 /// and the largest square of a gradient by the mass, N/m.
 #[inline(always)]
-pub(super) fn taut<L: Lane>(strained: L, gradient: L, inertia: L) -> L {
+fn taut<L: Lane>(strained: L, gradient: L, inertia: L) -> L {
     let turning = L::splat(1.0) / inertia;
     L::splat(0.5) * strained * (turning + (turning * (turning + L::splat(4.0) * gradient)).sqrt())
 }

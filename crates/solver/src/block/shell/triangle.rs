@@ -14,11 +14,12 @@
 //! without stabilisation, with the mass in thirds at the corners.
 
 use super::surface::{
-    self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, rotated, scaled, turn_at_start,
+    self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, largest, loaded, moved, replace, replace_vectors, scaled,
+    turn_at_start, vectors,
 };
 use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
 use crate::block::Motion;
-use crate::tensor::{Dim, Space, cross, dot};
+use crate::tensor::{Dim, Matrix, Space, cross, dot};
 use crate::vector::{minus, plus};
 use embate_lanes::{Batch, Lane};
 
@@ -31,6 +32,10 @@ const INERTIA: f64 = 1.0 / 6.0;
 
 /// See [`surface::arc`].
 const ARC: f64 = 2.0;
+
+/// Sum of the squares of the natural derivatives of the shape functions, 2, over the third of the mass at a
+/// corner.
+const SHARP: f64 = 6.0;
 
 /// Places in the state, after what all shells in 3D have: directors of the corners at the start, root of the
 /// factor of the shear, positions and directors now.
@@ -49,6 +54,9 @@ struct Form<L> {
     x: [Vector<L>; 3],
     d: [Vector<L>; 3],
 }
+
+/// Of both natural components of the shear what they feel of the positions, and of the directors.
+type ShearRows<L> = [[[Vector<L>; 3]; 2]; 2];
 
 /// Natural derivatives of a vector.
 #[inline(always)]
@@ -104,25 +112,12 @@ impl<L: Lane> Form<L> {
 
     #[inline(always)]
     fn load(state: &[Batch], at: usize) -> Self {
-        let mut v = [[L::splat(0.0); 3]; 6];
-        for k in 0..18 {
-            v[k / 3][k % 3] = L::load(&state[FORM + k], at);
-        }
-        Self { x: [v[0], v[1], v[2]], d: [v[3], v[4], v[5]] }
-    }
-
-    #[inline(always)]
-    fn replace(&self, there: L::Mask, state: &mut [Batch], at: usize) {
-        for k in 0..9 {
-            let (x, d) = (self.x[k / 3][k % 3], self.d[k / 3][k % 3]);
-            L::select(there, x, L::load(&state[FORM + k], at)).store(&mut state[FORM + k], at);
-            L::select(there, d, L::load(&state[FORM + 9 + k], at)).store(&mut state[FORM + 9 + k], at);
-        }
+        Self { x: vectors(state, FORM, at), d: vectors(state, FORM + 9, at) }
     }
 
     /// What the first, or the second, natural component of the shear feels of positions and directors.
     #[inline(always)]
-    fn shear_rows(&self) -> [[[Vector<L>; 3]; 2]; 2] {
+    fn shear_rows(&self) -> ShearRows<L> {
         let (third, two) = (L::splat(1.0 / 3.0), L::splat(2.0));
         let root = L::splat(1.0 / 3.0f64.sqrt());
         let sides = self.sides();
@@ -161,26 +156,23 @@ impl ShellKernel<3> for Triangle {
         surface::directions::<3>(connectivity, positions, fold)
     }
 
-    fn start(facts: &Facts, positions: &[[f64; 3]], directions: &[[f64; 3]], thickness: f64, _: [f64; 2]) -> Start {
+    fn start(facts: &Facts, positions: &[[f64; 3]], directions: &[[f64; 3]], thickness: f64) -> Start {
         let form = Form::<f64> { x: std::array::from_fn(|k| minus(positions[k], positions[0])), d: std::array::from_fn(|k| directions[k]) };
         let turn = turn_at_start(&natural(&form.x), form.mean());
         let measures = form.measures(&form.frame(turn));
         let square = |[side, _]: [[f64; 3]; 2]| dot(side, side);
         let longest = form.sides().map(square).into_iter().fold(0.0, f64::max);
         let factor = (SHEAR * thickness * thickness / (thickness * thickness + STABILIZING * longest)).sqrt();
-        let mut state = vec![Batch::default(); STATE];
-        measures.store(&mut state, BEGIN, 0);
-        measures.store(&mut state, NOW, 0);
-        let rest = turn.into_iter().chain(form.d.into_iter().flatten()).chain([factor]);
-        let rest = rest.chain(form.x.into_iter().flatten()).chain(form.d.into_iter().flatten());
-        state[TURN..].iter_mut().zip(rest).for_each(|(batch, value)| batch.0[0] = value);
+        let of_layers = [measures.all(); 2].into_iter().flatten().chain(turn);
+        let now = [form.x, form.d].into_iter().flatten().flatten();
+        let state = of_layers.chain(form.d.into_iter().flatten()).chain([factor]).chain(now).collect();
         let area = Self::AREA * Dim::<2>::determinant(&measures.map);
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
         let inertia = surface::inertia(thickness, area, INERTIA, |inertia| {
-            bounds(&form, &measures, thickness, facts.moduli(), factor, inertia, volume)
+            bounds(&form, &form.shear_rows(), &measures.inverse(), thickness, facts.moduli(), factor, [inertia, volume])
         });
-        Start { state: state.into_iter().map(|batch| batch.0[0]).collect(), areas: vec![area / 3.0; 3], volumes, inertia }
+        Start { state, areas: vec![area / 3.0; 3], volumes, inertia }
     }
 
     fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
@@ -190,18 +182,14 @@ impl ShellKernel<3> for Triangle {
     #[inline(always)]
     fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
         let there = L::splat(0.5).less(L::load(strains.live, at));
-        let (mut x, mut d) = ([[L::splat(0.0); 3]; 3], [[L::splat(0.0); 3]; 3]);
-        for a in 0..3 {
-            let own = loaded::<L, 7>(motion, 7 * a, at);
-            x[a] = [own[0], own[1], own[2]];
-            d[a] = rotated([own[3], own[4], own[5], own[6]], loaded(state, DIRECTORS + 3 * a, at));
-        }
+        let [x, d] = moved::<L, 3>(motion, state, DIRECTORS, at);
         let form = Form { x: [minus(x[0], x[0]), minus(x[1], x[0]), minus(x[2], x[0])], d };
         let frame = form.frame(loaded(state, TURN, at));
         let (begin, before) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
-        form.replace(there, state, at);
+        replace_vectors(there, &form.x, state, FORM, at);
+        replace_vectors(there, &form.d, state, FORM + 9, at);
         let now = form.measures(&frame);
-        now.replace(there, state, NOW, at);
+        replace(there, &now.all(), state, NOW, at);
         let kind = Kind { area: Self::AREA, shear: L::load(&state[FACTOR], at) };
         surface::strain(facts, kind, [&begin, &before, &now], strains, at);
     }
@@ -214,20 +202,11 @@ impl ShellKernel<3> for Triangle {
         let form = Form::<L>::load(state, at);
         let frame = form.frame(loaded(state, TURN, at));
         let (g, d) = (natural(&form.x), natural(&form.d));
-        let (n, m) = (&to.membrane, &to.moment);
+        let n = &to.membrane;
         let f = [frame.vector([n[0][0], n[1][0]]), frame.vector([n[0][1], n[1][1]])];
-        let [arc, arc_slope] = surface::arc(frame.size, ARC);
-        let k = [scaled(arc, frame.vector([m[0][0], m[1][0]])), scaled(arc, frame.vector([m[0][1], m[1][1]]))];
-        // What the size of the mean director does to the arc.
-        let chord = frame.matrix(&d);
-        let folded = arc_slope * (both(chord[0], m[0]) + both(chord[1], m[1]));
-        // The tilt of the frame with the mean director.
-        let normal = frame.axes[2];
-        let mut tilt = scaled(dot(normal, g[0]), f[0]);
-        for (height, by) in [(g[1], f[1]), (d[0], k[0]), (d[1], k[1])] {
-            tilt = plus(tilt, scaled(dot(normal, height), by));
-        }
-        let tilt = scaled(L::splat(1.0 / 3.0), minus(scaled(frame.shortening, tilt), scaled(folded, normal)));
+        let (k, folded) = surface::bent(&frame, &d, &to.moment, ARC);
+        let tilt = surface::tilt(&frame, &[[g[0], f[0]], [g[1], f[1]], [d[0], k[0]], [d[1], k[1]]]);
+        let tilt = scaled(L::splat(1.0 / 3.0), minus(scaled(frame.shortening, tilt), scaled(folded, frame.axes[2])));
         let rows = form.shear_rows();
         let [q1, q2] = to.transverse;
         for corner in 0..3 {
@@ -239,19 +218,9 @@ impl ShellKernel<3> for Triangle {
                 moment[k].store(&mut pulls[6 * corner + 3 + k], at);
             }
         }
-        let stiffness = bounds(&form, &now, to.thickness, to.moduli, factor, inertia, to.volume);
         let inverse = now.inverse();
-        let tilted = surface::tilted(&frame, &g, &inverse, to.moduli[0] * to.volume, inertia);
-        Answer {
-            stiffness: surface::joined(stiffness, tilted)
-                + surface::taut(to.strained, L::splat(6.0) * surface::steepest(&surface::metric(&inverse)), inertia),
-            determinant: to.determinant,
-            thickness: to.thickness,
-            hourglass: L::splat(0.0),
-            besides: [L::splat(0.0); 2],
-            flow: [L::splat(0.0); 3],
-            resultants: to.resultants,
-        }
+        let bounds = bounds(&form, &rows, &inverse, to.thickness, to.moduli, factor, [inertia, to.volume]);
+        surface::answer(&to, &frame, &g, &inverse, bounds, SHARP, inertia)
     }
 
     #[inline(always)]
@@ -277,12 +246,18 @@ fn gram<L: Lane>(a: &[[Vector<L>; 3]; 2], b: &[[Vector<L>; 3]; 2], turning: L) -
 
 /// m ω² of motion in the plane and across it, N/m, and the cosine between both.
 #[inline(always)]
-fn bounds<L: Lane>(form: &Form<L>, now: &Measures<L>, thickness: L, moduli: [L; 2], factor: L, inertia: L, volume: L) -> [L; 3] {
-    let metric = surface::metric(&now.inverse());
-    // Σ of the squares of the natural derivatives of the shape functions is 2, a corner has a third.
-    let plane = L::splat(6.0) * surface::membrane(&metric, moduli, volume);
+fn bounds<L: Lane>(
+    form: &Form<L>,
+    rows: &ShearRows<L>,
+    inverse: &Matrix<L, 2>,
+    thickness: L,
+    moduli: [L; 2],
+    factor: L,
+    [inertia, volume]: [L; 2],
+) -> [L; 3] {
+    let metric = surface::metric(inverse);
+    let plane = L::splat(SHARP) * surface::membrane(&metric, moduli, volume);
     let bend = surface::folding(form.mean(), &natural(&form.d), ARC) * thickness * thickness / (L::splat(12.0) * inertia);
-    let rows = form.shear_rows();
     let turning = L::splat(1.0) / inertia;
     let mixed = gram(&rows[0], &rows[1], turning);
     let across = factor

@@ -138,47 +138,58 @@ impl Mesh<3> {
     /// across the element is mirrored on its normal.
     fn extrapolate(&self, shells: &Shells, around: &Around<'_>, rims: &BTreeSet<[u32; 2]>, all: &mut [(u32, Faces)]) {
         let on_rims: BTreeSet<u32> = rims.iter().flatten().copied().collect();
-        let known: BTreeMap<(u32, usize), [f64; 3]> = (all.iter())
-            .filter(|(node, _)| !on_rims.contains(node))
-            .flat_map(|(node, faces)| shells.corners.of(*node as usize).iter().zip(&faces.corners))
-            .map(|(at, (direction, _))| ((at.shell, at.corner), *direction))
-            .collect();
-        for (node, faces) in all.iter_mut().filter(|(node, _)| on_rims.contains(node)) {
-            let mut corners = shells.corners.of(*node as usize).to_vec();
+        // Direction of an element at a node that is on no rim.
+        let known = |node: u32, shell: u32| {
+            let (_, faces) = &all[all.binary_search_by_key(&node, |(node, _)| *node).ok().filter(|_| !on_rims.contains(&node))?];
+            let at = shells.corners.of(node as usize).iter().position(|at| at.shell == shell)?;
+            Some(faces.corners[at].0)
+        };
+        let mut leaning = Vec::new();
+        for (place, &(node, _)) in all.iter().enumerate().filter(|(_, (node, _))| on_rims.contains(node)) {
+            let mut corners = shells.corners.of(node as usize).to_vec();
             let mut is_new = false;
             for at in &mut corners {
-                let Shell { group, element, .. } = shells.elements[at.shell as usize];
-                let nodes = self.groups[group].cell(element).corners();
-                let count = nodes.len();
-                let is_rim = |other: usize| rims.contains(&[nodes[other].min(*node), nodes[other].max(*node)]);
-                let behind = match [(at.corner + 1) % count, (at.corner + count - 1) % count].map(|other| (other, is_rim(other))) {
-                    [(_, true), (other, false)] | [(other, false), (_, true)] => other,
-                    // A corner of the sheet; or a corner that no rim of its own element touches.
-                    [(_, true), (_, true)] if count == 4 => (at.corner + 2) % count,
-                    _ => continue,
-                };
-                let Some(&direction) = known.get(&(at.shell, behind)) else { continue };
-                let along = unit(minus(self.positions[nodes[behind] as usize], self.positions[*node as usize]));
-                let (Some(normal), Some(along)) = (self.normal_of(nodes), along) else { continue };
-                let is_corner = (behind + 2) % 4 == at.corner && count == 4;
-                at.normal = if is_corner {
-                    minus(times(2.0 * dot(normal, direction), normal), direction)
-                } else {
-                    let lean = dot(direction, along);
-                    unit(minus(times((1.0 - lean * lean).sqrt(), at.normal), times(lean, along))).unwrap_or(at.normal)
-                };
-                is_new = true;
+                if let Some(normal) = self.normal_at_rim(shells, rims, node, at, known) {
+                    (at.normal, is_new) = (normal, true);
+                }
             }
             if is_new {
-                *faces = self.hub(shells, around, *node, &corners).0.faces();
+                leaning.push((place, self.hub(shells, around, node, &corners).0.faces()));
             }
         }
+        leaning.into_iter().for_each(|(place, faces)| all[place].1 = faces);
     }
 
-    /// Unit normal of an element as a whole.
-    fn normal_of(&self, nodes: &[u32]) -> Option<[f64; 3]> {
-        let x = |k: usize| self.positions[nodes[k] as usize];
-        unit(if nodes.len() == 4 { cross(minus(x(2), x(0)), minus(x(3), x(1))) } else { cross(minus(x(1), x(0)), minus(x(2), x(0))) })
+    /// The normal of a corner at a node on a rim from the direction at the node behind it, where that is
+    /// `known`.
+    fn normal_at_rim(
+        &self,
+        shells: &Shells,
+        rims: &BTreeSet<[u32; 2]>,
+        node: u32,
+        at: &Corner,
+        known: impl Fn(u32, u32) -> Option<[f64; 3]>,
+    ) -> Option<[f64; 3]> {
+        let Shell { group, element, .. } = shells.elements[at.shell as usize];
+        let nodes = self.groups[group].cell(element).corners();
+        let x = |corner: usize| self.positions[nodes[corner % nodes.len()] as usize];
+        let [next, before] = [at.corner + 1, at.corner + nodes.len() - 1].map(|corner| nodes[corner % nodes.len()]);
+        let is_rim = |other: u32| rims.contains(&[other.min(node), other.max(node)]);
+        let behind = match [is_rim(next), is_rim(before)] {
+            [true, false] => before,
+            [false, true] => next,
+            // A corner of the sheet.
+            [true, true] if nodes.len() == 4 => {
+                let normal = unit(cross(minus(x(2), x(0)), minus(x(3), x(1))))?;
+                let direction = known(nodes[(at.corner + 2) % 4], at.shell)?;
+                return Some(minus(times(2.0 * dot(normal, direction), normal), direction));
+            }
+            _ => return None,
+        };
+        let direction = known(behind, at.shell)?;
+        let along = unit(minus(self.positions[behind as usize], self.positions[node as usize]))?;
+        let lean = dot(direction, along);
+        Some(unit(minus(times((1.0 - lean * lean).sqrt(), at.normal), times(lean, along))).unwrap_or(at.normal))
     }
 
     /// Adds the nodes of the faces around a node, and gives them to its elements.

@@ -17,6 +17,7 @@
 mod advance;
 mod as_block;
 mod beam;
+mod bound;
 mod line;
 mod profile;
 mod quad;

@@ -38,6 +38,7 @@
 //! Derived for this program; the lineage is Simo and Vu-Quoc, Comput. Meth. Appl. Mech. Engng 58 (1986)
 //! 79-116, and Crisfield and Jelenić, Proc. R. Soc. A 455 (1999) 1125-1147.
 
+use super::bound;
 use super::surface::{self, Vector, loaded, replace, rotated, scaled};
 use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
 use crate::angle::arc_of_tangent;
@@ -392,7 +393,7 @@ fn bound<L: Lane>(
     let spread = (one - tangent * arc_of_tangent(tangent)) / (now.cosine * now.cosine);
     let twist = L::splat(shear * profile.torsion) / start;
     let bent = four * spread * spread * (stiff * round).max(twist) / inertia;
-    let material = surface::joined([moved, bent, one.min(tangent.sqrt())], zero);
+    let material = bound::joined([moved, bent, one.min(tangent.sqrt())], zero);
     let (d, b) = (length * length / inertia, L::splat(2.0) * length / inertia.sqrt());
     let root = (d * d + four * b * b).sqrt();
     let normal = force[0].abs();

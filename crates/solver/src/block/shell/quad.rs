@@ -36,11 +36,12 @@
 //! ```
 //!
 //! S and A are the Gram matrices of s and of a in the norm of the mass. Both together as in
-//! [`surface::joined`]; α is chosen such that a decides at the start.
+//! [`bound::joined`]; α is chosen such that a decides at the start.
 
+use super::bound;
 use super::surface::{
-    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, largest, loaded, moved, replace,
-    replace_vectors, scaled, times, turn_at_start, vectors,
+    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, loaded, moved, replace, replace_vectors,
+    scaled, times, turn_at_start, vectors,
 };
 use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
 use crate::block::Motion;
@@ -243,7 +244,7 @@ impl ShellKernel<3> for Quad {
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
         let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, thickness));
-        let inertia = surface::inertia(thickness, Self::AREA * area, 0.0, |inertia| {
+        let inertia = bound::inertia(thickness, Self::AREA * area, 0.0, |inertia| {
             bounds(&form, &inverse, &held, skew, [thickness; 2], facts.moduli(), [inertia, volume])
         });
         Start { state, areas, volumes, inertia }
@@ -381,10 +382,10 @@ fn bounds<L: Lane>(
     [inertia, volume]: [L; 2],
 ) -> [L; 3] {
     let (zero, one, two) = (L::splat(0.0), L::splat(1.0), L::splat(2.0));
-    let metric = surface::metric(inverse);
-    let along = surface::membrane(&metric, [membrane, shear], volume);
-    let warping = surface::steepest(&held.membrane) * (one + skew[0] * skew[0] + skew[1] * skew[1]);
-    let bend = surface::folding(form.mean, &form.d, ARC) * thickness * thickness / (L::splat(12.0) * inertia);
+    let metric = bound::metric(inverse);
+    let along = bound::membrane(&metric, [membrane, shear], volume);
+    let warping = bound::steepest(&held.membrane) * (one + skew[0] * skew[0] + skew[1] * skew[1]);
+    let bend = bound::folding(form.mean, &form.d, ARC) * thickness * thickness / (L::splat(12.0) * inertia);
     let bend_held = initial * initial / (L::splat(12.0) * inertia);
     // Gram matrices of s and of a in the norm of the mass.
     let turning = one / inertia;
@@ -395,8 +396,8 @@ fn bounds<L: Lane>(
     let slid = [[d0 + d2 + turning * (g1 + q), mixed], [mixed, d0 + d1 + turning * (g2 + q)]];
     let mixed = d0 + turning * q;
     let varied = [[slid[0][0], mixed], [mixed, slid[1][1]]];
-    let across = L::splat(SHEAR) * shear * volume * largest(&metric, &slid);
-    let across_held = largest(&[[held.shear[0], zero], [zero, held.shear[1]]], &varied);
+    let across = L::splat(SHEAR) * shear * volume * bound::largest(&metric, &slid);
+    let across_held = bound::largest(&[[held.shear[0], zero], [zero, held.shear[1]]], &varied);
     let plane = along + warping;
     let plate = across.max(along * bend + warping * bend_held) + across_held;
     let cosine = one.min(two * (square(form.d[0]) + square(form.d[1])).sqrt());

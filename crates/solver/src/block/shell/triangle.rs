@@ -13,8 +13,9 @@
 //! Forces are the gradient of the energy by x_a, moments m_a = −d_a × ∂W/∂d_a. *Step*: as that of `shell4`
 //! without stabilisation, with the mass in thirds at the corners.
 
+use super::bound;
 use super::surface::{
-    self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, largest, loaded, moved, replace, replace_vectors, scaled,
+    self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, loaded, moved, replace, replace_vectors, scaled,
     turn_at_start, vectors,
 };
 use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
@@ -169,7 +170,7 @@ impl ShellKernel<3> for Triangle {
         let area = Self::AREA * Dim::<2>::determinant(&measures.map);
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
-        let inertia = surface::inertia(thickness, area, INERTIA, |inertia| {
+        let inertia = bound::inertia(thickness, area, INERTIA, |inertia| {
             bounds(&form, &form.shear_rows(), &measures.inverse(), thickness, facts.moduli(), factor, [inertia, volume])
         });
         Start { state, areas: vec![area / 3.0; 3], volumes, inertia }
@@ -255,16 +256,16 @@ fn bounds<L: Lane>(
     factor: L,
     [inertia, volume]: [L; 2],
 ) -> [L; 3] {
-    let metric = surface::metric(inverse);
-    let plane = L::splat(SHARP) * surface::membrane(&metric, moduli, volume);
-    let bend = surface::folding(form.mean(), &natural(&form.d), ARC) * thickness * thickness / (L::splat(12.0) * inertia);
+    let metric = bound::metric(inverse);
+    let plane = L::splat(SHARP) * bound::membrane(&metric, moduli, volume);
+    let bend = bound::folding(form.mean(), &natural(&form.d), ARC) * thickness * thickness / (L::splat(12.0) * inertia);
     let turning = L::splat(1.0) / inertia;
     let mixed = gram(&rows[0], &rows[1], turning);
     let across = factor
         * factor
         * moduli[1]
         * volume
-        * largest(&metric, &[[gram(&rows[0], &rows[0], turning), mixed], [mixed, gram(&rows[1], &rows[1], turning)]]);
+        * bound::largest(&metric, &[[gram(&rows[0], &rows[0], turning), mixed], [mixed, gram(&rows[1], &rows[1], turning)]]);
     let d = natural(&form.d);
     let cosine = L::splat(1.0).min(L::splat(2.0) * (dot(d[0], d[0]) + dot(d[1], d[1])).sqrt());
     [plane, plane * bend + across, cosine]

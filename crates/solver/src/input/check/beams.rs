@@ -3,6 +3,7 @@
 use super::Check;
 use crate::material;
 use crate::mesh::messages::BEAMS;
+use crate::message::Message;
 use crate::model::{GIVEN, PROFILES, Part, Profile, StableStep};
 use crate::vocabulary::excerpt;
 use std::collections::BTreeSet;
@@ -41,14 +42,26 @@ impl Check<'_> {
                 format!("beams can't be of `{}`: it answers differently in different directions, or is a fluid", excerpt(&part.material));
             self.fault(&BEAMS, format!("{path}.material"), message, "take an isotropic solid such as `elastic` or `j2`");
         }
+        self.rotating(&BEAMS, path, part, Part::is_of_beams, ["beams", "a bar"]);
+    }
+
+    /// What elements whose nodes rotate can't have; said of the step with the first such part alone.
+    pub(super) fn rotating(
+        &mut self,
+        kind: &'static Message,
+        path: &str,
+        part: &Part,
+        is_such: fn(&Part) -> bool,
+        [what, like]: [&str; 2],
+    ) {
         if part.stress_initial.is_some() {
             let help = "leave it out; bring it about by loads in the first part of the run";
-            self.fault(&BEAMS, format!("{path}.stress_initial"), "beams begin without stress", help);
+            self.fault(kind, format!("{path}.stress_initial"), format!("{what} begin without stress"), help);
         }
-        let is_first = self.model.parts.iter().find(|part| part.is_of_beams()).is_some_and(|first| first.name == part.name);
+        let is_first = self.model.parts.iter().find(|part| is_such(part)).is_some_and(|first| first.name == part.name);
         if is_first && self.model.run.stable_step != StableStep::Elements {
-            let message = "this bound of the stable step knows no rotations, but the model has beams";
-            self.fault(&BEAMS, "run.stable_step", message, "leave it out: beams have the step of a bar");
+            let message = format!("this bound of the stable step knows no rotations, but the model has {what}");
+            self.fault(kind, "run.stable_step", message, format!("leave it out: {what} have the step of {like}"));
         }
     }
 

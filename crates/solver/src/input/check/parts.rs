@@ -12,7 +12,7 @@ use crate::mesh::messages::{BARS, DIMENSION, GROUP, NO_ELEMENT, SAME_PLACE, SHAP
 use crate::mesh::shapes::{Count, ShapeCheck};
 use crate::model::messages::{CLASH, NOTHING, OF_REVOLUTION, UNKNOWN_NAME};
 use crate::model::reference::dimension_word;
-use crate::model::{Extrude, GAUSS, LOBATTO, Model, Part, Placement, Revolve, Shape, StableStep, Sweep};
+use crate::model::{Extrude, GAUSS, LOBATTO, Model, Part, Placement, Revolve, Shape, Sweep};
 use crate::stress_state::{PLANE_STRESS, STRESS_STATES};
 use crate::vocabulary::{excerpt, suggestion};
 use std::collections::BTreeSet;
@@ -213,18 +213,10 @@ impl Check<'_> {
             let message = format!("`{}` has an equation of state, but there is no pressure across a shell", excerpt(&part.material));
             self.fault(&SHELLS, format!("{path}.material"), message, "take a solid without one, such as `elastic` or `j2`");
         }
-        if part.stress_initial.is_some() {
-            let help = "leave it out; bring it about by loads in the first part of the run";
-            self.fault(&SHELLS, format!("{path}.stress_initial"), "shells begin without stress", help);
-        }
         if part.hourglass.is_some() {
             self.fault(&SHELLS, format!("{path}.hourglass"), "these shells have no hourglass control", "leave it out");
         }
-        let is_first = self.model.parts.iter().find(|part| part.is_of_shells()).is_some_and(|first| first.name == part.name);
-        if is_first && self.model.run.stable_step != StableStep::Elements {
-            let message = "this bound of the stable step knows no rotations, but the model has shells";
-            self.fault(&SHELLS, "run.stable_step", message, "leave it out: shells have the step of their membrane");
-        }
+        self.rotating(&SHELLS, path, part, Part::is_of_shells, ["shells", "their membrane"]);
     }
 
     /// Why a part can't be the shell that its element says, and what to do.

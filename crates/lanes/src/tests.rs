@@ -167,6 +167,48 @@ fn gathers_and_scatters_find_the_right_points_in_the_plane_and_in_space() {
     walks::<3, 8>();
 }
 
+/// Component by component what is loaded of points, and points of components.
+struct Turned<'a, const D: usize> {
+    points: &'a [[f64; D]],
+    components: [&'a [Batch]; D],
+}
+
+impl<const D: usize> Kernel for Turned<'_, D> {
+    type Output = [Vec<f64>; 2];
+    #[inline(always)]
+    fn run<L: Lane>(self) -> [Vec<f64>; 2] {
+        let groups = self.points.len() / BATCH;
+        let (mut loaded, mut stored) = (vec![[Batch::default(); D]; groups], vec![[0.0; D]; self.points.len()]);
+        for first in (0..groups * BATCH).step_by(L::WIDTH) {
+            let (group, at) = (first / BATCH, first % BATCH);
+            let own: [L; D] = L::load_points(self.points, first);
+            own.iter().zip(&mut loaded[group]).for_each(|(value, batch)| value.store(batch, at));
+            L::store_points(std::array::from_fn(|d| L::load(&self.components[d][group], at)), &mut stored, first);
+        }
+        [loaded.as_flattened().iter().flat_map(|batch| batch.0).collect(), stored.as_flattened().to_vec()]
+    }
+}
+
+fn turned<const D: usize>() {
+    let points: Vec<[f64; D]> = (0..24).map(|i| std::array::from_fn(|d| (10 * i + d) as f64)).collect();
+    let columns: [Vec<Batch>; D] =
+        std::array::from_fn(|d| points.chunks(BATCH).map(|group| Batch(std::array::from_fn(|lane| group[lane][d]))).collect());
+    let loaded: Vec<f64> = (0..3).flat_map(|group| columns.iter().flat_map(move |column| column[group].0)).collect();
+    for level in Level::available() {
+        let kernel = Turned { points: &points, components: std::array::from_fn(|d| &columns[d][..]) };
+        assert_eq!([loaded.clone(), points.as_flattened().to_vec()], level.run(kernel), "{} {D}", level.name());
+    }
+}
+
+#[test]
+fn points_become_components_and_components_points() {
+    turned::<1>();
+    turned::<2>();
+    turned::<3>();
+    turned::<4>();
+    turned::<5>();
+}
+
 /// Doubles what is in rooms by way of the lanes.
 struct Double<'a> {
     rooms: &'a mut [Room],

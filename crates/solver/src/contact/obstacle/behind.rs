@@ -65,7 +65,9 @@ pub struct Behind<const D: usize> {
     way: f64,
     was_deep: bool,
     is_placed: bool,
-    /// Travel at which facets are looked at again, m, and steps since.
+    /// What the obstacle has gone, m.
+    gone: f64,
+    /// Ways of both sides at which facets are looked at again, m, and steps since.
     next: f64,
     steps: u32,
 }
@@ -102,6 +104,7 @@ where
             way: 0.0,
             was_deep: false,
             is_placed: false,
+            gone: 0.0,
             next: f64::NEG_INFINITY,
             steps: 0,
         }
@@ -161,7 +164,10 @@ where
     /// of its `body`.
     pub fn see_facets(&mut self, body: &Body<D>, deepest: impl Fn(&[[f64; D]]) -> Option<(f64, [f64; D])>, scene: &Scene<'_, D>) {
         self.steps = self.steps.saturating_add(1);
-        if body.is_fixed() && !self.was_deep && scene.sweep.travel < self.next && self.steps < MOST_STEPS {
+        let shift = body.shift();
+        self.gone += shift.unwrap_or(0.0);
+        let ways = scene.sweep.travel + self.gone;
+        if shift.is_some() && !self.was_deep && ways < self.next && self.steps < MOST_STEPS {
             return;
         }
         self.place(scene);
@@ -178,8 +184,9 @@ where
             }
         });
         let until = way_until_next(findings.now.ratio(), DEEPEST_IN_PLANE, BETWEEN_LOOKS, self.least);
-        // The obstacle rests: the bodies go all of the way.
-        (self.next, self.steps) = (scene.sweep.travel + 2.0 * until, 0);
+        // Half of it for each side.
+        self.next = if shift.is_some() { ways + 2.0 * until } else { f64::NEG_INFINITY };
+        self.steps = 0;
     }
 
     /// The step has been seen: what is too deep counts.
@@ -195,7 +202,7 @@ where
 
     /// Keeps what was found.
     pub fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        persist_each!(archive; &mut self.findings, &mut self.was_deep, &mut self.next, &mut self.steps);
+        persist_each!(archive; &mut self.findings, &mut self.was_deep, &mut self.gone, &mut self.next, &mut self.steps);
         Ok(())
     }
 

@@ -52,14 +52,14 @@ impl Rotations {
         self.nodes.is_empty()
     }
 
-    /// Rotates a node by the vector θ (rad) from where it is: R ← exp(θ) R. In 2D the angle is an exact sum.
-    pub(crate) fn rotate(&mut self, place: usize, theta: [f64; 3]) {
-        if let Some(angle) = self.angles.get_mut(place) {
-            *angle += theta[2];
+    /// What kernels take for the rotation at a place: in 3D its unit quaternion, in 2D its angle alone; no
+    /// rotation where there is no such place.
+    #[inline(always)]
+    pub(crate) fn numbers_at<const D: usize>(&self, place: usize) -> [f64; 4] {
+        if D == 2 {
+            return [self.angles.get(place).copied().unwrap_or(0.0), 0.0, 0.0, 0.0];
         }
-        if let Some(attitude) = self.attitudes.get_mut(place) {
-            *attitude = Attitude::exponential(theta).after(attitude);
-        }
+        self.attitudes.get(place).map_or([1.0, 0.0, 0.0, 0.0], |attitude| attitude.0)
     }
 
     /// Numbers that say how a node is turned and how it spins, for hashes; none where it has no rotation.

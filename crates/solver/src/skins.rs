@@ -4,12 +4,14 @@
 //! So contact forces, pressures and friction act where the faces are, momentum and angular momentum are kept
 //! to round-off, and nothing that acts on surfaces knows of shells.
 
-use crate::angle::{cos_sin, cos_sin_of};
+use crate::angle::cos_sin_of;
 use crate::mesh::{Mesh, Meshed, SkinNode};
-use crate::rotation::{Rotate, Square, applied, unit_matrix};
+use crate::rigid::space::Attitude;
+use crate::rotation::Rotate;
 use crate::rotations::Rotations;
-use crate::tensor::Dim;
-use crate::vector::{minus, plus};
+use crate::tensor::{Dim, Matrix};
+use crate::vector::{minus, plus, times};
+use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 
 /// The nodes on the faces of the shells of a model.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,11 +21,36 @@ pub(crate) struct Skins<const D: usize> {
     nodes: Vec<SkinNode<D>>,
     /// Where the owner of each is among the nodes that rotate; `u32::MAX`: a rigid body leads it.
     places: Vec<u32>,
+    /// Nodes of the middle that lead some, in the order of these.
+    owners: Vec<Owner>,
+}
+
+/// A node of the middle that leads nodes which follow each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Owner {
+    node: u32,
+    /// Where it is among the nodes that rotate.
+    place: u32,
+    /// The first of those that it leads, among all of them, and the one after the last.
+    from: u32,
+    to: u32,
+}
+
+/// Rotations after the coming step.
+pub struct Next<'a> {
+    /// Of now in 2D, rad.
+    pub angles: &'a [f64],
+    /// Spins in the coming step, rad/s.
+    pub spins: &'a [[f64; 3]],
+    /// After it in 3D.
+    pub attitudes: &'a [Attitude],
+    /// s; without a step it is the motion of now that is asked for.
+    pub time_step: f64,
 }
 
 impl<const D: usize> Default for Skins<D> {
     fn default() -> Self {
-        Self { first: 0, nodes: Vec::new(), places: Vec::new() }
+        Self { first: 0, nodes: Vec::new(), places: Vec::new(), owners: Vec::new() }
     }
 }
 
@@ -39,8 +66,15 @@ where
             Some(place) if !is_led(skin.owner) => place as u32,
             _ => u32::MAX,
         };
-        let places = mesh.skins.iter().map(place).collect();
-        Self { first, nodes: mesh.skins.clone(), places }
+        let places: Vec<u32> = mesh.skins.iter().map(place).collect();
+        let mut owners: Vec<Owner> = Vec::new();
+        for (own, (skin, &place)) in (0..).zip(mesh.skins.iter().zip(&places)).filter(|(_, (_, place))| **place != u32::MAX) {
+            match owners.last_mut().filter(|last| last.node == skin.owner && last.to == own) {
+                Some(last) => last.to += 1,
+                None => owners.push(Owner { node: skin.owner, place, from: own, to: own + 1 }),
+            }
+        }
+        Self { first, nodes: mesh.skins.clone(), places, owners }
     }
 
     /// Each node that a node of the middle leads, with that, and its place among those that rotate.
@@ -49,28 +83,17 @@ where
         all.filter(|(_, place)| **place != u32::MAX).map(|((node, skin), place)| (node, skin, *place as usize))
     }
 
-    /// Puts all where the middle says.
-    pub(crate) fn place(&self, rotations: &Rotations, positions: &mut [[f64; D]]) {
-        // Nodes of one owner follow each other.
-        let mut last = (usize::MAX, unit_matrix());
-        for (node, skin, place) in self.led() {
-            if place != last.0 {
-                last = (place, Dim::<D>::turn(rotations, place));
-            }
-            positions[node] = plus(positions[skin.owner as usize], applied(&last.1, skin.arm));
+    /// Velocities that lead them over the coming step to where the middle will have them: what was off by
+    /// rounding comes back. Without a step those that they have now.
+    pub(crate) fn lead(&self, next: &Next<'_>, positions: &[[f64; D]], velocities: &mut [[f64; D]], level: Level) {
+        if next.time_step > 0.0 {
+            level.run(Lead { skins: self, next, positions, velocities });
+            return;
         }
-    }
-
-    /// Velocities that lead them over a step (s) to where the middle will have them; without a step those
-    /// that they have now.
-    pub(crate) fn lead(&self, rotations: &Rotations, time_step: f64, positions: &[[f64; D]], velocities: &mut [[f64; D]]) {
-        let mut last = (usize::MAX, unit_matrix());
         for (node, skin, place) in self.led() {
-            if place != last.0 {
-                last = (place, Dim::<D>::chord(rotations.spins[place], time_step));
-            }
-            let arm = minus(positions[node], positions[skin.owner as usize]);
-            velocities[node] = plus(velocities[skin.owner as usize], applied(&last.1, arm));
+            let owner = skin.owner as usize;
+            velocities[node] =
+                plus(velocities[owner], Dim::<D>::spin_velocity(next.spins[place], minus(positions[node], positions[owner])));
         }
     }
 
@@ -110,52 +133,87 @@ impl<const D: usize> Skins<D> {
     }
 }
 
+/// [`Skins::lead`] over a step, eight owners at a time.
+struct Lead<'a, const D: usize> {
+    skins: &'a Skins<D>,
+    next: &'a Next<'a>,
+    positions: &'a [[f64; D]],
+    velocities: &'a mut [[f64; D]],
+}
+
+impl<const D: usize> Kernel for Lead<'_, D>
+where
+    Dim<D>: RotatedArm<D>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(self) {
+        let Self { skins, next, positions, velocities } = self;
+        let rate = 1.0 / next.time_step;
+        for owners in skins.owners.chunks(BATCH) {
+            let mut numbers = [[0.0; 4]; BATCH];
+            for (lane, owner) in owners.iter().enumerate() {
+                numbers[lane] = Dim::<D>::numbers(next, owner.place as usize);
+            }
+            let mut turns = [[Batch::default(); D]; D];
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let turn: Matrix<L, D> = Dim::<D>::turn(L::load_points(&numbers, at));
+                for i in 0..D {
+                    for k in 0..D {
+                        turn[i][k].store(&mut turns[i][k], at);
+                    }
+                }
+            }
+            for (lane, owner) in owners.iter().enumerate() {
+                let (x, v) = (positions[owner.node as usize], velocities[owner.node as usize]);
+                for own in owner.from as usize..owner.to as usize {
+                    let (node, arm) = (skins.first + own, skins.nodes[own].arm);
+                    let mut new = [0.0; D];
+                    for i in 0..D {
+                        for k in 0..D {
+                            new[i] += turns[i][k].0[lane] * arm[k];
+                        }
+                    }
+                    velocities[node] = plus(v, times(rate, minus(new, minus(positions[node], x))));
+                }
+            }
+        }
+    }
+}
+
 /// How arms rotate with nodes.
 pub trait RotatedArm<const D: usize> {
-    /// Rotation of the node at a place since the start, as a matrix.
-    fn turn(rotations: &Rotations, place: usize) -> Square<D>;
-    /// With the arm of now the velocity that leads it over a step (s) at a spin (rad/s): (exp(dt ω) − 1)/dt;
-    /// without a step ω ×.
-    fn chord(spin: [f64; 3], time_step: f64) -> Square<D>;
+    /// What says how the node at a place will be rotated.
+    fn numbers(next: &Next<'_>, place: usize) -> [f64; 4];
+    /// The matrix of that rotation.
+    fn turn<L: Lane>(numbers: [L; 4]) -> Matrix<L, D>;
 }
 
 impl RotatedArm<2> for Dim<2> {
-    fn turn(rotations: &Rotations, place: usize) -> Square<2> {
-        let [cos, sin] = cos_sin_of(rotations.angles[place]);
-        [[cos, -sin], [sin, cos]]
+    #[inline(always)]
+    fn numbers(next: &Next<'_>, place: usize) -> [f64; 4] {
+        [next.angles[place] + next.time_step * next.spins[place][2], 0.0, 0.0, 0.0]
     }
-    fn chord([_, _, spin]: [f64; 3], time_step: f64) -> Square<2> {
-        if time_step == 0.0 {
-            return [[0.0, -spin], [spin, 0.0]];
-        }
-        // cos θ − 1 = −2 sin²(θ/2), sin θ = 2 sin(θ/2) cos(θ/2).
-        let [cos, sin] = cos_sin_of(0.5 * time_step * spin);
-        let (along, across) = (-2.0 * sin * sin / time_step, 2.0 * sin * cos / time_step);
-        [[along, -across], [across, along]]
+    #[inline(always)]
+    fn turn<L: Lane>([angle, ..]: [L; 4]) -> Matrix<L, 2> {
+        let [cos, sin] = cos_sin_of(angle);
+        [[cos, -sin], [sin, cos]]
     }
 }
 
 impl RotatedArm<3> for Dim<3> {
-    fn turn(rotations: &Rotations, place: usize) -> Square<3> {
-        rotations.attitudes[place].matrix()
+    #[inline(always)]
+    fn numbers(next: &Next<'_>, place: usize) -> [f64; 4] {
+        next.attitudes[place].0
     }
-    fn chord([x, y, z]: [f64; 3], time_step: f64) -> Square<3> {
-        let sweep = |f: f64| [[0.0, -f * z, f * y], [f * z, 0.0, -f * x], [-f * y, f * x, 0.0]];
-        let size = (x * x + y * y + z * z).sqrt();
-        if time_step == 0.0 || size == 0.0 {
-            return sweep(1.0);
-        }
-        // sin θ (a ×) − (1 − cos θ) (1 − a aᵀ) with the axis a = ω/|ω|.
-        let [cos, sin] = cos_sin(0.5 * time_step * size);
-        let (across, along) = (2.0 * sin * cos / (time_step * size), 2.0 * sin * sin / (time_step * size * size));
-        let mut chord = sweep(across);
-        let spin = [x, y, z];
-        for (i, row) in chord.iter_mut().enumerate() {
-            for (j, value) in row.iter_mut().enumerate() {
-                *value += along * spin[i] * spin[j];
-            }
-            row[i] -= along * size * size;
-        }
-        chord
+    #[inline(always)]
+    fn turn<L: Lane>([w, x, y, z]: [L; 4]) -> Matrix<L, 3> {
+        let (one, two) = (L::splat(1.0), L::splat(2.0));
+        [
+            [one - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y)],
+            [two * (x * y + w * z), one - two * (x * x + z * z), two * (y * z - w * x)],
+            [two * (x * z - w * y), two * (y * z + w * x), one - two * (x * x + y * y)],
+        ]
     }
 }

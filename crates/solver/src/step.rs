@@ -258,7 +258,7 @@ where
         let nodes = reductions::sum((0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic));
         self.rotations.prepare(&self.curves, [0.0; 2], [0.0; 2]);
         let rotations = self.rotations.start(&self.bodies);
-        self.skins.lead(&self.rotations.now, 0.0, &self.positions, &mut self.velocities);
+        self.skins.lead(&self.rotations.next(0.0), &self.positions, &mut self.velocities, self.level);
         self.ledger = Ledger::new(nodes + self.bodies.kinetic() + rotations, self.energy_of_round_off());
         let nodes = reductions::max(self.velocities.iter().map(|&v| dot(v, v)));
         self.positions_old.clone_from(&self.positions);
@@ -285,7 +285,6 @@ where
         std::mem::swap(&mut self.positions, &mut self.positions_old);
         self.bodies.advance(dt, &mut self.positions);
         self.rotations.advance(dt, &self.bodies);
-        self.skins.place(&self.rotations.now, &mut self.positions);
         self.time_step_old = dt;
         self.travel += dt * self.speed;
         self.time += dt;
@@ -411,8 +410,8 @@ where
         let steps = [nodes.dt, time_step];
         self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
-        self.of_bodies += &self.rotations.accelerate(steps[0], |node| self.damping.factor(node), &self.bodies);
-        self.skins.lead(&self.rotations.now, steps[1], &self.positions, &mut self.velocities);
+        self.of_bodies += &self.rotations.accelerate(steps, &self.damping, &self.bodies, self.level);
+        self.skins.lead(&self.rotations.next(time_step), &self.positions, &mut self.velocities, self.level);
         self.time_step = time_step;
         self.speed = self.largest_speed();
     }

@@ -3,9 +3,9 @@
 use super::Block;
 use super::bar::Bars;
 use super::kernel::{Compiled, ElementKernel};
-use super::shell::{Beam, Line, Quad, Shells, Triangle};
+use super::shell::{Beam, Full, Line, Quad, Shells, Triangle};
 use super::store::ElementStore;
-use crate::element::{BAR2, BEAM2, Element, ElementOptions, ElementVisitor, Registered, SHELL2, SHELL3, SHELL4, with_element};
+use crate::element::{BAR2, BEAM2, Element, ElementOptions, ElementVisitor, Registered, SHELL2, SHELL3, SHELL4, SHELL4_FULL, with_element};
 use crate::material::points;
 use crate::material::points::PointLaw;
 use crate::model::{Material, Profile, ShellSection};
@@ -97,6 +97,9 @@ impl Blocks<3> for Dim<3> {
     fn make(input: &BlockInput<'_, 3>) -> Option<Box<dyn Block<3>>> {
         if input.element == SHELL4.name {
             return Some(Box::new(Shells::<Quad, 3>::new(input, points::layer_in_3d(input.material)?, [false; 2])?));
+        }
+        if input.element == SHELL4_FULL.name {
+            return Some(Box::new(Shells::<Full, 3>::new(input, points::layer_in_3d(input.material)?, [false; 2])?));
         }
         if input.element == SHELL3.name {
             return Some(Box::new(Shells::<Triangle, 3>::new(input, points::layer_in_3d(input.material)?, [false; 2])?));

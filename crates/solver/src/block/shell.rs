@@ -21,6 +21,7 @@ mod bound;
 mod line;
 mod profile;
 mod quad;
+mod quad_full;
 mod section;
 mod surface;
 mod triangle;
@@ -29,12 +30,13 @@ pub(super) use beam::Beam;
 pub(crate) use beam::axes as beam_axes;
 pub(super) use line::Line;
 pub(super) use quad::Quad;
+pub(super) use quad_full::Full;
 pub(super) use triangle::Triangle;
 
 use super::make::BlockInput;
-use super::{Motion, Report, SHELL_VALUES};
+use super::{Report, SHELL_VALUES};
 use crate::archive::{Archive, ArchiveResult, Persist};
-use crate::material::points::{PointLaw, Scratch};
+use crate::material::points::{PointLaw, RESPONSE, Scratch};
 use crate::material::{Family, Parameters, young_and_poisson};
 use crate::rotations::Rotations;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
@@ -174,6 +176,19 @@ impl Layers<'_> {
         L::load(self.thickness, at) * sum
     }
 
+    /// Those of one point in the plane.
+    #[inline(always)]
+    fn plane(&self, facts: &Facts, number: usize) -> Self {
+        let count = facts.section.count();
+        Self {
+            stress: &self.stress[number * count * facts.components..],
+            history: &self.history[number * count * facts.width..],
+            response: &self.response[number * count * RESPONSE..],
+            damped: if self.damped.is_empty() { self.damped } else { &self.damped[number * count * facts.components..] },
+            thickness: self.thickness,
+        }
+    }
+
     /// Stress of a point with that of the damping, components of the dimension.
     #[inline(always)]
     fn stress_of<T: SymmetricTensor<L>, L: Lane>(&self, point: usize, at: usize) -> T {
@@ -205,6 +220,26 @@ pub(super) struct Strains<'a> {
     live: &'a Batch,
 }
 
+impl Strains<'_> {
+    /// Those of one point in the plane.
+    #[inline(always)]
+    fn plane(&mut self, facts: &Facts, number: usize) -> Strains<'_> {
+        let (count, components) = (facts.section.count(), facts.components);
+        let turn = if self.rotation.is_empty() { 0 } else { self.rotation.len() / self.ratio.len() };
+        Strains {
+            strain: &mut self.strain[number * count * components..],
+            ratio: &mut self.ratio[number * count..],
+            volume: &mut self.volume[number * count..],
+            stress: &mut self.stress[number * count * components..],
+            rotation: &mut self.rotation[number * count * turn..],
+            thickness: self.thickness,
+            damping: self.damping,
+            flow: self.flow,
+            live: self.live,
+        }
+    }
+}
+
 /// What an element answers to the stresses of its layers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Answer<L> {
@@ -219,7 +254,7 @@ pub(super) struct Answer<L> {
     /// Energy that it stores besides in its layers, and damping took besides in these, J.
     besides: [L; 2],
     /// Part of the work of the last step that flow took, in the mean over the points and by the square of
-    /// their heights; and the mean of their equivalent stress, Pa.
+    /// their heights; and the quadratic mean of their equivalent stress, Pa.
     flow: [L; 3],
     /// See [`super::ElementState::shell`].
     resultants: [L; SHELL_VALUES],
@@ -234,30 +269,72 @@ where
     type Tensor: SymmetricTensor<f64>;
     /// Nodes of an element.
     const NODES: usize;
-    /// Batches of the motion of a batch of elements: position and rotation of each node.
-    const MOTION: usize;
     /// Batches that are kept of an element.
     const STATE: usize;
+    /// Points in the plane, each with all layers.
+    const PLANES: usize = 1;
     /// Whether the material of a layer may rotate against the frame of its element.
     const ROTATES: bool = false;
-    /// Batches of forces and moments of an element: of each node D of force, then three of moment.
-    const PULLS: usize;
 
     /// Directions of the nodes of each element (its tangents; in 3D its normals), which are common to the
     /// elements around a node as far as these differ by less than an angle with the cosine `fold`.
     fn directions(connectivity: &[u32], positions: &[[f64; D]], fold: f64) -> Vec<[f64; D]>;
     /// An element at the start.
     fn start(facts: &Facts, positions: &[[f64; D]], directions: &[[f64; D]], thickness: f64) -> Start;
-    /// Gathers the motion of a node.
-    fn gather(node: usize, place: usize, motion: &Motion<'_, D>, to: &mut [Batch], lane: usize);
     /// Strains the layers, and keeps what forces need.
-    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize);
+    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, D>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize);
     /// Forces and moments of the stresses; `inertia` is that of a corner by its mass, m².
-    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L>;
+    fn forces<L: Lane>(
+        facts: &Facts,
+        state: &[Batch],
+        layers: &Layers<'_>,
+        inertia: L,
+        pulls: &mut Pulls<'_, L, D>,
+        at: usize,
+    ) -> Answer<L>;
     /// Stress of an elastic body with K and µ (Pa) that is strained like a layer, Pa.
     fn elastic<L: Lane>(facts: &Facts, strain: &[Batch], stiffness: [L; 2], at: usize) -> [L; 6];
-    /// A stress in the frame of an element, in that of the model: xx yy zz xy yz zx.
-    fn turned(state: &[Batch], stress: [f64; 6], lane: usize) -> [f64; 6];
+    /// A stress in the frame of an element (at one of its points in the plane), in that of the model: xx yy
+    /// zz xy yz zx.
+    fn turned(state: &[Batch], stress: [f64; 6], plane: usize, lane: usize) -> [f64; 6];
+}
+
+/// Positions of the nodes of a batch of elements, corner by corner, and their rotations (see
+/// [`Rotations::numbers_at`]).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corners<'a, const D: usize> {
+    positions: &'a [[[f64; D]; BATCH]],
+    rotations: &'a [[[f64; 4]; BATCH]],
+}
+
+impl<const D: usize> Corners<'_, D> {
+    #[inline(always)]
+    fn of<L: Lane>(&self, corner: usize, at: usize) -> ([L; D], [L; 4]) {
+        (L::load_points(&self.positions[corner], at), L::load_points(&self.rotations[corner], at))
+    }
+}
+
+/// Forces and moments of a batch of elements, corner by corner.
+#[derive(Debug)]
+pub(super) struct Pulls<'a, L: Lane, const D: usize> {
+    forces: &'a mut [[[f64; D]; BATCH]],
+    moments: &'a mut [[[f64; 3]; BATCH]],
+    /// What is not there does not pull.
+    there: L::Mask,
+}
+
+impl<L: Lane, const D: usize> Pulls<'_, L, D> {
+    #[inline(always)]
+    fn put(&mut self, corner: usize, mut force: [L; D], mut moment: [L; 3], at: usize) {
+        for d in 0..D {
+            force[d] = L::select(self.there, force[d], L::splat(0.0));
+        }
+        for d in 0..3 {
+            moment[d] = L::select(self.there, moment[d], L::splat(0.0));
+        }
+        L::store_points(force, &mut self.forces[corner], at);
+        L::store_points(moment, &mut self.moments[corner], at);
+    }
 }
 
 /// What belongs to a batch of eight elements.
@@ -299,15 +376,17 @@ impl Persist for ShellBatch {
 }
 
 /// Room of a thread.
-#[derive(Debug, Default)]
-struct Room {
-    motion: Vec<Batch>,
+#[derive(Debug)]
+struct Room<const D: usize> {
+    positions: Vec<[[f64; D]; BATCH]>,
+    rotations: Vec<[[f64; 4]; BATCH]>,
     strain: Vec<Batch>,
     ratio: Vec<Batch>,
     rotation: Vec<Batch>,
     volume: Vec<Batch>,
     response: Vec<Batch>,
-    pulls: Vec<Batch>,
+    forces: Vec<[[f64; D]; BATCH]>,
+    moments: Vec<[[f64; 3]; BATCH]>,
     law: Scratch,
 }
 
@@ -339,7 +418,7 @@ pub(super) struct Shells<K, const D: usize> {
     rotation: Vec<Batch>,
     heat: Vec<Batch>,
     reports: Vec<Report>,
-    rooms: Vec<Mutex<Room>>,
+    rooms: Vec<Mutex<Room<D>>>,
     kernel: std::marker::PhantomData<K>,
 }
 
@@ -367,7 +446,7 @@ where
 
     fn of(input: &BlockInput<'_, D>, law: Box<dyn PointLaw>, facts: Facts, failed_share: f64, [thickness, fold_angle]: [f64; 2]) -> Self {
         let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
-        let (points, count, components) = (facts.section.count(), input.connectivity.len() / K::NODES, facts.components);
+        let (points, count, components) = (facts.section.count() * K::PLANES, input.connectivity.len() / K::NODES, facts.components);
         let batches = count.div_ceil(BATCH);
         let scratch = |width: usize| vec![Batch::default(); batches * width];
         let turn = <<K::Tensor as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
@@ -450,7 +529,7 @@ where
 
     /// Points of an element.
     fn points(&self) -> usize {
-        self.facts.section.count()
+        self.facts.section.count() * K::PLANES
     }
 
     /// The layers of a batch; responses are those of the last step where they are given.

@@ -9,6 +9,7 @@ mod beam2;
 mod shell2;
 mod shell3;
 mod shell4;
+mod shell4_full;
 mod of_part;
 mod hex8;
 mod hex8_assumed_strain;
@@ -29,6 +30,7 @@ pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedVis
 pub use shell2::SHELL2;
 pub use shell3::SHELL3;
 pub use shell4::SHELL4;
+pub use shell4_full::SHELL4_FULL;
 pub use tet4::{Tet4, Tet4Anp};
 pub use tri3::{Tri3, Tri3Anp};
 pub use wedge6::Wedge6;
@@ -391,7 +393,7 @@ pub const BEAMS: &[ElementKind] = &[BEAM2];
 
 /// Elements of a mid surface, a line in 2D, whose points are layers through the thickness: blocks of their
 /// own too.
-pub const SHELLS: &[ElementKind] = &[SHELL2, SHELL4, SHELL3];
+pub const SHELLS: &[ElementKind] = &[SHELL2, SHELL4, SHELL4_FULL, SHELL3];
 
 /// Every element: those in 2D, bars, beams and shells too, then those in 3D.
 #[must_use]

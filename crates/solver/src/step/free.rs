@@ -47,7 +47,7 @@ where
 
 /// Sums of [`Sums`], one per lane position.
 #[derive(Default)]
-struct LaneSums {
+pub(super) struct LaneSums {
     kinetic_half: Batch,
     kinetic: Batch,
     internal: Batch,
@@ -60,7 +60,7 @@ struct LaneSums {
 }
 
 impl LaneSums {
-    fn total(&self) -> Sums {
+    pub(super) fn total(&self) -> Sums {
         let sum = |batch: &Batch| batch.0.iter().sum();
         Sums {
             kinetic_half: sum(&self.kinetic_half),
@@ -79,7 +79,7 @@ impl LaneSums {
 
 /// `values[first..first + 8]`.
 #[inline(always)]
-fn eight(values: &[f64], first: usize) -> Batch {
+pub(super) fn eight(values: &[f64], first: usize) -> Batch {
     values[first..].first_chunk().map_or(Batch::default(), |values| Batch(*values))
 }
 
@@ -154,28 +154,56 @@ where
     /// v^{n+½} of the nodes `first + at..` and their part in the ledger.
     #[inline(always)]
     fn advance_free<L: Lane>(&self, first: usize, at: usize, internal: [L; D], sums: &mut LaneSums) -> [L; D] {
-        let (half, dt) = (L::splat(0.5), L::splat(self.dt));
         let node = first + at;
-        let m = L::load(&eight(self.mass, first), at);
-        let old = L::load_points(self.velocities_old, node);
-        let scale = dt / m;
-        let mut force = internal;
+        let mut contact = None;
         if let Some(forces) = self.contact_forces {
             // Adding zeros is for their sign.
             let zero = [L::splat(0.0); D];
-            let contact = if forces.has(first / BATCH) { L::load_points(forces.values(), node) } else { zero };
+            contact = Some(if forces.has(first / BATCH) { L::load_points(forces.values(), node) } else { zero });
+        }
+        let pulled = Pulled {
+            mass: L::load(&eight(self.mass, first), at),
+            old: L::load_points(self.velocities_old, node),
+            internal,
+            contact,
+            load: if self.loads.is_empty() { None } else { Some(L::load_points(self.loads, node)) },
+            gravity: if self.gravity.is_empty() { None } else { Some(L::load_points(self.gravity, node)) },
+            slowing: if self.damping.acts() { Some(L::load(&self.damping.factors(first), at)) } else { None },
+        };
+        pulled.advance(L::splat(self.dt), sums, at)
+    }
+}
+
+/// What pulls on nodes that nothing holds: as [`super::nodes::Pull`], in lanes.
+pub(super) struct Pulled<L, const D: usize> {
+    pub(super) mass: L,
+    pub(super) old: [L; D],
+    pub(super) internal: [L; D],
+    pub(super) contact: Option<[L; D]>,
+    pub(super) load: Option<[L; D]>,
+    pub(super) gravity: Option<[L; D]>,
+    /// a of damping.
+    pub(super) slowing: Option<L>,
+}
+
+impl<L: Lane, const D: usize> Pulled<L, D> {
+    /// v^{n+½} after Δt, and its part in the ledger.
+    #[inline(always)]
+    pub(super) fn advance(self, dt: L, sums: &mut LaneSums, at: usize) -> [L; D] {
+        let Self { mass, old, internal, contact, load, gravity, slowing } = self;
+        let half = L::splat(0.5);
+        let scale = dt / mass;
+        let mut force = internal;
+        if let Some(contact) = contact {
             force = plus(force, contact);
         }
         let mut v = plus(old, times(scale, force));
-        let load = if self.loads.is_empty() { None } else { Some(L::load_points(self.loads, node)) };
         if let Some(load) = load {
             v = plus(v, times(scale, load));
         }
-        let gravity = if self.gravity.is_empty() { None } else { Some(L::load_points(self.gravity, node)) };
         if let Some(g) = gravity {
             v = plus(v, times(dt, g));
         }
-        let slowing = if self.damping.acts() { Some(L::load(&self.damping.factors(first), at)) } else { None };
         if let Some(a) = slowing {
             let all = L::splat(1.0) + a;
             for d in 0..D {
@@ -185,20 +213,19 @@ where
         let mean = times(half, plus(old, v));
         let square = dot(v, v);
         square.max(L::load(&sums.speed_squared, at)).store(&mut sums.speed_squared, at);
-        add(&mut sums.kinetic_half, half * m * square, at);
-        add(&mut sums.kinetic, half * m * dot(old, v), at);
+        add(&mut sums.kinetic_half, half * mass * square, at);
+        add(&mut sums.kinetic, half * mass * dot(old, v), at);
         add(&mut sums.internal, dt * dot(internal, mean), at);
         if let Some(load) = load {
             add(&mut sums.load, dt * dot(load, mean), at);
             add(&mut sums.external_old, dt * dot(load, old), at);
         }
         if let Some(g) = gravity {
-            add(&mut sums.gravity, dt * m * dot(g, mean), at);
-            add(&mut sums.external_old, dt * m * dot(g, old), at);
+            add(&mut sums.gravity, dt * mass * dot(g, mean), at);
+            add(&mut sums.external_old, dt * mass * dot(g, old), at);
         }
         if let Some(a) = slowing {
-            let factor = -(L::splat(2.0) * a * m);
-            let impulse = times(factor, mean);
+            let impulse = times(-(L::splat(2.0) * a * mass), mean);
             add(&mut sums.damping, dot(impulse, mean), at);
             add(&mut sums.damping_old, dot(impulse, old), at);
         }

@@ -49,6 +49,9 @@ where
         if !self.rotations.now.is_empty() {
             archive.section("rotations")?;
             self.rotations.persist(archive)?;
+            if archive.reads() {
+                self.rotations.foresee(self.time_step, self.level);
+            }
         }
         for (number, block) in self.blocks.iter_mut().enumerate() {
             archive.section(&format!("elements {number}"))?;

@@ -7,7 +7,10 @@
 //! slows spins at the rate of the node. Nodes of symmetry planes rotate about the normal alone, joined nodes
 //! together, nodes of rigid parts with their body, whose inertia has theirs.
 
+mod lanes;
+
 use super::System;
+use super::free::Groups as Eights;
 use super::nodes::Pull;
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::assembly::Assembly;
@@ -16,20 +19,26 @@ use crate::dimension::Dimension;
 use crate::energy::Sums;
 use crate::load::constraint::{Constraints, NodeConstraint};
 use crate::load::curve::Curves;
+use crate::load::damping::Damping;
 use crate::load::join::{Joins, back, turned};
 use crate::model::{Load, Model, in_3d};
 use crate::reductions;
+use crate::rigid::space::Attitude;
 use crate::rigid::{Bodies, RigidMotion};
 use crate::rotation::{Square, transposed, unit_matrix};
 use crate::rotations::Rotations;
+use crate::skins::Next;
 use crate::tensor::{Dim, cross, product};
 use crate::vector::{any_tangent, dot, plus, times};
+use embate_lanes::{BATCH, Level};
 
 /// The nodes that rotate. Lists have an entry for each of them, in the order of [`Rotations::nodes`].
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NodalRotations {
     /// Rotations R^n, and spins ω^{n+½} from the update on, ω^{n−½} before.
     pub(crate) now: Rotations,
+    /// In 3D R^{n+1}, from the update on; of rigid bodies anything.
+    next: Vec<Attitude>,
     /// ω^{n−½}, rad/s.
     pub(crate) spins_old: Vec<[f64; 3]>,
     /// Moment of inertia about any axis, kg m (kg m²).
@@ -46,8 +55,11 @@ pub(crate) struct NodalRotations {
     now_loads: Vec<[f64; 3]>,
     /// Moments of contact forces in the coming update, N (N m); empty without.
     contact: Vec<[f64; 3]>,
-    /// Group of each, and whether it is the first of it; `u32::MAX`: a body leads it.
+    /// Group of each; `u32::MAX`: a body leads it.
     group_of: Vec<u32>,
+    /// Which eights of places nothing holds, joins or leads, and the groups of all other places.
+    free: Vec<bool>,
+    others: Vec<u32>,
 }
 
 /// A moment that acts on nodes.
@@ -75,6 +87,7 @@ impl Persist for NodalRotations {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self {
             now,
+            next: _,
             spins_old,
             inertia: _,
             slots: _,
@@ -85,6 +98,8 @@ impl Persist for NodalRotations {
             now_loads: _,
             contact: _,
             group_of: _,
+            free: _,
+            others: _,
         } = self;
         let Rotations { nodes: _, angles, attitudes, spins } = now;
         persist_each!(archive; &mut angles[..], &mut attitudes[..], &mut spins[..], &mut spins_old[..]);
@@ -175,9 +190,26 @@ impl NodalRotations {
         for (number, group) in (0..).zip(&groups) {
             group.members.iter().for_each(|&(place, _)| group_of[place] = number);
         }
-        let slots = vec![[0.0; 3]; assembly.count];
-        let (loads, now_loads, contact) = (Vec::new(), Vec::new(), Vec::new());
-        Self { spins_old: now.spins.clone(), now, inertia, slots, assembly, bodies: of_bodies, groups, loads, now_loads, contact, group_of }
+        let is_free =
+            |place: usize| groups.get(group_of[place] as usize).is_some_and(|group| group.members.len() == 1 && group.held.is_none());
+        let free = Eights::new(count, is_free).free;
+        let is_other = |&number: &u32| free.get(groups[number as usize].members[0].0 / BATCH) != Some(&true);
+        Self {
+            others: (0..groups.len() as u32).filter(is_other).collect(),
+            free,
+            next: now.attitudes.clone(),
+            spins_old: now.spins.clone(),
+            slots: vec![[0.0; 3]; assembly.count],
+            now,
+            inertia,
+            assembly,
+            bodies: of_bodies,
+            groups,
+            loads: Vec::new(),
+            now_loads: Vec::new(),
+            contact: Vec::new(),
+            group_of,
+        }
     }
 
     /// Lets the moments of a model's loads act: of each its nodes, the whole of it (N, N m) and its curve.
@@ -293,33 +325,53 @@ impl NodalRotations {
     where
         Dim<D>: Dimension<D>,
     {
-        for place in 0..self.inertia.len() {
-            if self.bodies[place] == u32::MAX {
-                self.now.rotate(place, times(time_step, self.now.spins[place]));
-                continue;
-            }
-            let (angle, attitude) = <Dim<D>>::orientation(&bodies.state(self.bodies[place] as usize).angle);
+        std::mem::swap(&mut self.now.attitudes, &mut self.next);
+        // In 2D the angle is an exact sum.
+        for (angle, spin) in self.now.angles.iter_mut().zip(&self.now.spins) {
+            *angle += time_step * spin[2];
+        }
+        for (place, &body) in self.bodies.iter().enumerate().filter(|(_, body)| **body != u32::MAX) {
+            let (angle, attitude) = <Dim<D>>::orientation(&bodies.state(body as usize).angle);
             self.now.angles.get_mut(place).into_iter().for_each(|own| *own = angle);
             self.now.attitudes.get_mut(place).into_iter().for_each(|own| *own = attitude);
         }
     }
 
-    /// ω^{n+½}, and the part of it in the ledger; Δt is `mean_step`, a of damping `slowing` at a node. Spins
-    /// of rigid bodies are known already.
-    pub(super) fn accelerate<const D: usize>(&mut self, mean_step: f64, slowing: impl Fn(usize) -> f64, bodies: &Bodies<D>) -> Sums
+    /// ω^{n+½}, and the part of it in the ledger; Δt is `mean_step`. Spins of rigid bodies are known already.
+    /// R^{n+1} after `time_step` follows at once.
+    pub(super) fn accelerate<const D: usize>(
+        &mut self,
+        [mean_step, time_step]: [f64; 2],
+        damping: &Damping,
+        bodies: &Bodies<D>,
+        level: Level,
+    ) -> Sums
     where
         Dim<D>: Dimension<D>,
     {
-        let mut sums = Sums::default();
         std::mem::swap(&mut self.now.spins, &mut self.spins_old);
         let mut spins = std::mem::take(&mut self.now.spins);
-        for group in &self.groups {
-            let pull = self.pull(group, &self.spins_old, [true, true], &slowing);
+        let mut sums = level.run(lanes::Accelerate { rotations: self, dt: mean_step, damping, spins: &mut spins });
+        for group in self.others.iter().map(|&number| &self.groups[number as usize]) {
+            let pull = self.pull(group, &self.spins_old, [true, true], |node| damping.factor(node));
             group.lead(pull.advance(mean_step, &mut sums), &mut spins);
         }
         self.now.spins = spins;
         self.follow(bodies);
-        sums
+        self.foresee(time_step, level);
+        // Spins are no speeds.
+        Sums { speed_squared: 0.0, ..sums }
+    }
+
+    /// R^{n+1} after a step (s), of known spins.
+    pub(super) fn foresee(&mut self, time_step: f64, level: Level) {
+        let Rotations { attitudes, spins, .. } = &self.now;
+        level.run(lanes::Rotate { attitudes, spins, time_step, next: &mut self.next });
+    }
+
+    /// What [`Skins::lead`](crate::skins::Skins::lead) takes: rotations after the coming step (s).
+    pub(super) fn next(&self, time_step: f64) -> Next<'_> {
+        Next { angles: &self.now.angles, spins: &self.now.spins, attitudes: &self.next, time_step }
     }
 
     /// Nodes of rigid bodies spin as these.

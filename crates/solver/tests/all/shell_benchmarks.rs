@@ -41,7 +41,7 @@ impl Problem {
         let node = |i: usize, j: usize| (j * (n + 1) + i) as u32;
         let quads = (0..m).flat_map(|j| (0..n).map(move |i| (i, j)));
         let quads = quads.map(|(i, j)| [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]);
-        let corners = if element == "shell4" { 4 } else { 3 };
+        let corners = if element == "shell3" { 3 } else { 4 };
         let cells: Vec<u32> = quads.flat_map(|[a, b, c, d]| if corners == 4 { vec![a, b, c, d] } else { vec![a, b, c, a, c, d] }).collect();
         // Else the mean of the elements around each node.
         let directions: Vec<Vector> = cells.iter().filter(|_| smooth).map(|&node| points[node as usize][1]).collect();
@@ -254,6 +254,8 @@ fn roofs_cylinders_and_hemispheres_bend_as_in_the_literature() {
     // With the normals of the surface itself, as symmetry planes give them, they are as near.
     is_near("roof, its normals", roof("shell4", 12, true), 1.0, 0.012);
     is_near("hemisphere, its normals", hemisphere("shell4", 12), 0.994, 0.01);
+    is_near("roof, shell4_full", roof("shell4_full", 12, false), 1.0, 0.03);
+    is_near("hemisphere, shell4_full", hemisphere("shell4_full", 12), 1.0, 0.05);
     is_near("roof, shell3", roof("shell3", 8, false), 0.853, 0.02);
     // Triangles of constant strain come from below: 0.737 with mean directions (a prototype), less of it with
     // the normals.
@@ -277,6 +279,9 @@ fn clamped_plates_neither_lock_nor_soften() {
     }
     is_near("very thin plate, shell4", plate("shell4", 8, 0.001, 0.0), 0.998, 0.004);
     is_near("distorted plate, shell4", plate("shell4", 8, 0.01, 0.3), 1.0, 0.01);
+    is_near("plate, shell4_full", plate("shell4_full", 8, 0.01, 0.0), 1.0, 0.01);
+    is_near("very thin plate, shell4_full", plate("shell4_full", 8, 0.001, 0.0), 1.0, 0.01);
+    is_near("distorted plate, shell4_full", plate("shell4_full", 8, 0.01, 0.3), 1.0, 0.015);
     for (n, expected) in [(4, 1.012), (8, 1.005)] {
         is_near("plate, shell3", plate("shell3", n, 0.01, 0.0), expected, 0.01);
     }

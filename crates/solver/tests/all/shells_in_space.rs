@@ -12,7 +12,7 @@ use embate_solver::rotations::Rotations;
 
 type Vector = [f64; 3];
 
-const ELEMENTS: [(&str, usize); 2] = [("shell4", 4), ("shell3", 3)];
+const ELEMENTS: [(&str, usize); 3] = [("shell4", 4), ("shell4_full", 4), ("shell3", 3)];
 
 pub(crate) fn minus(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]

@@ -1,11 +1,11 @@
 //! A step of shells: strips of elements go through strain, law, damping and forces; chunks of strips are
 //! shared by threads, and their reports joined in order.
 
-use super::{BATCH, Batch, CHUNK, Facts, Layers, Room, ShellBatch, ShellKernel, Shells, Strains};
+use super::{BATCH, Batch, CHUNK, Corners, Facts, Layers, Pulls, Room, ShellBatch, ShellKernel, Shells, Strains};
 use crate::block::strip::{ForEachBatch, Parts, STRIP};
 use crate::block::{Motion, NodalForces, Report, damping};
 use crate::material::Family;
-use crate::material::points::{Points, RESPONSE};
+use crate::material::points::{Points, RESPONSE, Scratch};
 use crate::tensor::{Dim, Space};
 use embate_lanes::{Chunks, Lane, Level, Team};
 use std::marker::PhantomData;
@@ -17,7 +17,7 @@ struct Strain<'a, K, const D: usize> {
     points: usize,
     /// β over the step; 0: none.
     damping: f64,
-    motion: &'a [Batch],
+    corners: Corners<'a, D>,
     state: &'a mut [Batch],
     elements: &'a [ShellBatch],
     stress: &'a mut [Batch],
@@ -53,8 +53,9 @@ where
             flow: &own.flow,
             live: &own.live,
         };
-        let motion = &self.motion[batch * K::MOTION..][..K::MOTION];
-        K::strain::<L>(self.facts, motion, &mut self.state[batch * K::STATE..][..K::STATE], &mut strains, at);
+        let nodes = batch * K::NODES..(batch + 1) * K::NODES;
+        let corners = Corners { positions: &self.corners.positions[nodes.clone()], rotations: &self.corners.rotations[nodes] };
+        K::strain::<L>(self.facts, &corners, &mut self.state[batch * K::STATE..][..K::STATE], &mut strains, at);
     }
 }
 
@@ -72,7 +73,8 @@ struct Pull<'a, K, const D: usize> {
     strain: &'a [Batch],
     volume: &'a [Batch],
     elements: &'a mut [ShellBatch],
-    pulls: &'a mut [Batch],
+    forces: &'a mut [[[f64; D]; BATCH]],
+    moments: &'a mut [[[f64; 3]; BATCH]],
     kernel: PhantomData<K>,
 }
 
@@ -129,12 +131,10 @@ where
             thickness: &own.thickness_initial,
         };
         let state = &self.state[batch * K::STATE..][..K::STATE];
-        let pulls = &mut self.pulls[batch * K::PULLS..][..K::PULLS];
-        let answer = K::forces::<L>(self.facts, state, &layers, L::load(&own.inertia, at), pulls, at);
         let there = L::splat(0.5).less(L::load(&own.live, at));
-        for pull in pulls {
-            L::select(there, L::load(pull, at), L::splat(0.0)).store(pull, at);
-        }
+        let nodes = batch * K::NODES..(batch + 1) * K::NODES;
+        let mut pulls = Pulls { forces: &mut self.forces[nodes.clone()], moments: &mut self.moments[nodes], there };
+        let answer = K::forces::<L>(self.facts, state, &layers, L::load(&own.inertia, at), &mut pulls, at);
         // dt = 2/ω.
         let squared = L::splat(4.0) * L::load(&own.mass_least, at) / answer.stiffness;
         let squared = damping::step_squared(squared, self.damping[0]);
@@ -252,30 +252,30 @@ where
         });
     }
 
-    fn advance_chunk(common: &Common<'_, D>, chunk: &mut Chunk<'_, D>, room: &mut Room) {
+    fn advance_chunk(common: &Common<'_, D>, chunk: &mut Chunk<'_, D>, room: &mut Room<D>) {
         let Common { facts, motion, level, .. } = *common;
-        let (points, components, width) = (facts.section.count(), facts.components, facts.width);
+        let (points, components, width) = (facts.section.count() * K::PLANES, facts.components, facts.width);
         let count = chunk.elements.len();
         for from in (0..count).step_by(STRIP) {
             let to = (from + STRIP).min(count);
             let batches = to - from;
-            room.fit::<K, D>(batches, points, components);
+            room.fit::<K>(batches, points, components);
             let turns = if K::ROTATES && common.law.needs_rotation() { common.rotation.len() / STRIP * batches } else { 0 };
             room.rotation.resize(turns, Batch::default());
             for batch in 0..batches {
-                let own = &mut room.motion[batch * K::MOTION..][..K::MOTION];
-                Self::gather(common, chunk.first + from + batch, own);
+                let nodes = batch * K::NODES..(batch + 1) * K::NODES;
+                Self::gather(common, chunk.first + from + batch, &mut room.positions[nodes.clone()], &mut room.rotations[nodes]);
             }
             let stress = &mut chunk.stress[from * points * components..to * points * components];
             let history = &mut chunk.history[from * points * width..to * points * width];
             let state = &mut chunk.state[from * K::STATE..to * K::STATE];
             let elements = &mut chunk.elements[from..to];
-            let Room { motion: moved, strain, ratio, rotation, volume, response, pulls, law } = &mut *room;
+            let Room { positions, rotations, strain, ratio, rotation, volume, response, forces, moments, law } = &mut *room;
             level.run(ForEachBatch(Strain::<K, D> {
                 facts,
                 points,
                 damping: if motion.time_step > 0.0 { common.damping / motion.time_step } else { 0.0 },
-                motion: moved,
+                corners: Corners { positions, rotations },
                 state: &mut *state,
                 elements: &*elements,
                 stress: &mut *stress,
@@ -313,30 +313,25 @@ where
                 strain,
                 volume,
                 elements,
-                pulls: &mut *pulls,
+                forces: &mut *forces,
+                moments: &mut *moments,
                 kernel: PhantomData,
             }));
             let first = from * BATCH * K::NODES;
-            for (node, (force, moment)) in
-                chunk.forces[first..].iter_mut().zip(&mut chunk.moments[first..]).enumerate().take(batches * BATCH * K::NODES)
-            {
-                let (element, corner) = (node / K::NODES, node % K::NODES);
-                let own = &pulls[element / BATCH * K::PULLS + corner * (D + 3)..][..D + 3];
-                let of = |k: usize| own[k].0[element % BATCH];
-                (*force, *moment) = (std::array::from_fn(of), [of(D), of(D + 1), of(D + 2)]);
-            }
+            scatter::<D>(forces, K::NODES, &mut chunk.forces[first..]);
+            scatter::<3>(moments, K::NODES, &mut chunk.moments[first..]);
         }
     }
 
     /// The motion of the nodes of a batch; lanes beyond the last element repeat it.
-    fn gather(common: &Common<'_, D>, batch: usize, to: &mut [Batch]) {
+    fn gather(common: &Common<'_, D>, batch: usize, positions: &mut [[[f64; D]; BATCH]], rotations: &mut [[[f64; 4]; BATCH]]) {
         let last = common.slots.len() / K::NODES - 1;
-        let each = K::MOTION / K::NODES;
-        for lane in 0..BATCH {
-            let first = (batch * BATCH + lane).min(last) * K::NODES;
-            for corner in 0..K::NODES {
-                let (node, place) = (common.slots[first + corner], common.places[first + corner]);
-                K::gather(node as usize, place as usize, common.motion, &mut to[corner * each..][..each], lane);
+        let corners = positions.iter_mut().zip(rotations);
+        for (corner, (positions, rotations)) in corners.enumerate() {
+            for lane in 0..BATCH {
+                let slot = (batch * BATCH + lane).min(last) * K::NODES + corner;
+                positions[lane] = common.motion.positions[common.slots[slot] as usize];
+                rotations[lane] = common.motion.rotations.numbers_at::<D>(common.places[slot] as usize);
             }
         }
     }
@@ -346,6 +341,17 @@ where
         for (index, (report, elements)) in self.reports.iter_mut().zip(self.elements.chunks(CHUNK)).enumerate() {
             let marks = self.marks.get(index * CHUNK..(index * CHUNK + elements.len()).min(self.marks.len())).unwrap_or_default();
             *report = summed(elements, marks);
+        }
+    }
+}
+
+/// Vectors by corners and lanes to slots by elements and corners, as many as there are.
+fn scatter<const D: usize>(from: &[[[f64; D]; BATCH]], corners: usize, slots: &mut [[f64; D]]) {
+    for (batch, slots) in from.chunks_exact(corners).zip(slots.chunks_mut(BATCH * corners)) {
+        for (lane, slots) in slots.chunks_exact_mut(corners).enumerate() {
+            for (slot, corner) in slots.iter_mut().zip(batch) {
+                *slot = corner[lane];
+            }
         }
     }
 }
@@ -373,22 +379,38 @@ fn summed(elements: &[ShellBatch], marks: &[Batch]) -> Report {
     report
 }
 
-impl Room {
+impl<const D: usize> Default for Room<D> {
+    fn default() -> Self {
+        Self {
+            positions: Vec::new(),
+            rotations: Vec::new(),
+            strain: Vec::new(),
+            ratio: Vec::new(),
+            rotation: Vec::new(),
+            volume: Vec::new(),
+            response: Vec::new(),
+            forces: Vec::new(),
+            moments: Vec::new(),
+            law: Scratch::default(),
+        }
+    }
+}
+
+impl<const D: usize> Room<D> {
     /// Room for so many batches of elements.
-    fn fit<K: ShellKernel<D>, const D: usize>(&mut self, batches: usize, points: usize, components: usize)
+    fn fit<K: ShellKernel<D>>(&mut self, batches: usize, points: usize, components: usize)
     where
         Dim<D>: Space<D>,
     {
-        let all = batches * points;
-        for (list, length) in [
-            (&mut self.motion, batches * K::MOTION),
-            (&mut self.strain, all * components),
-            (&mut self.ratio, all),
-            (&mut self.volume, all),
-            (&mut self.response, all * RESPONSE),
-            (&mut self.pulls, batches * K::PULLS),
-        ] {
+        let (all, corners) = (batches * points, batches * K::NODES);
+        for (list, length) in
+            [(&mut self.strain, all * components), (&mut self.ratio, all), (&mut self.volume, all), (&mut self.response, all * RESPONSE)]
+        {
             list.resize(length, Batch::default());
         }
+        self.positions.resize(corners, [[0.0; D]; BATCH]);
+        self.forces.resize(corners, [[0.0; D]; BATCH]);
+        self.rotations.resize(corners, [[0.0; 4]; BATCH]);
+        self.moments.resize(corners, [[0.0; 3]; BATCH]);
     }
 }

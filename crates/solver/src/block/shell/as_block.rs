@@ -1,6 +1,6 @@
 //! Shells and beams as blocks: what the solver asks of them.
 
-use super::{ShellKernel, Shells};
+use super::{Pulls, ShellKernel, Shells};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::block::initial::{self, Initial, Wrong};
 use crate::block::{Block, ElementState, Motion, NodalForces, Report, damping};
@@ -101,9 +101,10 @@ where
     fn state(&self, element: usize) -> ElementState {
         let (batch, lane) = (element / BATCH, element % BATCH);
         let state = &self.state[batch * K::STATE..][..K::STATE];
-        let stresses = (0..self.points()).map(|point| self.stress_of(element, point));
-        let worst = stresses.max_by(|a, b| crate::tensor::von_mises(a).total_cmp(&crate::tensor::von_mises(b))).unwrap_or_default();
-        let mut shown = ElementState { stress: K::turned(state, worst, lane), ..ElementState::default() };
+        let stresses = (0..self.points()).map(|point| (point / self.facts.section.count(), self.stress_of(element, point)));
+        let worst = stresses.max_by(|(_, a), (_, b)| crate::tensor::von_mises(a).total_cmp(&crate::tensor::von_mises(b)));
+        let (plane, worst) = worst.unwrap_or_default();
+        let mut shown = ElementState { stress: K::turned(state, worst, plane, lane), ..ElementState::default() };
         for (value, variable) in shown.variables.iter_mut().zip(self.law.variables()) {
             let of = |point: usize| self.history[(batch * self.points() + point) * self.facts.width + variable.place].0[lane];
             *value = (0..self.points()).map(of).fold(f64::NEG_INFINITY, f64::max);
@@ -111,7 +112,8 @@ where
         let own = &self.elements[batch];
         shown.energy_density = (own.stored.0[lane] + own.besides[0].0[lane]) / self.volume[element];
         let response = vec![Batch::default(); self.points() * RESPONSE];
-        let mut pulls = vec![Batch::default(); K::PULLS];
+        let (mut forces, mut moments) = (vec![[[0.0; D]; BATCH]; K::NODES], vec![[[0.0; 3]; BATCH]; K::NODES]);
+        let mut pulls = Pulls { forces: &mut forces, moments: &mut moments, there: true };
         shown.shell = K::forces::<f64>(&self.facts, state, &self.layers(batch, &response), 1.0, &mut pulls, lane).resultants;
         shown
     }

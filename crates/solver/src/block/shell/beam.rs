@@ -39,10 +39,10 @@
 //! 79-116, and Crisfield and Jelenić, Proc. R. Soc. A 455 (1999) 1125-1147.
 
 use super::bound;
-use super::surface::{self, Vector, loaded, replace, rotated, scaled};
-use super::{Answer, Facts, Layers, ShellKernel, Start, Strains};
+use super::surface::{Vector, loaded, replace, rotated, scaled};
+use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains};
 use crate::angle::arc_of_tangent;
-use crate::block::{Motion, SHELL_VALUES};
+use crate::block::SHELL_VALUES;
 use crate::material::Family;
 use crate::material::points::RESPONSE;
 use crate::tensor::{Plane, cross, dot};
@@ -199,9 +199,7 @@ fn besides<L: Lane>(facts: &Facts, length: L) -> Vector<L> {
 impl ShellKernel<3> for Beam {
     type Tensor = Plane<f64>;
     const NODES: usize = 2;
-    const MOTION: usize = 14;
     const STATE: usize = STATE;
-    const PULLS: usize = 12;
 
     /// None: its triads follow from the section.
     fn directions(connectivity: &[u32], _: &[[f64; 3]], _: f64) -> Vec<[f64; 3]> {
@@ -227,20 +225,15 @@ impl ShellKernel<3> for Beam {
         Start { state, areas: vec![0.5 * length; 2], volumes, inertia }
     }
 
-    fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
-        surface::gather(node, place, motion, to, lane);
-    }
-
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 3>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
         let (half, one, two, zero) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(0.0));
         let there = half.less(L::load(strains.live, at));
         let triad = loaded::<L, 4>(state, TRIAD, at);
         let (mut x, mut q) = ([[zero; 3]; 2], [triad; 2]);
         for a in 0..2 {
-            let own = loaded::<L, 7>(motion, 7 * a, at);
-            x[a] = [own[0], own[1], own[2]];
-            q[a] = product([own[3], own[4], own[5], own[6]], triad);
+            let (own, rotation) = corners.of(a, at);
+            (x[a], q[a]) = (own, product(rotation, triad));
         }
         let (before, now) = (Shape::<L>::load(state, at), Shape::new(minus(x[1], x[0]), q));
         replace(there, &now.all(), state, SHAPE, at);
@@ -271,7 +264,14 @@ impl ShellKernel<3> for Beam {
     }
 
     #[inline(always)]
-    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L> {
+    fn forces<L: Lane>(
+        facts: &Facts,
+        state: &[Batch],
+        layers: &Layers<'_>,
+        inertia: L,
+        pulls: &mut Pulls<'_, L, 3>,
+        at: usize,
+    ) -> Answer<L> {
         let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
         let now = Shape::<L>::load(state, at);
         let length = L::load(&state[LENGTH], at);
@@ -327,7 +327,7 @@ impl ShellKernel<3> for Beam {
         stress
     }
 
-    fn turned(state: &[Batch], [along, ..]: [f64; 6], lane: usize) -> [f64; 6] {
+    fn turned(state: &[Batch], [along, ..]: [f64; 6], _: usize, lane: usize) -> [f64; 6] {
         let [x, y, z] = rotated(loaded::<f64, 4>(state, FRAME, lane), [1.0, 0.0, 0.0]);
         [x * x, y * y, z * z, x * y, y * z, z * x].map(|part| part * along)
     }
@@ -351,19 +351,15 @@ fn damp<L: Lane>(facts: &Facts, [before, now]: [&Shape<L>; 2], damping: f64, the
 
 /// Forces and moments of a normal and two transverse forces, and a torque and two bending moments.
 #[inline(always)]
-fn pull<L: Lane>(now: &Shape<L>, force: Vector<L>, moment: Vector<L>, pulls: &mut [Batch], at: usize) {
+fn pull<L: Lane>(now: &Shape<L>, force: Vector<L>, moment: Vector<L>, pulls: &mut Pulls<'_, L, 3>, at: usize) {
     let (half, one) = (L::splat(0.5), L::splat(1.0));
     let lever = cross(force, now.gamma);
     let between = plus(now.spread(moment), scaled(half / now.cosine, cross(now.part, lever)));
     let common = scaled(half, lever);
     let force = rotated(now.frame, force);
     let couples = [rotated(now.frame, minus(between, common)), rotated(now.frame, scaled(-one, plus(common, between)))];
-    for k in 0..3 {
-        force[k].store(&mut pulls[k], at);
-        couples[0][k].store(&mut pulls[3 + k], at);
-        (-force[k]).store(&mut pulls[6 + k], at);
-        couples[1][k].store(&mut pulls[9 + k], at);
-    }
+    pulls.put(0, force, couples[0], at);
+    pulls.put(1, scaled(-one, force), couples[1], at);
 }
 
 /// m ω² of the head of the file, N/m; `square` is that of the present places of fibres by those of the start.

@@ -31,9 +31,9 @@
 //! Derived for this program; the lineage is Hughes and Liu, Comput. Meth. Appl. Mech. Engng 27 (1981)
 //! 167-181, and Simo and Vu-Quoc, J. Appl. Mech. 53 (1986) 849-854.
 
-use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
+use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains, Tensor};
 use crate::angle::{angle_of, cos_sin_of};
-use crate::block::{Motion, SHELL_VALUES};
+use crate::block::SHELL_VALUES;
 use crate::material::Family;
 use crate::material::points::RESPONSE;
 use crate::tensor::SymmetricTensor;
@@ -170,9 +170,7 @@ impl Line {
 impl ShellKernel<2> for Line {
     type Tensor = Tensor<2, f64>;
     const NODES: usize = 2;
-    const MOTION: usize = 6;
     const STATE: usize = STATE;
-    const PULLS: usize = 10;
 
     fn directions(connectivity: &[u32], positions: &[[f64; 2]], fold: f64) -> Vec<[f64; 2]> {
         let lines = connectivity.as_chunks::<2>().0;
@@ -233,20 +231,11 @@ impl ShellKernel<2> for Line {
         Start { state, areas: areas.to_vec(), volumes: volumes.collect(), inertia: Self::inertia(facts, thickness, [chord, now.radius]) }
     }
 
-    fn gather(node: usize, place: usize, motion: &Motion<'_, 2>, to: &mut [Batch], lane: usize) {
-        let [x, y] = motion.positions[node];
-        let angle = motion.rotations.angles.get(place).copied().unwrap_or(0.0);
-        (to[0].0[lane], to[1].0[lane], to[2].0[lane]) = (x, y, angle);
-    }
-
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 2>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
         let (half, one, two, zero) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(0.0));
-        let mut of = [L::splat(0.0); 6];
-        for k in 0..6 {
-            of[k] = L::load(&motion[k], at);
-        }
-        let (places, angles) = ([[of[0], of[1]], [of[3], of[4]]], [of[2], of[5]]);
+        let ((one_place, [one_angle, ..]), (other_place, [other_angle, ..])) = (corners.of::<L>(0, at), corners.of::<L>(1, at));
+        let (places, angles) = ([one_place, other_place], [one_angle, other_angle]);
         let live = L::load(strains.live, at);
         let there = half.less(live);
         let begin = Shape::<L>::start(state, at);
@@ -308,7 +297,14 @@ impl ShellKernel<2> for Line {
     }
 
     #[inline(always)]
-    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L> {
+    fn forces<L: Lane>(
+        facts: &Facts,
+        state: &[Batch],
+        layers: &Layers<'_>,
+        inertia: L,
+        pulls: &mut Pulls<'_, L, 2>,
+        at: usize,
+    ) -> Answer<L> {
         let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
         let (now, begin) = (Shape::<L>::load(state, NOW, at), Shape::<L>::start(state, at));
         let (cos, sin) = (L::load(&state[AXES], at), L::load(&state[AXES + 1], at));
@@ -357,10 +353,8 @@ impl ShellKernel<2> for Line {
         } else {
             (zero, [zero; 2])
         };
-        let all = [fx - inwards, fy, zero, zero, moment - common + one_more, -fx - inwards, -fy, zero, zero, -moment - common + two_more];
-        for k in 0..Self::PULLS {
-            all[k].store(&mut pulls[k], at);
-        }
+        pulls.put(0, [fx - inwards, fy], [zero, zero, moment - common + one_more], at);
+        pulls.put(1, [-fx - inwards, -fy], [zero, zero, -moment - common + two_more], at);
         Answer {
             stiffness: bound(facts, &now, [normal, transverse], section, [membrane, shear], [inertia, heights]),
             determinant,
@@ -383,7 +377,7 @@ impl ShellKernel<2> for Line {
         [modulus * xx + across * zz, zero, around, two * shear * xy, zero, zero]
     }
 
-    fn turned(state: &[Batch], [xx, yy, zz, xy, ..]: [f64; 6], lane: usize) -> [f64; 6] {
+    fn turned(state: &[Batch], [xx, yy, zz, xy, ..]: [f64; 6], _: usize, lane: usize) -> [f64; 6] {
         let [cos, sin] = [0, 1].map(|k| state[AXES + k].0[lane]);
         [
             xx * cos * cos + yy * sin * sin - 2.0 * xy * cos * sin,

@@ -43,22 +43,21 @@ use super::surface::{
     self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, loaded, moved, replace, replace_vectors,
     scaled, times, turn_at_start, vectors,
 };
-use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
-use crate::block::Motion;
+use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains, Tensor};
 use crate::tensor::{Dim, Matrix, Space, cross, dot};
 use crate::vector::{minus, plus};
 use embate_lanes::{Batch, Lane};
 
 /// Patterns of the corners.
-const XI: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
-const ETA: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
-const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
+pub(super) const XI: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
+pub(super) const ETA: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
+pub(super) const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
 /// Stress that the stabilisation may have where the layers flow, in the quadratic mean over the element, over
 /// theirs.
 const STRENGTH: f64 = 0.4;
 /// See [`surface::arc`].
-const ARC: f64 = 3.0;
+pub(super) const ARC: f64 = 3.0;
 
 /// Places in the state, after what all shells in 3D have: directors of the corners at the start; p, a and b
 /// at the start; amplitudes m and b now, what of them has flowed, and the work of that, J; g₁ g₂ q d₀ d₁ d₂ r
@@ -79,12 +78,12 @@ pub(in crate::block) struct Quad;
 
 /// g₁, g₂, q and d₀, d₁, d₂, r.
 #[derive(Clone, Copy)]
-struct Form<L> {
-    g: [Vector<L>; 2],
-    q: Vector<L>,
-    mean: Vector<L>,
-    d: [Vector<L>; 2],
-    r: Vector<L>,
+pub(super) struct Form<L> {
+    pub(super) g: [Vector<L>; 2],
+    pub(super) q: Vector<L>,
+    pub(super) mean: Vector<L>,
+    pub(super) d: [Vector<L>; 2],
+    pub(super) r: Vector<L>,
 }
 
 /// ¼ Σ over the corners, plain and with each pattern: the mean, by ξ, by η, by h.
@@ -105,7 +104,7 @@ fn parts<L: Lane>(v: &[Vector<L>; 4]) -> [Vector<L>; 4] {
 
 impl<L: Lane> Form<L> {
     #[inline(always)]
-    fn new(x: &[Vector<L>; 4], d: &[Vector<L>; 4]) -> Self {
+    pub(super) fn new(x: &[Vector<L>; 4], d: &[Vector<L>; 4]) -> Self {
         let ([_, g1, g2, q], [mean, d1, d2, r]) = (parts(x), parts(d));
         Self { g: [g1, g2], q, mean, d: [d1, d2], r }
     }
@@ -117,7 +116,7 @@ impl<L: Lane> Form<L> {
     }
 
     #[inline(always)]
-    fn all(&self) -> [Vector<L>; 7] {
+    pub(super) fn all(&self) -> [Vector<L>; 7] {
         [self.g[0], self.g[1], self.q, self.mean, self.d[0], self.d[1], self.r]
     }
 
@@ -128,14 +127,20 @@ impl<L: Lane> Form<L> {
 
     #[inline(always)]
     fn measures(&self, frame: &Frame<L>) -> Measures<L> {
-        let slide = [dot(self.g[0], self.mean) + dot(self.q, self.d[1]), dot(self.g[1], self.mean) + dot(self.q, self.d[0])];
+        let slide = self.slide();
         let [w, _] = surface::arc(frame.size, ARC);
         Measures { map: frame.matrix(&self.g), bend: crate::tensor::scaled(frame.matrix(&self.d), w), slide }
     }
 
+    /// s₁ and s₂.
+    #[inline(always)]
+    pub(super) fn slide(&self) -> [L; 2] {
+        [dot(self.g[0], self.mean) + dot(self.q, self.d[1]), dot(self.g[1], self.mean) + dot(self.q, self.d[0])]
+    }
+
     /// a₁ and a₂.
     #[inline(always)]
-    fn sheared(&self) -> [L; 2] {
+    pub(super) fn sheared(&self) -> [L; 2] {
         let both = dot(self.q, self.mean);
         [dot(self.g[0], self.d[1]) + both, dot(self.g[1], self.d[0]) + both]
     }
@@ -145,6 +150,17 @@ impl<L: Lane> Form<L> {
     fn warped(&self, [p1, p2]: [L; 2]) -> [Vector<L>; 2] {
         let warp = minus(minus(self.q, scaled(p1, self.g[0])), scaled(p2, self.g[1]));
         [warp, minus(minus(self.r, scaled(p1, self.d[0])), scaled(p2, self.d[1]))]
+    }
+}
+
+impl Form<f64> {
+    /// Areas of the corners: integrals of their shape functions over the element as d₀ sees it.
+    pub(super) fn areas(&self) -> Vec<f64> {
+        let normal = scaled(1.0 / dot(self.mean, self.mean).sqrt(), self.mean);
+        let [g1, g2] = self.g;
+        let area = dot(normal, cross(g1, g2));
+        let (along, across) = (dot(normal, cross(g1, self.q)), dot(normal, cross(self.q, g2)));
+        (0..4).map(|k| area + (XI[k] * along + ETA[k] * across) / 3.0).collect()
     }
 }
 
@@ -214,10 +230,8 @@ impl Quad {
 impl ShellKernel<3> for Quad {
     type Tensor = Tensor<3, f64>;
     const NODES: usize = 4;
-    const MOTION: usize = 28;
     const STATE: usize = STATE;
     const ROTATES: bool = true;
-    const PULLS: usize = 24;
 
     fn directions(connectivity: &[u32], positions: &[[f64; 3]], fold: f64) -> Vec<[f64; 3]> {
         surface::directions::<4>(connectivity, positions, fold)
@@ -239,25 +253,19 @@ impl ShellKernel<3> for Quad {
         let now = form.all().into_iter().flatten();
         let state = of_layers.chain(d.into_iter().flatten()).chain(stabilised).chain(amplitudes).chain(now).collect();
         let area = Dim::<2>::determinant(&measures.map);
-        let (along, across) = (dot(frame.axes[2], cross(form.g[0], form.q)), dot(frame.axes[2], cross(form.q, form.g[1])));
-        let areas = (0..4).map(|k| area + (XI[k] * along + ETA[k] * across) / 3.0).collect();
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
         let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, thickness));
         let inertia = bound::inertia(thickness, Self::AREA * area, 0.0, |inertia| {
             bounds(&form, &inverse, &held, skew, [thickness; 2], facts.moduli(), [inertia, volume])
         });
-        Start { state, areas, volumes, inertia }
-    }
-
-    fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
-        surface::gather(node, place, motion, to, lane);
+        Start { state, areas: form.areas(), volumes, inertia }
     }
 
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 3>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
         let there = L::splat(0.5).less(L::load(strains.live, at));
-        let [x, d] = moved(motion, state, DIRECTORS, at);
+        let [x, d] = moved(corners, state, DIRECTORS, at);
         let form = Form::new(&x, &d);
         let frame = form.frame(loaded(state, TURN, at));
         let (begin, before) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
@@ -278,10 +286,17 @@ impl ShellKernel<3> for Quad {
     }
 
     #[inline(always)]
-    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L> {
+    fn forces<L: Lane>(
+        facts: &Facts,
+        state: &[Batch],
+        layers: &Layers<'_>,
+        inertia: L,
+        pulls: &mut Pulls<'_, L, 3>,
+        at: usize,
+    ) -> Answer<L> {
         let half = L::splat(0.5);
         let (begin, now) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
-        let to = flux(facts, Self::kind(), [&begin, &now], layers, at);
+        let to = flux(facts, Self::kind(), [&begin, &now], layers, layers.thickness_now(facts, at), at);
         let form = Form::<L>::load(state, at);
         let frame = form.frame(loaded(state, TURN, at));
         let skew = loaded::<L, 2>(state, SKEW, at);
@@ -308,7 +323,7 @@ impl ShellKernel<3> for Quad {
         surface::elastic(facts, strain, stiffness, at)
     }
 
-    fn turned(state: &[Batch], stress: [f64; 6], lane: usize) -> [f64; 6] {
+    fn turned(state: &[Batch], stress: [f64; 6], _: usize, lane: usize) -> [f64; 6] {
         let frame = Form::<f64>::load(state, lane).frame(loaded(state, TURN, lane));
         surface::turned(&frame.axes, stress)
     }
@@ -329,7 +344,15 @@ fn square<L: Lane>(v: Vector<L>) -> L {
 /// Forces and moments of what pulls on G, D, s (`to`), and on the amplitudes and a (`held`): the transpose of
 /// all of the kinematics.
 #[inline(always)]
-fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [w, u, a]: [[L; 2]; 3], pulls: &mut [Batch], at: usize) {
+fn pull<L: Lane>(
+    form: &Form<L>,
+    frame: &Frame<L>,
+    to: &Flux<L>,
+    skew: [L; 2],
+    [w, u, a]: [[L; 2]; 3],
+    pulls: &mut Pulls<'_, L, 3>,
+    at: usize,
+) {
     let [warp, twist] = form.warped(skew);
     let (seen, bent) = (frame.seen(warp), frame.seen(twist));
     // The turn of the frame in its plane, which the stabilisation alone feels.
@@ -363,10 +386,7 @@ fn pull<L: Lane>(form: &Form<L>, frame: &Frame<L>, to: &Flux<L>, skew: [L; 2], [
         let couple = plus(d_mean, join(scaled(xi, d_xi), scaled(eta, d_eta), scaled(h, d_h)));
         let director = plus(form.mean, join(scaled(xi, form.d[0]), scaled(eta, form.d[1]), scaled(h, form.r)));
         let moment = cross(couple, director);
-        for k in 0..3 {
-            (-force[k]).store(&mut pulls[6 * corner + k], at);
-            moment[k].store(&mut pulls[6 * corner + 3 + k], at);
-        }
+        pulls.put(corner, scaled(L::splat(-1.0), force), moment, at);
     }
 }
 

@@ -18,8 +18,8 @@
 //! the lineage is Simo and Fox, Comput. Meth. Appl. Mech. Engng 72 (1989) 267-304.
 
 use super::bound;
-use super::{Answer, Facts, Layers, Strains, Tensor};
-use crate::block::{Motion, SHELL_VALUES};
+use super::{Answer, Corners, Facts, Layers, Strains, Tensor};
+use crate::block::SHELL_VALUES;
 use crate::material::Family;
 use crate::material::points::RESPONSE;
 use crate::tensor::{Dim, Matrix, Plane, Space, SymmetricTensor, Turn, cross, dot, product};
@@ -85,12 +85,11 @@ pub(super) fn replace_vectors<L: Lane, const N: usize>(there: L::Mask, new: &[Ve
 /// Positions of the corners, and their directors, which are at `first` of the state as they were at the
 /// start.
 #[inline(always)]
-pub(super) fn moved<L: Lane, const N: usize>(motion: &[Batch], state: &[Batch], first: usize, at: usize) -> [[Vector<L>; N]; 2] {
+pub(super) fn moved<L: Lane, const N: usize>(corners: &Corners<'_, 3>, state: &[Batch], first: usize, at: usize) -> [[Vector<L>; N]; 2] {
     let (mut x, mut d) = ([[L::splat(0.0); 3]; N], vectors::<L, N>(state, first, at));
     for a in 0..N {
-        let own = loaded::<L, 7>(motion, 7 * a, at);
-        x[a] = [own[0], own[1], own[2]];
-        d[a] = rotated([own[3], own[4], own[5], own[6]], d[a]);
+        let (own, rotation) = corners.of(a, at);
+        (x[a], d[a]) = (own, rotated(rotation, d[a]));
     }
     [x, d]
 }
@@ -336,7 +335,7 @@ pub(super) struct Flux<L> {
     pub(super) membrane: Matrix<L, 2>,
     pub(super) moment: Matrix<L, 2>,
     pub(super) transverse: [L; 2],
-    /// Volume of all layers, m³, and of each times the norm of its stress, J.
+    /// Volume V of all layers, m³, and √(V Σ V |σ|²) of them, J.
     pub(super) volume: L,
     pub(super) strained: L,
     /// Largest modulus of a membrane and shear modulus, Pa.
@@ -351,12 +350,19 @@ pub(super) struct Flux<L> {
     pub(super) resultants: [L; SHELL_VALUES],
 }
 
-/// Sums of the layers.
+/// Sums of the layers, of an element that is now so thick.
 #[inline(always)]
-pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measures<L>; 2], layers: &Layers<'_>, at: usize) -> Flux<L> {
+pub(super) fn flux<L: Lane>(
+    facts: &Facts,
+    kind: Kind<L>,
+    [begin, now]: [&Measures<L>; 2],
+    layers: &Layers<'_>,
+    thickness: L,
+    at: usize,
+) -> Flux<L> {
     let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
     let is_rate = matches!(facts.family, Family::Rate);
-    let (initial, thickness) = (L::load(layers.thickness, at), layers.thickness_now::<L>(facts, at));
+    let initial = L::load(layers.thickness, at);
     let heights = if is_rate { thickness } else { initial };
     let area = Dim::<2>::determinant(&now.map);
     let mut sums = [[zero; 3]; 2];
@@ -402,7 +408,7 @@ pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measur
             sums[1][k] += value * volume * z;
         }
         let norm = xx * xx + yy * yy + L::splat(2.0) * (xy * xy + yz * yz + zx * zx);
-        to.strained += volume * norm.sqrt();
+        to.strained += volume * norm;
         to.volume += volume;
         to.moduli = [to.moduli[0].max(facts.membrane_modulus(own[2], own[3])), to.moduli[1].max(own[3])];
         to.determinant = to.determinant.min(determinant / area);
@@ -412,10 +418,13 @@ pub(super) fn flux<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, now]: [&Measur
             to.flow[0] += L::splat(weight) * part;
             to.flow[1] += L::splat(weight * height * height) * part;
             let square = xx * xx + yy * yy - xx * yy + L::splat(3.0) * (xy * xy + yz * yz + zx * zx);
-            to.flow[2] += L::splat(weight) * square.sqrt();
+            to.flow[2] += L::splat(weight) * square;
             squares += weight * height * height;
         }
     }
+    // No less than the sum of volumes times norms.
+    to.strained = (to.volume * to.strained).sqrt();
+    to.flow[2] = to.flow[2].sqrt();
     to.flow[1] = if squares > 0.0 { to.flow[1] * L::splat(1.0 / squares) } else { to.flow[0] };
     let inverse = if is_rate { now.inverse() } else { begin.inverse() };
     to.transverse = times(&inverse, [kind.shear * sheared[0], kind.shear * sheared[1]]);
@@ -450,7 +459,12 @@ pub(super) fn turned(axes: &[[f64; 3]; 3], stress: [f64; 6]) -> [f64; 6] {
 /// Forces on d₁ and d₂ of moments M, and what the size of the mean director does to the arcs between them.
 #[inline(always)]
 pub(super) fn bent<L: Lane>(frame: &Frame<L>, d: &[Vector<L>; 2], moment: &Matrix<L, 2>, n: f64) -> ([Vector<L>; 2], L) {
-    let [w, slope] = arc(frame.size, n);
+    bent_by(frame, d, moment, arc(frame.size, n))
+}
+
+/// The same with known [`arc`].
+#[inline(always)]
+pub(super) fn bent_by<L: Lane>(frame: &Frame<L>, d: &[Vector<L>; 2], moment: &Matrix<L, 2>, [w, slope]: [L; 2]) -> ([Vector<L>; 2], L) {
     let on = [scaled(w, frame.vector([moment[0][0], moment[1][0]])), scaled(w, frame.vector([moment[0][1], moment[1][1]]))];
     let chord = frame.matrix(d);
     (on, slope * (both(chord[0], moment[0]) + both(chord[1], moment[1])))
@@ -496,13 +510,6 @@ pub(super) fn answer<L: Lane>(
 pub(super) fn volumes(facts: &Facts, area: f64, begin: &Measures<f64>, thickness: f64) -> Vec<f64> {
     let layers = facts.section.heights.iter().zip(&facts.section.weights);
     layers.map(|(height, weight)| area * thickness * weight * Dim::<2>::determinant(&begin.layer(height * thickness))).collect()
-}
-
-/// Position and rotation of a node.
-pub(super) fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
-    let attitude = motion.rotations.attitudes.get(place).map_or([1.0, 0.0, 0.0, 0.0], |attitude| attitude.0);
-    let all = motion.positions[node].into_iter().chain(attitude);
-    to.iter_mut().zip(all).for_each(|(batch, value)| batch.0[lane] = value);
 }
 
 /// Directors of the corners of each element: the mean of the normals of the elements around a node, as far as

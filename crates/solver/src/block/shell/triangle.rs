@@ -18,8 +18,7 @@ use super::surface::{
     self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, loaded, moved, replace, replace_vectors, scaled,
     turn_at_start, vectors,
 };
-use super::{Answer, Facts, Layers, ShellKernel, Start, Strains, Tensor};
-use crate::block::Motion;
+use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains, Tensor};
 use crate::tensor::{Dim, Matrix, Space, cross, dot};
 use crate::vector::{minus, plus};
 use embate_lanes::{Batch, Lane};
@@ -148,10 +147,8 @@ impl Triangle {
 impl ShellKernel<3> for Triangle {
     type Tensor = Tensor<3, f64>;
     const NODES: usize = 3;
-    const MOTION: usize = 21;
     const STATE: usize = STATE;
     const ROTATES: bool = true;
-    const PULLS: usize = 18;
 
     fn directions(connectivity: &[u32], positions: &[[f64; 3]], fold: f64) -> Vec<[f64; 3]> {
         surface::directions::<3>(connectivity, positions, fold)
@@ -176,14 +173,10 @@ impl ShellKernel<3> for Triangle {
         Start { state, areas: vec![area / 3.0; 3], volumes, inertia }
     }
 
-    fn gather(node: usize, place: usize, motion: &Motion<'_, 3>, to: &mut [Batch], lane: usize) {
-        surface::gather(node, place, motion, to, lane);
-    }
-
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, motion: &[Batch], state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 3>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
         let there = L::splat(0.5).less(L::load(strains.live, at));
-        let [x, d] = moved::<L, 3>(motion, state, DIRECTORS, at);
+        let [x, d] = moved::<L, 3>(corners, state, DIRECTORS, at);
         let form = Form { x: [minus(x[0], x[0]), minus(x[1], x[0]), minus(x[2], x[0])], d };
         let frame = form.frame(loaded(state, TURN, at));
         let (begin, before) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
@@ -196,10 +189,17 @@ impl ShellKernel<3> for Triangle {
     }
 
     #[inline(always)]
-    fn forces<L: Lane>(facts: &Facts, state: &[Batch], layers: &Layers<'_>, inertia: L, pulls: &mut [Batch], at: usize) -> Answer<L> {
+    fn forces<L: Lane>(
+        facts: &Facts,
+        state: &[Batch],
+        layers: &Layers<'_>,
+        inertia: L,
+        pulls: &mut Pulls<'_, L, 3>,
+        at: usize,
+    ) -> Answer<L> {
         let (begin, now) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
         let factor = L::load(&state[FACTOR], at);
-        let to = flux(facts, Kind { area: Self::AREA, shear: factor }, [&begin, &now], layers, at);
+        let to = flux(facts, Kind { area: Self::AREA, shear: factor }, [&begin, &now], layers, layers.thickness_now(facts, at), at);
         let form = Form::<L>::load(state, at);
         let frame = form.frame(loaded(state, TURN, at));
         let (g, d) = (natural(&form.x), natural(&form.d));
@@ -214,10 +214,7 @@ impl ShellKernel<3> for Triangle {
             let force = plus(spread(&f, corner), plus(scaled(q1, rows[0][0][corner]), scaled(q2, rows[1][0][corner])));
             let couple = minus(plus(spread(&k, corner), plus(scaled(q1, rows[0][1][corner]), scaled(q2, rows[1][1][corner]))), tilt);
             let moment = cross(couple, form.d[corner]);
-            for k in 0..3 {
-                (-force[k]).store(&mut pulls[6 * corner + k], at);
-                moment[k].store(&mut pulls[6 * corner + 3 + k], at);
-            }
+            pulls.put(corner, scaled(L::splat(-1.0), force), moment, at);
         }
         let inverse = now.inverse();
         let bounds = bounds(&form, &rows, &inverse, to.thickness, to.moduli, factor, [inertia, to.volume]);
@@ -229,7 +226,7 @@ impl ShellKernel<3> for Triangle {
         surface::elastic(facts, strain, stiffness, at)
     }
 
-    fn turned(state: &[Batch], stress: [f64; 6], lane: usize) -> [f64; 6] {
+    fn turned(state: &[Batch], stress: [f64; 6], _: usize, lane: usize) -> [f64; 6] {
         let frame = Form::<f64>::load(state, lane).frame(loaded(state, TURN, lane));
         surface::turned(&frame.axes, stress)
     }

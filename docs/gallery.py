@@ -21,10 +21,12 @@ PAGE = ROOT / "docs" / "gallery.md"
 IMAGES = ROOT / "docs" / "images"
 EXAMPLES = sorted(path.parent.name for path in (ROOT / "examples").glob("*/model.toml"))
 LOOK = "What to look at"
-PICTURE_BYTES, FILM_BYTES, ALL_BYTES = 80_000, 300_000, 2_500_000
+PICTURE_BYTES, FILM_BYTES, ALL_BYTES = 80_000, 300_000, 3_000_000
 # Parts of the whole time that are shown.
 MOMENTS = (0.0, 1 / 3, 2 / 3, 1.0)
 MOMENTS_OF = {
+    "circular-tube": (0.0, 0.3, 0.6, 1.0),
+    "pole-bumper": (0.0, 1.0),
     "crossing-pipes": (0.0, 1.0),
     "crossing-tubes": (0.0, 1.0),
     "rubber-disk": (0.0, 0.1, 0.2, 1.0),
@@ -33,7 +35,7 @@ MOMENTS_OF = {
     "two-bars": (1 / 6, 1 / 3, 1 / 2, 2 / 3),
 }
 # What is told of an example: see its README.
-UNVERIFIED = {"bullet": 20, "box-section": 4000, "box-section-shells": 4000}
+UNVERIFIED = {"bullet": 20, "box-section": 4000, "box-section-shells": 4000, "circular-tube": 600}
 # The picture and the film of this one are those of README.md.
 FIRST = "tube-plate"
 

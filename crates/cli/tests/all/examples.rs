@@ -102,6 +102,7 @@ fn every_example_is_listed_here() {
         "box-section-shells",
         "buckling-column",
         "bullet",
+        "circular-tube",
         "crossing-pipes",
         "crossing-tubes",
         "crushed-ring",
@@ -110,6 +111,7 @@ fn every_example_is_listed_here() {
         "foam-pad",
         "heap",
         "ironing",
+        "pole-bumper",
         "rolling-ring",
         "rubber-disk",
         "rubber-seal",
@@ -404,6 +406,42 @@ fn a_box_section_folds_under_the_mean_force_of_the_plastic_hinges() {
 #[test]
 fn a_box_section_of_shells_does_so_too() {
     is_crushed_as_expected("box-section-shells", 2e-3);
+}
+
+/// Alexander's mean force of a tube that folds as a concertina, with the mean flow stress of its folds.
+#[test]
+fn a_round_tube_folds_as_a_concertina_under_the_mean_force_of_alexander() {
+    let results = run("circular-tube", "example-circular-tube");
+    results.is_sound_but(600, 1e-3);
+    let [way, work] = ["obstacle.y[ram]", "energy.external"].map(|name| results.column(name));
+    let (way, work) = (way[0] - way.last().unwrap(), 4.0 * work.last().unwrap());
+    is_near(way, 40.5e-3, 1e-6);
+    let (flow, thickness, diameter): (f64, f64, f64) = (269e6, 1e-3, 50e-3);
+    let expected = 5.98 * flow * thickness * (diameter * thickness).sqrt();
+    is_near(work / way, expected, 0.12 * expected);
+    // The same of shells of revolution.
+    is_near(work / way, 11.89e3, 0.07 * 11.89e3);
+    assert!(results.column("contact.penetration[folds]").into_iter().fold(0.0, f64::max) < 0.05 * thickness);
+    let [kinetic, internal] = ["energy.kinetic", "energy.internal"].map(|name| *results.column(name).last().unwrap());
+    assert!(kinetic < 0.05 * internal, "{kinetic} of {internal}");
+}
+
+/// The mean force on the pole is that of plastic hinges in the middle and at both ends.
+#[test]
+fn a_bumper_stops_a_pole_with_the_force_of_its_plastic_hinges() {
+    let results = run("pole-bumper", "example-pole-bumper");
+    results.is_sound(1e-3);
+    let way = results.column("obstacle.x[pole]").into_iter().map(|x| x + 0.128).fold(0.0, f64::max);
+    // Four quarters of 25 kg at 8 m/s.
+    let energy = 4.0 * 0.5 * 25.0 * 8.0_f64.powi(2);
+    let (yields, thickness, depth, height, length): (f64, f64, f64, f64, f64) = (400e6, 2e-3, 60e-3, 100e-3, 1.0);
+    let moment = yields * thickness * depth * (height + 0.5 * depth);
+    let expected = 8.0 * moment / length;
+    is_near(energy / way, expected, 0.15 * expected);
+    is_near(way, 72e-3, 2e-3);
+    // What is not plastic is elastic, and gives the pole some of its velocity back.
+    let back = -results.column("obstacle.vx[pole]").last().unwrap();
+    assert!((0.5..2.5).contains(&back), "{back}");
 }
 
 /// Whether a box section has the mean force of Abramowicz and Jones, and the first peak that it yields with.

@@ -115,6 +115,7 @@ fn every_example_is_listed_here() {
         "rolling-ring",
         "rubber-disk",
         "rubber-seal",
+        "squeezed-can",
         "strip-rolling",
         "taylor-bar",
         "taylor-bar-3d",
@@ -442,6 +443,19 @@ fn a_bumper_stops_a_pole_with_the_force_of_its_plastic_hinges() {
     // What is not plastic is elastic, and gives the pole some of its velocity back.
     let back = -results.column("obstacle.vx[pole]").last().unwrap();
     assert!((0.5..2.5).contains(&back), "{back}");
+}
+
+/// The work of a bar on a can is that of a finer mesh.
+#[test]
+fn a_can_is_squeezed_with_the_work_that_finer_shells_take() {
+    let results = run("squeezed-can", "example-squeezed-can");
+    results.is_sound(1e-3);
+    let way = results.column("obstacle.x[bar]");
+    is_near(way[0] - way.last().unwrap(), 36e-3, 1e-6);
+    let [work, internal, hourglass] =
+        ["energy.external", "energy.internal", "energy.hourglass"].map(|name| *results.column(name).last().unwrap());
+    is_near(4.0 * work, 29.8, 0.1 * 29.8);
+    assert!(hourglass < 0.12 * internal, "{hourglass} of {internal}");
 }
 
 /// Whether a box section has the mean force of Abramowicz and Jones, and the first peak that it yields with.

@@ -5,7 +5,7 @@
 //! file (`sets.rs`). Inside of a part or an instance names are local: outside they are `INSTANCE.NAME`.
 //! `mesh.rs` makes a mesh of it, the import looks names up in it.
 
-use super::element_kind::{self, ElementKind, Found};
+use super::element_kind::{self, ElementKind, Family, Found};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{DECK_MESH, SYNTAX, UNKNOWN};
 use crate::gmsh::Bodies;
@@ -40,6 +40,20 @@ impl Element {
     pub(super) fn side(&self, side: usize) -> impl Iterator<Item = u32> {
         self.kind.side(side).map(|corner| self.nodes[corner])
     }
+
+    /// 1 of lines, 2 of areas and shells, 3 of solids.
+    pub(super) fn dimension(&self) -> u8 {
+        self.kind.cell.dimension() as u8
+    }
+}
+
+/// What a deck is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// A mesh, for bodies of a kind.
+    Mesh(Bodies),
+    /// A whole model, in 3D where it has solids, shells or beams.
+    Model,
 }
 
 /// A named set.
@@ -134,6 +148,8 @@ fn between(sorted: &[(u64, u32)], [first, last, step]: [u64; 3]) -> Vec<u32> {
 /// The geometry of a deck.
 #[derive(Debug, Default)]
 pub(super) struct Deck {
+    /// Whether its bodies are in 3D.
+    pub(super) is_3d: bool,
     pub(super) nodes: Vec<Node>,
     pub(super) elements: Vec<Element>,
     /// The first is the deck outside of all parts.
@@ -150,34 +166,50 @@ pub(super) struct Deck {
 
 impl Deck {
     /// Reads the geometry of all blocks.
-    pub(super) fn read(text: &Text, bodies: Bodies) -> Result<Self, Fault> {
+    pub(super) fn read(text: &Text, purpose: Purpose) -> Result<Self, Fault> {
         let mut deck = Self::default();
         deck.instances.push(Instance::default());
         deck.find_scopes(text)?;
         for instance in 0..deck.instances.len() {
             deck.read_nodes(text, instance)?;
+        }
+        deck.is_3d = deck.is_of_3d(text, purpose);
+        if !deck.is_3d {
+            deck.check_turns(text)?;
+        }
+        for instance in 0..deck.instances.len() {
             deck.read_elements(text, instance)?;
         }
-        deck.check_dimension(text, bodies)?;
         deck.read_sets(text)?;
         Ok(deck)
     }
 
-    /// 3 if there are solids.
-    pub(super) fn dimension(&self) -> u8 {
-        self.elements.iter().map(|element| element.kind.dimension()).max().unwrap_or(2)
+    /// Whether the bodies of a deck are in 3D, by the types of its elements. Shells in a mesh are areas in
+    /// 2D, unless it is meant for shells; membranes of a model where they lie in the plane.
+    fn is_of_3d(&self, text: &Text, purpose: Purpose) -> bool {
+        let types = text.blocks.iter().filter(|block| block.keyword == "ELEMENT" && !block.data.is_empty());
+        let families: Vec<Family> = types
+            .filter_map(|block| match element_kind::named(&folded(block.parameter("TYPE")?), true) {
+                Found::Body(kind) => Some(kind.family),
+                // Those of 2D.
+                _ => None,
+            })
+            .collect();
+        let has = |family: Family| families.contains(&family);
+        match purpose {
+            Purpose::Mesh(Bodies::Sheets) => true,
+            Purpose::Mesh(Bodies::Highest) => has(Family::Solid),
+            Purpose::Model => {
+                let leaves_plane = self.nodes.iter().any(|node| node.position[2] != 0.0);
+                has(Family::Solid) || has(Family::Shell) || has(Family::Beam) || (has(Family::Membrane) && leaves_plane)
+            }
+        }
     }
 
-    /// What of the plane does not go with solids, and the other way round.
-    fn check_dimension(&self, text: &Text, bodies: Bodies) -> Result<(), Fault> {
-        let dimension = self.dimension();
-        if let Some(flat) = self.elements.iter().find(|element| element.kind.dimension() != dimension) {
-            let message = format!("element {} is a {}, beside solids", flat.tag, flat.kind.name);
-            let help = "bodies are all 2D or all solid; shells and membranes in 3D are not computed";
-            return Err(text.fault(&DECK_MESH, flat.line, message, help));
-        }
-        for instance in self.instances.iter().filter(|_| bodies == Bodies::Highest) {
-            if let (2, Some(Turn::Out(_, _, _, line))) = (dimension, instance.turn) {
+    /// Instances in 2D stay in the plane.
+    fn check_turns(&self, text: &Text) -> Result<(), Fault> {
+        for instance in &self.instances {
+            if let Some(Turn::Out(_, _, _, line)) = instance.turn {
                 let help = "bodies lie in the plane of x and y: an axis of rotation is parallel to z";
                 return Err(text.fault(&DECK_MESH, line, format!("instance {} is turned out of the plane", shown(&instance.name)), help));
             }
@@ -329,7 +361,7 @@ impl Deck {
                 return Err(text.fault(&SYNTAX, block.line, "*ELEMENT has no type", "add TYPE=..., CPE4R for example"));
             };
             let first = elements.len();
-            match element_kind::named(&name) {
+            match element_kind::named(&name, self.is_3d) {
                 Found::Body(kind) => self.read_bodies(text, block, kind, instance, &mut elements)?,
                 Found::Beside => {
                     beside.push((block.parameter("ELSET").unwrap_or_default().to_string(), name, block.data.len(), block.line))
@@ -380,7 +412,11 @@ impl Deck {
             }
             if fields.len() != kind.nodes() + 1 {
                 let message = format!("an element {} of {} numbers; it has a number and {} nodes", kind.name, fields.len(), kind.nodes());
-                return Err(text.fault(&SYNTAX, line, message, "look at the type of the elements, and at the line"));
+                let help = match kind.family {
+                    Family::Beam => "leave a third node out, and give the direction n1 in the second line of *BEAM SECTION",
+                    _ => "look at the type of the elements, and at the line",
+                };
+                return Err(text.fault(&SYNTAX, line, message, help));
             }
             let tag = text.tag(line, fields[0], "the number of an element")?;
             let mut nodes = [0; MOST_NODES];

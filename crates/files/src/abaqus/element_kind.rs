@@ -6,41 +6,75 @@
 
 use embate_solver::mesh::cell::CellKind;
 
+/// Which bodies a type makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Family {
+    /// An area in the plane, with the stress state of the part as in the model file.
+    Plane(&'static str),
+    /// A line in the plane that is a shell, with its stress state.
+    Line(&'static str),
+    /// A shell in 3D.
+    Shell,
+    /// A shell in 3D without bending.
+    Membrane,
+    /// A beam in 3D.
+    Beam,
+    Solid,
+}
+
+impl Family {
+    /// Whether its bodies are in 3D.
+    pub(super) fn is_of_3d(self) -> bool {
+        !matches!(self, Self::Plane(_) | Self::Line(_))
+    }
+
+    /// Whether its bodies have two faces, [`UPPER`] and [`LOWER`].
+    pub(super) fn has_faces(self) -> bool {
+        matches!(self, Self::Line(_) | Self::Shell | Self::Membrane)
+    }
+
+    /// Whether nodes of its bodies rotate.
+    pub(super) fn rotates(self) -> bool {
+        matches!(self, Self::Line(_) | Self::Shell | Self::Beam)
+    }
+}
+
+/// The side of what has faces that its normal looks to (SPOS), and the other one (SNEG); edges follow.
+pub(super) const UPPER: u8 = 0;
+pub(super) const LOWER: u8 = 1;
+
 /// A type that can be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ElementKind {
     pub(super) name: &'static str,
     /// Which kind of cell it is.
     pub(super) cell: CellKind,
-    /// Stress state of the part, as in the model file; empty: a solid.
-    pub(super) state: &'static str,
+    pub(super) family: Family,
     /// Element of the part, as in the model file.
     pub(super) element: &'static str,
-    /// Edges are called E1 and so on, not S1 or P1: shells and membranes, whose faces are their sides.
-    pub(super) shell: bool,
     /// What differs; empty: nothing to speak of.
     pub(super) differs: &'static str,
 }
 
-const STRAIN: &str = "plane_strain";
-const STRESS: &str = "plane_stress";
-const ROUND: &str = "axisymmetric";
+const STRAIN: Family = Family::Plane("plane_strain");
+const STRESS: Family = Family::Plane("plane_stress");
+const ROUND: Family = Family::Plane("axisymmetric");
 const REDUCED: &str = "hourglass control by stiffness after Flanagan and Belytschko, with its own coefficient";
 const BENT: &str = "no incompatible modes: an assumed strain keeps bending from locking";
-const SHELL: &str = "taken as a membrane in plane stress; bending out of the plane is not computed";
+const ONE_POINT: &str = "one point in the plane, with a physical stabilisation against hourglass modes";
+const TRIANGLE: &str = "transverse shear is that of MITC3";
 
-const fn kind(name: &'static str, cell: CellKind, state: &'static str, element: &'static str, differs: &'static str) -> ElementKind {
-    ElementKind { name, cell, state, element, shell: matches!(name.as_bytes()[0], b'S' | b'M'), differs }
-}
-
-const fn solid(name: &'static str, cell: CellKind, element: &'static str, differs: &'static str) -> ElementKind {
-    ElementKind { name, cell, state: "", element, shell: false, differs }
+const fn kind(name: &'static str, cell: CellKind, family: Family, element: &'static str, differs: &'static str) -> ElementKind {
+    ElementKind { name, cell, family, element, differs }
 }
 
 impl ElementKind {
-    /// Dimension of its bodies.
-    pub(super) fn dimension(&self) -> u8 {
-        if self.state.is_empty() { 3 } else { 2 }
+    /// Stress state of the part, as in the model file; empty: in 3D.
+    pub(super) fn state(&self) -> &'static str {
+        match self.family {
+            Family::Plane(state) | Family::Line(state) => state,
+            _ => "",
+        }
     }
 
     /// Number of nodes.
@@ -48,22 +82,50 @@ impl ElementKind {
         self.cell.nodes()
     }
 
-    /// How many sides it has: edges in 2D, in 3D faces.
-    pub(super) fn sides(&self) -> usize {
-        if self.dimension() == 3 { self.cell.facts().faces.len() } else { self.cell.facts().edges.len() }
+    /// Whether its edges are called E1 and so on, not S1 or P1: those of shells and membranes, whose faces
+    /// are their sides.
+    pub(super) fn has_named_edges(&self) -> bool {
+        matches!(self.name.as_bytes()[0], b'S' | b'M')
     }
 
-    /// Corners of a side: from 0, in the order of S1, S2, ...; those of a face run clockwise seen from
-    /// outside.
+    /// How many sides it has: edges of an area in 2D, faces of a solid; of what has faces these, then its
+    /// edges; of beams none.
+    pub(super) fn sides(&self) -> usize {
+        let facts = self.cell.facts();
+        match self.family {
+            Family::Plane(_) => facts.edges.len(),
+            Family::Solid => facts.faces.len(),
+            Family::Line(_) => 2,
+            Family::Shell | Family::Membrane => 2 + facts.edges.len(),
+            Family::Beam => 0,
+        }
+    }
+
+    /// Corners of a side: from 0, in the order of S1, S2, ...; those of the face of a solid run clockwise
+    /// seen from outside, those of the face of a shell counter-clockwise. The upper face of a line has its
+    /// nodes in their order.
     pub(super) fn side(&self, side: usize) -> impl Iterator<Item = usize> {
-        let (facts, is_face) = (self.cell.facts(), self.dimension() == 3);
-        let corners = if is_face { &facts.faces[side][..] } else { &facts.edges[side][..] };
-        let n = if is_face && corners[2] == corners[3] { 3 } else { corners.len() };
-        (0..n).map(move |k| usize::from(corners[if is_face { (n - k) % n } else { k }]))
+        let facts = self.cell.facts();
+        let corners: Vec<usize> = match self.family {
+            Family::Solid => {
+                let corners = &facts.faces[side];
+                let n = if corners[2] == corners[3] { 3 } else { corners.len() };
+                (0..n).map(|k| usize::from(corners[(n - k) % n])).collect()
+            }
+            family if family.has_faces() && side < 2 => {
+                let n = self.nodes();
+                (0..n).map(|k| if side == usize::from(UPPER) { k } else { n - 1 - k }).collect()
+            }
+            family => {
+                let edge = side - if family.has_faces() { 2 } else { 0 };
+                facts.edges[edge].iter().map(|&corner| usize::from(corner)).collect()
+            }
+        };
+        corners.into_iter()
     }
 }
 
-/// One line a type.
+/// One line a type; in 2D those of [`FLAT`] come first.
 pub(super) static KINDS: &[ElementKind] = &[
     kind("CPE3", CellKind::Triangle, STRAIN, "tri3", ""),
     kind("CPE4", CellKind::Quadrilateral, STRAIN, "quad4", ""),
@@ -77,18 +139,33 @@ pub(super) static KINDS: &[ElementKind] = &[
     kind("CAX4", CellKind::Quadrilateral, ROUND, "quad4", ""),
     kind("CAX4R", CellKind::Quadrilateral, ROUND, "quad4_reduced", REDUCED),
     kind("CAX4I", CellKind::Quadrilateral, ROUND, "quad4_reduced_assumed_strain", BENT),
-    kind("S3", CellKind::Triangle, STRESS, "tri3", SHELL),
-    kind("S3R", CellKind::Triangle, STRESS, "tri3", SHELL),
-    kind("S4", CellKind::Quadrilateral, STRESS, "quad4", SHELL),
-    kind("S4R", CellKind::Quadrilateral, STRESS, "quad4_reduced", SHELL),
+    kind("SAX1", CellKind::Line, Family::Line("axisymmetric"), "shell2", ""),
+    kind("B21", CellKind::Line, Family::Line("plane_stress"), "shell2", ""),
+    kind("S3", CellKind::Triangle, Family::Shell, "shell3", TRIANGLE),
+    kind("S3R", CellKind::Triangle, Family::Shell, "shell3", TRIANGLE),
+    kind("S4", CellKind::Quadrilateral, Family::Shell, "shell4", ONE_POINT),
+    kind("S4R", CellKind::Quadrilateral, Family::Shell, "shell4", ONE_POINT),
+    kind("M3D3", CellKind::Triangle, Family::Membrane, "shell3", ""),
+    kind("M3D4", CellKind::Quadrilateral, Family::Membrane, "shell4", ONE_POINT),
+    kind("M3D4R", CellKind::Quadrilateral, Family::Membrane, "shell4", ONE_POINT),
+    kind("B31", CellKind::Line, Family::Beam, "beam2", ""),
+    kind("PIPE31", CellKind::Line, Family::Beam, "beam2", ""),
+    kind("C3D4", CellKind::Tetrahedron, Family::Solid, "tet4", ""),
+    kind("C3D6", CellKind::Wedge, Family::Solid, "wedge6", ""),
+    kind("C3D8", CellKind::Hexahedron, Family::Solid, "hex8", ""),
+    kind("C3D8R", CellKind::Hexahedron, Family::Solid, "hex8_reduced", REDUCED),
+    kind("C3D8I", CellKind::Hexahedron, Family::Solid, "hex8_reduced_assumed_strain", BENT),
+];
+
+/// What shells and membranes are in 2D.
+static FLAT: &[ElementKind] = &[
+    kind("S3", CellKind::Triangle, STRESS, "tri3", ""),
+    kind("S3R", CellKind::Triangle, STRESS, "tri3", ""),
+    kind("S4", CellKind::Quadrilateral, STRESS, "quad4", ""),
+    kind("S4R", CellKind::Quadrilateral, STRESS, "quad4_reduced", REDUCED),
     kind("M3D3", CellKind::Triangle, STRESS, "tri3", ""),
     kind("M3D4", CellKind::Quadrilateral, STRESS, "quad4", ""),
     kind("M3D4R", CellKind::Quadrilateral, STRESS, "quad4_reduced", REDUCED),
-    solid("C3D4", CellKind::Tetrahedron, "tet4", ""),
-    solid("C3D6", CellKind::Wedge, "wedge6", ""),
-    solid("C3D8", CellKind::Hexahedron, "hex8", ""),
-    solid("C3D8R", CellKind::Hexahedron, "hex8_reduced", REDUCED),
-    solid("C3D8I", CellKind::Hexahedron, "hex8_reduced_assumed_strain", BENT),
 ];
 
 /// What a type is.
@@ -102,10 +179,17 @@ pub(super) enum Found {
     Refused(&'static str, &'static str),
 }
 
-/// What the type of this name (in capitals) is.
-pub(super) fn named(name: &str) -> Found {
-    if let Some(kind) = KINDS.iter().find(|kind| kind.name == name) {
-        return Found::Body(kind);
+/// What the type of this name (in capitals) is in a deck in 2D or 3D.
+pub(super) fn named(name: &str, is_3d: bool) -> Found {
+    if let Some(kind) = FLAT.iter().filter(|_| !is_3d).chain(KINDS).find(|kind| kind.name == name) {
+        return match kind.family.is_of_3d() {
+            of_3d if of_3d == is_3d => Found::Body(kind),
+            true => Found::Beside,
+            false => Found::Refused(
+                "is one of 2D, beside bodies in 3D",
+                "bodies are all in 2D or all in 3D: take S4R for sheets, C3D8R for solids, B31 for beams",
+            ),
+        };
     }
     const FIRST: &str = "use elements with nodes at their corners only, such as CPE4R, CPS4R, CAX4R, CPE3, C3D8R or C3D4";
     let starts = |all: &[&str]| all.iter().any(|start| name.starts_with(start));
@@ -115,13 +199,13 @@ pub(super) fn named(name: &str) -> Found {
     ]) {
         Found::Refused("is of second order: its lumped masses and its contact are not sound in an explicit computation", FIRST)
     } else if starts(&["SC6", "SC8", "CSS", "R3D"]) {
-        Found::Refused("is a shell or a surface in 3D, which embate does not compute", "take solids, such as C3D8R")
+        Found::Refused("is a continuum shell or a rigid surface, which embate does not compute", "take S4R or C3D8R, with *RIGID BODY where it is rigid")
     } else if starts(&["C3D5"]) {
         Found::Refused("is a pyramid, for which there is no element", "mesh with hexahedra, wedges or tetrahedra")
     } else if starts(&["C3D", "CPE", "CPS", "CAX", "CPEG", "CGAX", "S3", "S4", "STRI", "M3D", "AC", "DC", "CIN"]) {
         Found::Refused("is not one that embate computes (hybrid, coupled, twisting, infinite or thermal)", FIRST)
     } else if starts(&[
-        "R2D", "RAX", "B2", "B3", "T2D", "T3D", "SPRING", "DASHPOT", "MASS", "ROTARYI", "CONN", "GAP", "SAX", "MAX", "D", "HEATCAP",
+        "R2D", "RAX", "B2", "B3", "PIPE", "ELBOW", "T2D", "T3D", "SPRING", "DASHPOT", "MASS", "ROTARYI", "CONN", "GAP", "SAX", "MAX", "D", "HEATCAP",
     ]) {
         Found::Beside
     } else {
@@ -134,27 +218,36 @@ mod tests {
     use super::*;
 
     #[test]
-    fn elements_of_second_order_and_shells_of_3d_are_refused_with_the_reason() {
+    fn elements_of_second_order_and_others_are_refused_with_the_reason() {
+        let named = |name: &str| super::named(name, true);
         assert!(matches!(named("CPE8R"), Found::Refused(why, _) if why.contains("second order")));
         assert!(matches!(named("C3D10M"), Found::Refused(why, _) if why.contains("second order")));
         assert!(matches!(named("C3D5"), Found::Refused(why, _) if why.contains("pyramid")));
-        assert!(matches!(named("R3D4"), Found::Refused(why, _) if why.contains("surface in 3D")));
+        assert!(matches!(named("R3D4"), Found::Refused(why, _) if why.contains("rigid surface")));
         assert!(matches!(named("C3D8H"), Found::Refused(why, _) if why.contains("hybrid")));
         assert!(matches!(named("CPE4RH"), Found::Refused(why, _) if why.contains("hybrid")));
         assert!(matches!(named("QQ"), Found::Refused(why, _) if why.contains("not known")));
-        assert_eq!(named("SPRINGA"), Found::Beside);
+        assert!(matches!(named("CPE4R"), Found::Refused(why, _) if why.contains("beside bodies in 3D")));
+        assert_eq!((named("SPRINGA"), super::named("B31", false)), (Found::Beside, Found::Beside));
     }
 
     #[test]
     fn sides_are_numbered_as_in_the_manual() {
         // As the manual of CalculiX numbers the faces of its solid elements (those of Abaqus), with the nodes
         // from 1.
-        let of = |name: &str| match named(name) {
-            Found::Body(kind) => (0..kind.sides()).map(|side| kind.side(side).map(|k| k + 1).collect()).collect::<Vec<Vec<usize>>>(),
+        let of = |name: &str| match [false, true].map(|is_3d| named(name, is_3d)).into_iter().find(|it| matches!(it, Found::Body(_))) {
+            Some(Found::Body(kind)) => (0..kind.sides()).map(|side| kind.side(side).map(|k| k + 1).collect()).collect::<Vec<Vec<usize>>>(),
             _ => Vec::new(),
         };
         assert_eq!(of("CPE3"), [[1, 2], [2, 3], [3, 1]]);
         assert_eq!(of("CPS4R"), [[1, 2], [2, 3], [3, 4], [4, 1]]);
+        // Faces of shells, then their edges, where they are no areas of 2D.
+        assert_eq!(of("SAX1"), [[1, 2], [2, 1]]);
+        assert_eq!(of("S4R"), [[1, 2], [2, 3], [3, 4], [4, 1]]);
+        let Found::Body(shell) = named("S3", true) else { panic!("no shell") };
+        let sides: Vec<Vec<usize>> = (0..shell.sides()).map(|side| shell.side(side).collect()).collect();
+        let expected: [&[usize]; 5] = [&[0, 1, 2], &[2, 1, 0], &[0, 1], &[1, 2], &[2, 0]];
+        assert_eq!(sides, expected);
         assert_eq!(of("C3D4"), [[1, 2, 3], [1, 4, 2], [2, 4, 3], [3, 4, 1]]);
         let wedge: [&[usize]; 5] = [&[1, 2, 3], &[4, 6, 5], &[1, 4, 5, 2], &[2, 5, 6, 3], &[3, 6, 4, 1]];
         assert_eq!(of("C3D6"), wedge);
@@ -164,7 +257,7 @@ mod tests {
     #[test]
     fn every_type_is_found_by_its_name() {
         for kind in KINDS {
-            assert_eq!(named(kind.name), Found::Body(kind));
+            assert_eq!(named(kind.name, kind.family.is_of_3d()), Found::Body(kind));
         }
     }
 }

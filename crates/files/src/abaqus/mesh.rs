@@ -6,7 +6,6 @@
 use super::deck::{Deck, Element, Surface};
 use super::text::Text;
 use crate::abaqus::messages::DECK_MESH;
-use crate::gmsh::Bodies;
 use crate::gmsh::faults::Faults;
 use crate::gmsh::form;
 use crate::gmsh::messages::{CELL, NODE};
@@ -18,10 +17,14 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Distance from the plane z = 0, as a fraction of the mesh's size, that still counts as on it.
 const OFF_PLANE: f64 = 1e-9;
 
+/// What the group of the members of a set is called that are of a lower dimension than others.
+const LOWER: [&str; 3] = ["elements", "lines", "surfaces"];
+
 /// Names of groups by the full names (in capitals) of what they stand for.
 #[derive(Debug, Default)]
 pub(super) struct Names {
-    pub(super) elements: BTreeMap<String, String>,
+    /// By the dimension of their members too: a set of shells and beams is two groups.
+    pub(super) elements: BTreeMap<(String, u8), String>,
     pub(super) surfaces: BTreeMap<String, String>,
     pub(super) nodes: BTreeMap<String, String>,
 }
@@ -42,7 +45,12 @@ pub(super) fn names(deck: &Deck) -> Names {
     };
     let used = used(deck);
     for (key, set) in deck.element_sets.iter().filter(|(_, set)| !set.members.is_empty()) {
-        names.elements.insert(key.clone(), free(&set.name, "elements"));
+        let dimensions: BTreeSet<u8> = set.members.iter().map(|element| deck.elements[*element as usize].dimension()).collect();
+        for (rank, dimension) in dimensions.into_iter().rev().enumerate() {
+            let ending = LOWER.get(usize::from(dimension)).copied().filter(|_| rank > 0);
+            let name = ending.map_or(set.name.clone(), |ending| format!("{}-{ending}", set.name));
+            names.elements.insert((key.clone(), dimension), free(&name, "elements"));
+        }
     }
     let there = |surface: &Surface| match surface {
         Surface::Sides(sides) => !sides.is_empty(),
@@ -56,7 +64,8 @@ pub(super) fn names(deck: &Deck) -> Names {
         names.nodes.insert(key.clone(), free(&set.name, "nodes"));
     }
     if names.elements.is_empty() && !deck.elements.is_empty() {
-        names.elements.insert(String::new(), free("all", "elements"));
+        let highest = deck.elements.iter().map(Element::dimension).max().unwrap_or(2);
+        names.elements.insert((String::new(), highest), free("all", "elements"));
     }
     names
 }
@@ -69,15 +78,16 @@ pub(super) fn used(deck: &Deck) -> Vec<bool> {
 }
 
 /// The mesh of a deck; positions are multiplied by `scale`.
-pub(super) fn mesh(bodies: Bodies, deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
+pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     let source = text.shown_name();
     if deck.elements.is_empty() {
-        let help = "known are CPE4R, CPE4, CPE3, CPS4R, CAX4R and their like, and C3D8R, C3D8, C3D6, C3D4, of first order";
+        let help = "known are CPE4R, CPE4, CPE3, CPS4R, CAX4R and their like, S4R, S3, B31, SAX1, B21, and C3D8R, C3D8, C3D6, C3D4, \
+                    of first order";
         return Err(vec![Fault::new(&DECK_MESH, source, "the deck has no elements of bodies", help)]);
     }
-    let (used, dimension) = (used(deck), deck.dimension());
-    // Surfaces in 3D are as the deck has them.
-    let is_flat = dimension == 2 && bodies == Bodies::Highest;
+    let used = used(deck);
+    // Shells in 3D, and lines, are as the deck has them.
+    let (is_flat, dimension) = (!deck.is_3d, if deck.is_3d { 3 } else { 2 });
     check_positions(deck, text, scale, &used, is_flat)?;
     check_volumes(deck, text)?;
     let mut dense = vec![u32::MAX; deck.nodes.len()];
@@ -92,28 +102,36 @@ pub(super) fn mesh(bodies: Bodies, deck: &Deck, text: &Text, scale: f64) -> Resu
     let cell = |element: &u32| {
         let element = &deck.elements[*element as usize];
         let mut nodes: Vec<u32> = element.nodes().iter().map(|&node| dense[node as usize]).collect();
-        if (is_flat || dimension == 3) && form::is_turned(element.kind.cell, &corners(deck, element)) {
+        if element.dimension() == dimension && form::is_turned(element.kind.cell, &corners(deck, element)) {
             element.kind.cell.reflect(&mut nodes);
         }
         nodes
     };
-    for (key, name) in &names.elements {
-        let cells = match deck.element_sets.get(key) {
-            Some(set) => set.members.iter().map(cell).collect(),
-            None => (0..deck.elements.len() as u32).map(|element| cell(&element)).collect(),
+    for ((key, dimension), name) in &names.elements {
+        let is_such = |element: &&u32| deck.elements[**element as usize].dimension() == *dimension;
+        let everything: Vec<u32>;
+        let members = match deck.element_sets.get(key) {
+            Some(set) => &set.members,
+            None => {
+                everything = (0..deck.elements.len() as u32).collect();
+                &everything
+            }
         };
-        groups.push(MeshGroup { name: name.clone(), dimension, cells });
+        groups.push(MeshGroup { name: name.clone(), dimension: *dimension, cells: members.iter().filter(is_such).map(cell).collect() });
     }
     let points = |nodes: &[u32]| nodes.iter().filter(|node| used[**node as usize]).map(|node| vec![dense[*node as usize]]).collect();
     for (key, name) in &names.surfaces {
-        let all = |sides: &[(u32, u8)]| {
-            let cell = |&(element, side): &(u32, u8)| {
-                deck.elements[element as usize].side(usize::from(side)).map(|node| dense[node as usize]).collect()
-            };
-            sides.iter().map(cell).collect()
+        let cell = |&(element, side): &(u32, u8)| -> Vec<u32> {
+            deck.elements[element as usize].side(usize::from(side)).map(|node| dense[node as usize]).collect()
         };
         let (dimension, cells) = match deck.surfaces.get(key).and_then(|set| set.members.first()) {
-            Some(Surface::Sides(sides)) => (dimension - 1, all(sides)),
+            Some(Surface::Sides(sides)) => {
+                // Edges of shells beside faces are no surface.
+                let mut cells: Vec<Vec<u32>> = sides.iter().map(cell).collect();
+                let has_faces = cells.iter().any(|cell| cell.len() > 2);
+                cells.retain(|cell| !has_faces || cell.len() > 2);
+                (if has_faces { 2 } else { 1 }, cells)
+            }
             Some(Surface::Nodes(nodes)) => (0, points(nodes)),
             _ => continue,
         };
@@ -134,7 +152,7 @@ fn corners(deck: &Deck, element: &Element) -> Vec<[f64; 3]> {
 /// A solid without volume has neither mass nor a direction in which to turn it.
 fn check_volumes(deck: &Deck, text: &Text) -> Result<(), Vec<Fault>> {
     let mut faults = Faults::default();
-    for element in deck.elements.iter().filter(|element| element.kind.dimension() == 3) {
+    for element in deck.elements.iter().filter(|element| element.dimension() == 3) {
         if !(signed_volume(element.kind.cell, &corners(deck, element)).abs() > 0.0) {
             faults.add("elements without volume", || {
                 let message = format!("element {} has no volume", element.tag);
@@ -164,7 +182,7 @@ fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool], is_flat:
         } else if is_flat && z.abs() > OFF_PLANE * size {
             faults.add("nodes off the plane z = 0", || {
                 let message = format!("node {} is at z = {z:e}, off the plane z = 0", node.tag);
-                text.fault(&NODE, node.line, message, "bodies lie in the plane of x and y: move the geometry there")
+                text.fault(&NODE, node.line, message, "bodies lie in the plane of x and y: move the geometry there; of shells take `element = \"shell4\"`")
             });
         }
     }

@@ -16,7 +16,7 @@ mod text;
 use crate::gmsh::Bodies;
 use crate::gmsh::messages::MESH_FILE;
 use crate::path_policy::{Bounds, PathPolicy};
-use deck::Deck;
+use deck::{Deck, Purpose};
 use embate_solver::error::Fault;
 use embate_solver::model::ImportedMesh;
 use std::path::Path;
@@ -36,27 +36,29 @@ pub(crate) fn read_within(bodies: Bodies, path: &Path, scale: f64, bounds: &Boun
     mesh(bodies, &text, scale)
 }
 
-/// Makes a mesh from the bytes of a deck (.inp), in 3D if it has solids, else 2D; what it
-/// includes is looked for in `folder` and nowhere else.
+/// Makes a mesh from the bytes of a deck (.inp), in 3D if it has solids or is read for shells or beams in 3D,
+/// else 2D; what it includes is looked for in `folder` and nowhere else.
 ///
 /// - Positions are those of the file times `scale` (m per unit of the file), with instances in place; in the
 ///   plane z is 0 within 1e-9 of the mesh's size.
-/// - Groups: element sets (of dimension two, of solids three, elements in the order of the set), surfaces of
-///   element sides (lines, of solids surfaces), surfaces of nodes and node sets (points). Outside of its part
+/// - Groups: element sets (of the dimension of their elements, in the order of the set; where they are of
+///   several, the others are `NAME-surfaces` and `NAME-lines`), surfaces of element sides (lines, in 3D
+///   surfaces: of a shell's face those of the element, seen from that face), surfaces of nodes and node sets
+///   (points). Outside of its part
 ///   the set of an instance is called `INSTANCE.SET`. Names keep their first spelling. A surface or node set
 ///   whose name is taken is called `NAME-surface` or `NAME-nodes`. If the deck has no element sets, its
 ///   elements are the group `all`.
 /// - Nodes keep the file's order; those of no body are left out, also of sets.
 /// - Clockwise elements and those of negative volume are turned, their first node kept.
-/// - Masses, springs, rigid lines, beams and the like are skipped, and so is every keyword that is not
-///   about geometry.
+/// - Masses, springs, rigid lines, in 2D beams of 3D and the like are skipped, and so is every keyword that
+///   is not about geometry.
 ///
 /// `source` names the file in messages.
 ///
 /// # Errors
 /// The first fault of the text with its line: what is no keyword, number or name, a missing node, a number
-/// twice, elements of second order, shells in 3D or elements of unknown type, keywords that generate nodes
-/// or elements; or all nodes that are off the plane, or all solids without volume.
+/// twice, elements of second order, of 2D beside those of 3D, or of unknown type, keywords that generate
+/// nodes or elements; or all nodes that are off the plane, or all solids without volume.
 pub fn parse(bytes: &[u8], source: &str, folder: &Path, scale: f64) -> Result<ImportedMesh, Vec<Fault>> {
     parse_for(Bodies::Highest, bytes, source, folder, scale)
 }
@@ -75,6 +77,6 @@ fn mesh(bodies: Bodies, text: &Text, scale: f64) -> Result<ImportedMesh, Vec<Fau
         let message = format!("the mesh's unit is {scale} m");
         return Err(vec![Fault::new(&MESH_FILE, text.shown_name(), message, "it is a finite number greater than 0")]);
     }
-    let deck = Deck::read(text, bodies).map_err(|fault| vec![fault])?;
-    mesh::mesh(bodies, &deck, text, scale)
+    let deck = Deck::read(text, Purpose::Mesh(bodies)).map_err(|fault| vec![fault])?;
+    mesh::mesh(&deck, text, scale)
 }

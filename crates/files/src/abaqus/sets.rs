@@ -3,6 +3,7 @@
 //! Part of [`Deck`]; what they name must stand above them. Members are indices into the deck's nodes and
 //! elements.
 
+use super::element_kind::{Family, LOWER, UPPER};
 use super::deck::{Deck, Scope, Set, Surface, extend};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{SYNTAX, UNKNOWN};
@@ -158,7 +159,7 @@ impl Deck {
     }
 
     /// Sides of elements: `set, S1` is one side of each, `set` alone those that belong to one element of the
-    /// deck only, `,` all of these.
+    /// deck only, of shells in 3D both faces, `,` all of these.
     fn sides(&self, text: &Text, block: &Block, instance: usize) -> Result<Surface, Fault> {
         let mut sides = Vec::new();
         let mut counts = None;
@@ -173,7 +174,9 @@ impl Deck {
                 if face.is_empty() {
                     let counts = counts.get_or_insert_with(|| self.side_counts());
                     let it = &self.elements[element as usize];
-                    let free = (0..it.kind.sides()).filter(|&side| counts.get(&key(it.side(side))) == Some(&1));
+                    let is_free = |side: &usize| counts.get(&key(it.side(*side))) == Some(&1);
+                    let count = if it.kind.family.has_faces() { 2 } else { it.kind.sides() };
+                    let free = (0..count).filter(|side| it.kind.family.has_faces() || is_free(side));
                     sides.extend(free.map(|side| (element, side as u8)));
                 } else {
                     sides.push((element, self.face(text, line, element, face)?));
@@ -185,25 +188,44 @@ impl Deck {
         Ok(Surface::Sides(sides))
     }
 
-    /// The side, from 0, that S1, P1 or E1 and so on stand for.
+    /// The side, from 0, that S1, P1, E1, SPOS and so on stand for; of shells in 3D S1 is SNEG, S2 is SPOS,
+    /// and S3 the first edge, as CalculiX has it.
     pub(super) fn face(&self, text: &Text, line: Line, element: u32, face: &str) -> Result<u8, Fault> {
         let kind = self.elements[element as usize].kind;
-        let mut letters = face.chars();
-        let letter = letters.next().map(|c| c.to_ascii_uppercase());
-        let fits = matches!((letter, kind.shell), (Some('S' | 'P'), false) | (Some('E'), true));
-        let number = letters.as_str().parse::<u8>().ok().filter(|number| fits && (1..=kind.sides() as u8).contains(number));
-        number.map(|number| number - 1).ok_or_else(|| {
-            let letter = if kind.shell { 'E' } else { 'S' };
-            let side = if kind.dimension() == 3 { "face" } else { "edge" };
-            let message = format!("an element {} has no {side} {}", kind.name, shown(face));
-            text.fault(&SYNTAX, line, message, format!("its {side}s are {letter}1 to {letter}{}", kind.sides()))
+        let word = folded(face);
+        let numbered = |letters: &[char]| word.strip_prefix(letters).and_then(|number| number.parse::<u8>().ok());
+        let has_faces = kind.family.has_faces();
+        let found = match word.as_str() {
+            "SPOS" if has_faces => Some(UPPER),
+            "SNEG" if has_faces => Some(LOWER),
+            _ if has_faces => match (numbered(&['S']), numbered(&['E'])) {
+                (Some(1), _) => Some(LOWER),
+                (Some(2), _) => Some(UPPER),
+                (Some(number @ 3..), _) => Some(number - 1),
+                (_, Some(number @ 1..=10)) => Some(number + 1),
+                _ => None,
+            },
+            _ => numbered(if kind.has_named_edges() { &['E'] } else { &['S', 'P'] }).and_then(|number| number.checked_sub(1)),
+        };
+        found.filter(|side| *side < kind.sides() as u8).ok_or_else(|| {
+            let (side, help) = match (kind.sides(), has_faces) {
+                (0, _) => ("side", "beams have none".to_string()),
+                (2, true) => ("face", "its faces are SPOS and SNEG".to_string()),
+                (count, true) => ("side", format!("its faces are SPOS and SNEG, its edges E1 to E{}", count - 2)),
+                (count, _) => {
+                    let side = if kind.family == Family::Solid { "face" } else { "edge" };
+                    let letter = if kind.has_named_edges() { 'E' } else { 'S' };
+                    (side, format!("its {side}s are {letter}1 to {letter}{count}"))
+                }
+            };
+            text.fault(&SYNTAX, line, format!("an element {} has no {side} {}", kind.name, shown(face)), help)
         })
     }
 
     /// How many elements have each side.
     fn side_counts(&self) -> BTreeMap<[u32; 4], u32> {
         let mut counts = BTreeMap::new();
-        for element in &self.elements {
+        for element in self.elements.iter().filter(|element| !element.kind.family.has_faces()) {
             for side in 0..element.kind.sides() {
                 *counts.entry(key(element.side(side))).or_insert(0) += 1;
             }

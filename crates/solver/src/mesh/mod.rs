@@ -25,7 +25,7 @@ use crate::tensor::Dim;
 use cell::{Cell, CellKind, MOST_NODES};
 use shapes::Body;
 use shapes::sweep::SweptMesh;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use surface::{Corners, Facet, Surface};
 
 /// Places of a model that are nearer to each other than this fraction of its extent are the same, and this
@@ -243,11 +243,13 @@ where
             }
             mesh.check_elements(index, &mut faults);
         }
+        let is_shell = |part: usize| model.parts[part].is_of_shells();
+        let mut on_shells = Vec::new();
         for (source, numbers) in model.meshes.iter().zip(&imported) {
-            mesh.add_named_groups(source, numbers, &mut faults);
+            on_shells.extend(mesh.add_named_groups(source, numbers, is_shell, &mut faults));
         }
         for it in &swept {
-            mesh.add_named_groups(&it.made.mesh, &it.numbers, &mut faults);
+            on_shells.extend(mesh.add_named_groups(&it.made.mesh, &it.numbers, is_shell, &mut faults));
         }
         if !faults.is_empty() {
             return Err(faults);
@@ -255,6 +257,7 @@ where
         mesh.imported = imported;
         mesh.reorder(|part| model.parts[part].has_rotations());
         Dim::<D>::add_skins(&mut mesh, model);
+        mesh.put_on_faces(&on_shells);
         mesh.check_thickness(&mut faults);
         if faults.is_empty() { Ok(mesh) } else { Err(faults) }
     }
@@ -387,10 +390,22 @@ where
         self.groups.iter().filter(is_of).flat_map(ElementGroup::live_outer_cells)
     }
 
-    fn add_named_groups(&mut self, source: &ImportedMesh, numbers: &[u32], faults: &mut Vec<Fault>) {
-        let bodies = |part| self.groups_of(part).filter(|group| group.is_body(D));
-        let outside_of = |part| surface::exterior::<D>(bodies(part).flat_map(ElementGroup::cells)).ok();
-        let outside: Vec<Facet<D>> = (0..self.parts.len()).filter_map(outside_of).flatten().collect();
+    /// Names the groups of a file. Returns those that lie on shells, if only in part: their pieces are those
+    /// of the middle until there are faces ([`Self::put_on_faces`]).
+    fn add_named_groups(
+        &mut self,
+        source: &ImportedMesh,
+        numbers: &[u32],
+        is_shell: impl Fn(usize) -> bool,
+        faults: &mut Vec<Fault>,
+    ) -> Vec<String> {
+        let shells = self.groups.iter().filter(|group| is_shell(group.part) && group.kind.dimension() + 1 == D);
+        let middle = shells.flat_map(ElementGroup::cells).filter_map(|cell| Facet::<D>::of_cell(cell.nodes));
+        let middle: Vec<Facet<D>> = middle.flat_map(|facet| [facet.canonical(), facet.reversed().canonical()]).collect();
+        let mut outside = self.outside_of_solids();
+        outside.extend(&middle);
+        let middle: BTreeSet<Facet<D>> = middle.into_iter().collect();
+        let mut on_shells = Vec::new();
         for group in &source.groups {
             let nodes = || group.cells.iter().flatten().map(|&node| numbers.get(node as usize).copied().unwrap_or(u32::MAX));
             if nodes().any(|node| node == u32::MAX) {
@@ -400,7 +415,10 @@ where
             let facet = |cell: &Vec<u32>| Facet::<D>::of_cell(&number(cell));
             let facets: Option<Vec<Facet<D>>> = group.cells.iter().map(facet).collect();
             match facets.filter(|_| usize::from(group.dimension) + 1 == D).map(|facets| surface::oriented(&facets, &outside)) {
-                Some(Ok(facets)) => drop(self.sides.insert(group.name.clone(), facets)),
+                Some(Ok(facets)) => {
+                    on_shells.extend(facets.iter().any(|facet| middle.contains(facet)).then(|| group.name.clone()));
+                    self.sides.insert(group.name.clone(), facets);
+                }
                 // A line inside a body, and what is not on one, is no surface, but still a set of nodes.
                 _ => drop(self.points.insert(group.name.clone(), sorted(nodes()))),
             }
@@ -408,6 +426,14 @@ where
         if self.positions.len() > u32::MAX as usize - 1 {
             faults.push(Fault::new(&TOO_MANY, "", "the model has more than 4 billion nodes", "make it smaller"));
         }
+        on_shells
+    }
+
+    /// Outside of each part whose elements bound bodies as they are.
+    fn outside_of_solids(&self) -> Vec<Facet<D>> {
+        let bodies = |part| self.groups_of(part).filter(|group| group.kind.dimension() == D);
+        let outside_of = |part| surface::exterior::<D>(bodies(part).flat_map(ElementGroup::cells)).ok();
+        (0..self.parts.len()).filter_map(outside_of).flatten().collect()
     }
 
     /// Every element must have a form that it can be computed with; see [`Meshed::wrong_form`].

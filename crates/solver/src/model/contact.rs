@@ -334,7 +334,8 @@ section! {
         name: "contact",
         doc: "Bodies that can't go through each other: two surfaces, or several bodies, each of which meets each other \
             and itself. A surface is a part (its whole outside), a side such as `plate.top`, or a group of lines (in 3D \
-            of surfaces) of a mesh file.",
+            of surfaces) of a mesh file, which of shells is the face that it looks from: in 3D where its cells run counter-clockwise, in 2D \
+            the left of its lines.",
         form: Form::Repeated,
         groups: &[&INTERFACE],
         rules: &[Rule::OneOf(&["between", "bodies"]), Rule::Only { keys: &["tie_strength"], by: "tied", value: "true" }],

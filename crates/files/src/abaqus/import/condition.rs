@@ -2,6 +2,7 @@
 
 use super::Importer;
 use super::report::Outcome::{Approximated, Ignored};
+use crate::abaqus::element_kind::Family;
 use crate::abaqus::messages::SYNTAX;
 use crate::abaqus::text::{Line, folded, shown};
 use embate_solver::error::Fault;
@@ -43,6 +44,7 @@ pub(super) struct Boundary {
 pub(super) enum Load {
     Gravity { at: usize, elements: BTreeSet<u32>, acceleration: [f64; 3], amplitude: Option<String> },
     Force { at: usize, group: String, force: [f64; 3], amplitude: Option<String> },
+    Moment { at: usize, group: String, moment: [f64; 3], amplitude: Option<String> },
     Pressure { at: usize, group: String, pressure: f64, amplitude: Option<String> },
 }
 
@@ -119,7 +121,7 @@ pub(super) fn boundary(importer: &mut Importer<'_>, at: usize) -> Result<(), Fau
             }
         };
         // Out of the plane nothing moves anyway.
-        let all: Vec<usize> = all.into_iter().filter(|axis| importer.is_solid() || [0, 1, 3].contains(axis)).collect();
+        let all: Vec<usize> = all.into_iter().filter(|axis| importer.is_3d() || [0, 1, 3].contains(axis)).collect();
         for instance in importer.deck.instances_of(at) {
             let (group, nodes) = importer.node_group(line, instance, field(0))?;
             for &axis in &all {
@@ -146,7 +148,7 @@ pub(super) fn initial(importer: &mut Importer<'_>, at: usize) -> Result<(), Faul
             importer.ignored(
                 at,
                 line,
-                if importer.is_solid() { "an angular velocity" } else { "a velocity out of the plane, or an angular velocity" },
+                if importer.is_3d() { "an angular velocity" } else { "a velocity out of the plane, or an angular velocity" },
             );
             continue;
         }
@@ -164,19 +166,28 @@ pub(super) fn nodal_force(importer: &mut Importer<'_>, at: usize) -> Result<(), 
     for &line in &importer.block(at).data {
         let fields = importer.text.fields(line);
         let field = |k: usize| fields.get(k).copied().unwrap_or_default();
-        let axis = importer.text.tag(line, field(1), "a degree of freedom")?;
+        let axis = importer.text.tag(line, field(1), "a degree of freedom")? as usize;
         let value = importer.text.number(line, field(2), "a force")?;
+        let turns = if importer.is_3d() { 4..=6 } else { 6..=6 };
         for instance in importer.deck.instances_of(at) {
             let (group, nodes) = importer.node_group(line, instance, field(0))?;
-            let is_there = (1..=importer.dimension()).contains(&(axis as usize));
-            let (Some(group), true) = (group, is_there) else {
-                importer.ignored(at, line, "a moment, a force out of the plane, or one on nodes of no element");
-                continue;
-            };
-            let mut force = [0.0; 3];
-            force[axis as usize - 1] = value * nodes.len() as f64;
+            let rotating = nodes.iter().filter(|node| importer.rotating[**node as usize]).count();
             let amplitude = amplitude_of(importer, at);
-            importer.loads.push(Load::Force { at, group, force, amplitude });
+            // The sum over the nodes along one axis.
+            let along = |axis: usize, count: usize| [0, 1, 2].map(|k| if k == axis { value * count as f64 } else { 0.0 });
+            match group {
+                Some(group) if (1..=importer.dimension()).contains(&axis) => {
+                    importer.loads.push(Load::Force { at, group, force: along(axis - 1, nodes.len()), amplitude });
+                }
+                Some(group) if turns.contains(&axis) && rotating > 0 => {
+                    importer.loads.push(Load::Moment { at, group, moment: along(axis - 4, rotating), amplitude });
+                }
+                _ => importer.ignored(
+                    at,
+                    line,
+                    "a moment on nodes that do not rotate, a force out of the plane, or one on nodes of no element",
+                ),
+            }
         }
     }
     Ok(())
@@ -190,18 +201,10 @@ pub(super) fn distributed(importer: &mut Importer<'_>, at: usize) -> Result<(), 
         for instance in importer.deck.instances_of(at) {
             match label.as_str() {
                 "GRAV" => gravity(importer, at, line, instance)?,
+                // It acts along the normal: it presses on the face behind it.
+                "P" => pressure(importer, at, line, (instance, "SNEG", "P"))?,
                 _ if label.strip_prefix(['P', 'E']).is_some_and(|number| number.parse::<u8>().is_ok()) => {
-                    let value = importer.text.number(line, field(2), "a pressure")?;
-                    let elements = importer.deck.elements_named(importer.text, line, instance, field(0))?;
-                    for element in elements {
-                        importer.deck.face(importer.text, line, element, &label)?;
-                    }
-                    let full = importer.deck.full_shown(instance, field(0));
-                    let group = importer.add_set(&format!("{label}-{full}"), |group| {
-                        format!("*SURFACE, TYPE=ELEMENT, NAME=\"{group}\"\n\"{full}\", {label}\n")
-                    });
-                    let amplitude = amplitude_of(importer, at);
-                    importer.loads.push(Load::Pressure { at, group, pressure: value, amplitude });
+                    pressure(importer, at, line, (instance, &label, &label))?;
                 }
                 _ => importer.ignored(at, line, &format!("a load {label} has no counterpart in the import and does not act")),
             }
@@ -210,12 +213,37 @@ pub(super) fn distributed(importer: &mut Importer<'_>, at: usize) -> Result<(), 
     Ok(())
 }
 
+/// A pressure on a side of elements: the instance, the name of the side, and that of the load.
+fn pressure(importer: &mut Importer<'_>, at: usize, line: Line, (instance, side, label): (usize, &str, &str)) -> Result<(), Fault> {
+    let fields = importer.text.fields(line);
+    let field = |k: usize| fields.get(k).copied().unwrap_or_default();
+    let value = importer.text.number(line, field(2), "a pressure")?;
+    let elements = importer.deck.elements_named(importer.text, line, instance, field(0))?;
+    if elements.iter().any(|element| importer.deck.elements[*element as usize].kind.family == Family::Beam) {
+        importer.ignored(at, line, "a load along beams does not act: give it as `force` on their nodes");
+        return Ok(());
+    }
+    for &element in &elements {
+        importer.deck.face(importer.text, line, element, side)?;
+    }
+    if elements.is_empty() {
+        importer.ignored(at, line, "a load on elements that are no bodies");
+        return Ok(());
+    }
+    let full = importer.deck.full_shown(instance, field(0));
+    let group = importer
+        .add_set(&format!("{label}-{full}"), |group| format!("*SURFACE, TYPE=ELEMENT, NAME=\"{group}\"\n\"{full}\", {side}\n"));
+    let amplitude = amplitude_of(importer, at);
+    importer.loads.push(Load::Pressure { at, group, pressure: value, amplitude });
+    Ok(())
+}
+
 fn gravity(importer: &mut Importer<'_>, at: usize, line: Line, instance: usize) -> Result<(), Fault> {
     let fields = importer.text.fields(line);
     let field = |k: usize| fields.get(k).copied().unwrap_or_default();
     let number = |k: usize| if field(k).is_empty() { Ok(0.0) } else { importer.text.number(line, field(k), "a number of gravity") };
     let (size, direction) = (number(2)?, [number(3)?, number(4)?, number(5)?]);
-    if direction[2] != 0.0 && !importer.is_solid() {
+    if direction[2] != 0.0 && !importer.is_3d() {
         importer.ignored(at, line, "gravity out of the plane does not act");
         return Ok(());
     }

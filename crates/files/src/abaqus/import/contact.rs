@@ -149,7 +149,7 @@ fn add(importer: &mut Importer<'_>, at: usize, line: Line, interaction: Option<S
     let surfaces = [importer.surface(line, fields[0])?, importer.surface(line, second)?];
     for surface in &surfaces {
         match importer.deck.surfaces.get(surface).and_then(|it| it.members.first()) {
-            Some(Surface::Sides(_)) => {}
+            Some(Surface::Sides(sides)) if importer.is_surface(sides) => {}
             Some(Surface::Lines(_)) if !tied => {}
             Some(Surface::Other(what)) => {
                 importer.ignored(at, line, &format!("surface {surface} is {what}; this contact does not act"));
@@ -214,8 +214,8 @@ pub(super) fn rigid_body(importer: &mut Importer<'_>, at: usize) -> Result<(), F
             importer.note(
                 at,
                 Ignored,
-                if importer.is_solid() {
-                    "a rigid body without solid elements: give its surface as an `[[obstacle]]`, with `stl` for example; it does not act"
+                if importer.is_3d() {
+                    "a rigid body without elements of bodies: give its surface as an `[[obstacle]]`, with `stl` for example; it does not act"
                 } else {
                     "a rigid body without plane elements: draw it as an `[[obstacle]]` with `polyline`; it does not act"
                 },

@@ -5,7 +5,7 @@
 //! says so.
 
 use super::report::Outcome::{self, Approximated, Ignored, Used};
-use super::{Importer, condition, contact, material, step};
+use super::{Importer, condition, contact, material, section, step};
 use embate_solver::error::Fault;
 
 /// Reads a block, given by its number.
@@ -39,11 +39,16 @@ const PRINTS: &str = "what is written is `[output]`: all fields 100 times, the h
 pub(super) static KEYWORDS: &[Keyword] = &[
     key("AMPLITUDE", Used, &["NAME", "DEFINITION", "TIME", "VALUE"], "a curve: TABULAR by lines, SMOOTH STEP by smooth steps", condition::amplitude),
     key("ASSEMBLY", Used, &["NAME"], "the mesh", done),
+    key("BEAM GENERAL SECTION", Used, &["ELSET", "MATERIAL", "SECTION", "DENSITY"], "`profile` of a part of beams, and their \
+        elastic material", section::beam),
+    key("BEAM SECTION", Used, &["ELSET", "MATERIAL", "SECTION"], "`profile` of a part of beams: CIRC, PIPE, RECT, BOX, I or \
+        GENERAL; of beams in 2D the thickness of a shell, RECT alone", section::beam),
     key("BOUNDARY", Used, &["TYPE", "AMPLITUDE", "OP"], "`[[constraint]]`: fixed, or displacement, velocity, \
-        acceleration by an amplitude; of a reference node the motion of its rigid body", condition::boundary),
+        acceleration by an amplitude; rotations of shells and beams are held, or driven by a velocity; of a reference \
+        node the motion of its rigid body", condition::boundary),
     key("BULK VISCOSITY", Used, &[], "`run.bulk_viscosity`", step::bulk_viscosity),
-    key("CLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]` with `force`: the sum over the set, per depth; of solids \
-        the whole", condition::nodal_force),
+    key("CLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]` with `force`, on rotations of shells and beams `moment`: \
+        the sum over the set, per depth; in 3D the whole", condition::nodal_force),
     key("CONTACT", Used, &["OP"], "see *CONTACT INCLUSIONS", done),
     key("CONTACT FILE", Approximated, ANY, PRINTS, done),
     key("CONTACT INCLUSIONS", Used, &["ALL EXTERIOR"], "`[[contact]]` with `bodies = \"all\"`, or `between` for \
@@ -51,12 +56,12 @@ pub(super) static KEYWORDS: &[Keyword] = &[
     key("CONTACT OUTPUT", Approximated, ANY, PRINTS, done),
     key("CONTACT PAIR", Approximated, &["INTERACTION", "MECHANICAL CONSTRAINT", "TYPE", "CPSET", "OP"], "`[[contact]]` \
         with `between`, by penalty in double pass (NODE TO SURFACE: single pass), whatever enforcement the deck asks \
-        for; penetrations at the start are pushed out without stress, of solids they count as zero", contact::pair),
+        for; penetrations at the start are pushed out without stress, in 3D and of shells they count as zero", contact::pair),
     key("CONTACT PRINT", Approximated, ANY, PRINTS, done),
     key("CONTACT PROPERTY ASSIGNMENT", Used, &[], "friction and law of the contact of all bodies", contact::property),
     key("DENSITY", Used, &[], "`density`", material::density),
-    key("DLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]`: P1 to P6 a `pressure` on these edges or faces, GRAV \
-        `gravity`", condition::distributed),
+    key("DLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]`: P1 to P6 a `pressure` on these edges or faces, P on \
+        shells along their normal, GRAV `gravity`", condition::distributed),
     key("DSLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]` with `pressure`, which follows its surface", condition::surface_load),
     key("DYNAMIC", Used, &["EXPLICIT", "DIRECT", "ELEMENT BY ELEMENT", "FIXED TIME INCREMENTATION"], "`run.end`; the time step follows from the elements", step::dynamic),
     key("EL FILE", Approximated, ANY, PRINTS, done),
@@ -80,7 +85,8 @@ pub(super) static KEYWORDS: &[Keyword] = &[
     key("INITIAL CONDITIONS", Used, &["TYPE"], "TYPE=VELOCITY: `velocity` of parts", condition::initial),
     key("INSTANCE", Used, &["NAME", "PART"], "the mesh, in its place", done),
     key("MATERIAL", Used, &["NAME"], "`[material.NAME]`", material::material),
-    key("MEMBRANE SECTION", Used, &["ELSET", "MATERIAL"], "a part in plane stress", material::section),
+    key("MEMBRANE SECTION", Used, &["ELSET", "MATERIAL"], "a part in plane stress; in 3D a shell of one point, without \
+        bending", section::membrane),
     key("MPC", Ignored, ANY, "refused: constraints between nodes have no counterpart but ties", step::refused),
     key("NODE", Used, &["NSET", "SYSTEM"], "the mesh", done),
     key("NODE FILE", Approximated, ANY, PRINTS, done),
@@ -96,11 +102,13 @@ pub(super) static KEYWORDS: &[Keyword] = &[
         surface in 2D `[[obstacle]]` with `polyline`, its free side left of the way from START on", contact::rigid_body),
     key("SECTION CONTROLS", Approximated, ANY, "hourglass control and the like are those of the element; `hourglass` \
         of the part is its coefficient", done),
-    key("SHELL SECTION", Approximated, &["ELSET", "MATERIAL"], "a part in plane stress: bending out of the plane is \
-        not computed", material::section),
-    key("SOLID SECTION", Used, &["ELSET", "MATERIAL", "CONTROLS"], "`[[part]]`", material::section),
+    key("SHELL GENERAL SECTION", Used, &["ELSET", "MATERIAL", "OFFSET", "POISSON"], "`section` of a part of shells, with two \
+        points: exact while it is elastic", section::shell),
+    key("SHELL SECTION", Used, &["ELSET", "MATERIAL", "OFFSET", "POISSON", "SECTION INTEGRATION", "CONTROLS"], "`section` of a \
+        part of shells: thickness and points", section::shell),
+    key("SOLID SECTION", Used, &["ELSET", "MATERIAL", "CONTROLS"], "`[[part]]`", section::solid),
     key("STEP", Used, &["NAME", "NLGEOM", "INC"], "the run", step::step),
-    key("SURFACE", Used, &["NAME", "TYPE", "INTERNAL"], "a group of lines of the mesh, of solids of faces", contact::surface),
+    key("SURFACE", Used, &["NAME", "TYPE", "INTERNAL"], "a group of lines of the mesh, in 3D of faces, also SPOS and SNEG of shells", contact::surface),
     key("SURFACE BEHAVIOR", Used, &["PRESSURE-OVERCLOSURE"], "HARD: the automatic penalty; LINEAR: `penalty`; \
         TABULAR: `law = \"pressure_gap\"`", contact::behaviour),
     key("SURFACE INTERACTION", Used, &["NAME"], "keys of contacts that name it", contact::interaction),

@@ -1,9 +1,9 @@
-//! Materials and sections of a deck.
+//! Materials of a deck.
 
 use super::Importer;
-use super::report::Outcome::{Approximated, Ignored};
+use super::report::Outcome::Approximated;
 use crate::abaqus::messages::{NO_COUNTERPART, SYNTAX, UNKNOWN};
-use crate::abaqus::text::{Line, folded, shown};
+use crate::abaqus::text::{folded, shown};
 use embate_solver::error::Fault;
 
 /// A material as the deck has it.
@@ -17,18 +17,6 @@ pub(super) struct Material {
     pub(super) plastic: Vec<[f64; 2]>,
     /// C10, C01 and the bulk modulus.
     pub(super) rubber: Option<[f64; 3]>,
-}
-
-/// A section: elements and their material.
-#[derive(Clone, Debug)]
-pub(super) struct Section {
-    /// Block of the deck.
-    pub(super) at: usize,
-    /// Full name of the element set, in capitals.
-    pub(super) set: String,
-    /// Name of the material, in capitals.
-    pub(super) material: String,
-    pub(super) thickness: f64,
 }
 
 pub(super) fn material(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
@@ -139,46 +127,5 @@ pub(super) fn hyperelastic(importer: &mut Importer<'_>, at: usize) -> Result<(),
         );
     }
     rows_left_out(importer, at);
-    Ok(())
-}
-
-pub(super) fn section(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
-    let block = importer.block(at);
-    let needed = |name: &str| {
-        block
-            .parameter(name)
-            .filter(|value| !value.is_empty())
-            .ok_or_else(|| importer.text.fault(&SYNTAX, block.line, format!("*{} has no {name}", block.keyword), format!("add {name}=...")))
-    };
-    let (set, material) = (needed("ELSET")?, folded(needed("MATERIAL")?));
-    let numbers = importer.first_numbers(at, "a thickness")?;
-    let thickness = numbers.first().copied().flatten().unwrap_or(1.0);
-    if thickness <= 0.0 {
-        return Err(importer.text.fault(&SYNTAX, block.line, format!("the thickness is {thickness}"), "it is greater than 0"));
-    }
-    for instance in importer.deck.instances_of(at) {
-        let full = importer.deck.full(instance, set);
-        match importer.deck.element_sets.get(&full).map(|it| it.members.is_empty()) {
-            Some(false) => importer.sections.push(Section { at, set: full, material: material.clone(), thickness }),
-            _ if importer.deck.beside.contains_key(&full) => {
-                importer.note(at, Ignored, "a section of elements that are no bodies");
-            }
-            _ => {
-                let message = format!("there is no element set {}", shown(set));
-                return Err(importer.text.fault(&UNKNOWN, block.line, message, "name a set with elements"));
-            }
-        }
-    }
-    if thickness != 1.0 {
-        let text = format!(
-            "thickness {thickness}: embate computes per unit of depth; forces, masses and energies of the results \
-                are to be multiplied by it"
-        );
-        importer.approximated(at, &text);
-    }
-    if block.data.len() > 1 {
-        let line: Line = block.data[1];
-        importer.ignored(at, line, "further lines of a section are not read");
-    }
     Ok(())
 }

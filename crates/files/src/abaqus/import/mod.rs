@@ -1,14 +1,15 @@
 //! From a deck to a model: a model file, the mesh that it names, and a report of what became of each keyword.
 //!
-//! `keywords.rs` is the table of what is known; `material.rs`, `condition.rs`, `contact.rs` and `step.rs`
-//! read blocks into the `Importer`; `write.rs` makes the model file of it, `report.rs` the report. The mesh
-//! is the deck itself in one text, with sets added for what names single nodes or edges.
+//! `keywords.rs` is the table of what is known; `material.rs`, `section.rs`, `condition.rs`, `contact.rs` and
+//! `step.rs` read blocks into the `Importer`; `write.rs` makes the model file of it, `report.rs` the report.
+//! The mesh is the deck itself in one text, with sets added for what names single nodes or edges.
 
 mod condition;
 mod contact;
 mod keywords;
 mod material;
 mod report;
+mod section;
 mod step;
 mod units;
 mod write;
@@ -18,11 +19,10 @@ pub use keywords::table_markdown;
 pub use report::{Entry, Outcome, Report};
 pub use units::Units;
 
-use super::deck::Deck;
+use super::deck::{Deck, Element, Purpose};
 use super::mesh::{self, Names};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{SYNTAX, UNKNOWN};
-use crate::gmsh::Bodies;
 use crate::path_policy::{Bounds, PathPolicy};
 use embate_solver::error::Fault;
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,8 +51,8 @@ pub fn import(path: &Path, units: &Units, reach: PathPolicy) -> Result<Imported,
     let shown = path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned());
     let text =
         Text::read(path, &shown, &Bounds::of(path.parent().unwrap_or(Path::new("")), "deck's", reach)).map_err(|fault| vec![fault])?;
-    let deck = Deck::read(&text, Bodies::Highest).map_err(|fault| vec![fault])?;
-    mesh::mesh(Bodies::Highest, &deck, &text, 1.0)?;
+    let deck = Deck::read(&text, Purpose::Model).map_err(|fault| vec![fault])?;
+    mesh::mesh(&deck, &text, 1.0)?;
     let mut importer = Importer::new(&text, &deck, units.clone());
     importer.read().map_err(|fault| vec![fault])?;
     let model = importer.write().map_err(|fault| vec![fault])?;
@@ -70,6 +70,8 @@ struct Importer<'a> {
     names: Names,
     /// Whether an element has the node.
     used: Vec<bool>,
+    /// Whether an element has it whose nodes rotate.
+    rotating: Vec<bool>,
     units: Units,
     entries: Vec<Entry>,
     /// Whether the reader of a block has reported what became of the block as a whole.
@@ -84,7 +86,7 @@ struct Importer<'a> {
     /// The block of the first step.
     step_at: Option<usize>,
     materials: Vec<material::Material>,
-    sections: Vec<material::Section>,
+    sections: Vec<section::Section>,
     amplitudes: BTreeMap<String, condition::Amplitude>,
     boundaries: Vec<condition::Boundary>,
     velocities: BTreeMap<u32, [f64; 3]>,
@@ -97,6 +99,14 @@ struct Importer<'a> {
     rigid: Vec<contact::Rigid>,
 }
 
+/// Whether each node belongs to an element whose nodes rotate.
+fn rotating(deck: &Deck) -> Vec<bool> {
+    let mut rotating = vec![false; deck.nodes.len()];
+    let turning = deck.elements.iter().filter(|element| element.kind.family.rotates());
+    turning.flat_map(Element::nodes).for_each(|&node| rotating[node as usize] = true);
+    rotating
+}
+
 impl<'a> Importer<'a> {
     fn new(text: &'a Text, deck: &'a Deck, units: Units) -> Self {
         Self {
@@ -104,6 +114,7 @@ impl<'a> Importer<'a> {
             deck,
             names: mesh::names(deck),
             used: mesh::used(deck),
+            rotating: rotating(deck),
             units,
             entries: Vec::new(),
             reported: false,
@@ -165,19 +176,26 @@ impl<'a> Importer<'a> {
         &self.text.blocks[at]
     }
 
-    /// Components of positions, velocities and forces: 2 in 2D, 3 of solids.
+    /// Components of positions, velocities and forces: 2 in 2D, 3 in 3D.
     fn dimension(&self) -> usize {
-        usize::from(self.deck.dimension())
+        if self.is_3d() { 3 } else { 2 }
     }
 
-    fn is_solid(&self) -> bool {
-        self.dimension() == 3
+    fn is_3d(&self) -> bool {
+        self.deck.is_3d
+    }
+
+    /// Whether sides of elements make a surface, which edges of shells do not.
+    fn is_surface(&self, sides: &[(u32, u8)]) -> bool {
+        let corners = |&(element, side): &(u32, u8)| self.deck.elements[element as usize].side(usize::from(side)).count();
+        sides.iter().any(|side| corners(side) + 1 > self.dimension() && (!self.is_3d() || corners(side) > 2))
     }
 
     /// What is done with penetrations at the start: in 2D bodies are pushed apart without stress, as
-    /// the deck means it; of solids they count as zero.
+    /// the deck means it; in 3D, and of shells, they count as zero.
     fn initial_penetration(&self) -> &'static str {
-        if self.is_solid() { "initial_penetration = \"ignore\"\n" } else { "initial_penetration = \"push_out\"\n" }
+        let has_shells = self.deck.elements.iter().any(|element| element.kind.family.rotates());
+        if self.is_3d() || has_shells { "initial_penetration = \"ignore\"\n" } else { "initial_penetration = \"push_out\"\n" }
     }
 
     /// A list of the components that the model has.

@@ -1,11 +1,13 @@
 //! Makes the model file of what an import has read: run, materials, parts, and the text itself. What acts on
 //! parts is in `write_conditions.rs`.
 
-use super::material::{Material, Section};
+use super::material::Material;
+use super::section::Section;
 use super::report::Outcome::{Ignored, Used};
 use super::units::number;
 use super::{Importer, MESH_NAME};
-use crate::abaqus::element_kind::ElementKind;
+use crate::abaqus::deck::Element;
+use crate::abaqus::element_kind::{ElementKind, Family};
 use crate::abaqus::messages::{INCOMPLETE, NO_COUNTERPART, UNKNOWN};
 use crate::abaqus::text::{folded, shown};
 use embate_solver::error::Fault;
@@ -23,7 +25,10 @@ pub(super) struct Part {
     group: String,
     element: Option<&'static str>,
     pub(super) state: &'static str,
-    pub(super) thickness: f64,
+    /// By which what is per unit of depth is to be multiplied.
+    pub(super) depth: f64,
+    /// Keys of its section, each in a line.
+    keys: String,
     pub(super) elements: BTreeSet<u32>,
     pub(super) nodes: BTreeSet<u32>,
 }
@@ -92,7 +97,8 @@ impl Importer<'_> {
     }
 
     fn group_names(&self) -> BTreeSet<String> {
-        [&self.names.elements, &self.names.surfaces, &self.names.nodes].into_iter().flat_map(|names| names.values().cloned()).collect()
+        let others = [&self.names.surfaces, &self.names.nodes].into_iter().flat_map(|names| names.values());
+        self.names.elements.values().chain(others).cloned().collect()
     }
 
     fn write_run(&mut self, w: &mut Writing) -> Result<(), Fault> {
@@ -102,17 +108,25 @@ impl Importer<'_> {
         };
         let _ = writeln!(w.out, "[run]\nend = {}", self.units.write(end, Dimension::TIME));
         let step = self.text.blocks.iter().position(|block| block.keyword == "DYNAMIC" && block.has("EXPLICIT"));
-        if let (None, Some(at)) = (self.bulk_viscosity, step) {
+        let step = step.filter(|_| self.bulk_viscosity.is_none() && self.has_solids());
+        if let Some(at) = step {
             self.bulk_viscosity = Some([0.06, 1.2]);
             self.note(at, Used, "`run.bulk_viscosity` is [0.06, 1.2], what Abaqus takes where a deck says nothing");
         }
-        if let Some([linear, quadratic]) = self.bulk_viscosity
+        if let (Some(asked), Some(at), false) = (self.bulk_viscosity.filter(|it| *it != [0.0; 2]), self.step_at, self.has_solids()) {
+            self.note(at, Used, &format!("bulk viscosity {asked:?} is left out: it does not act on shells and beams"));
+        } else if let Some([linear, quadratic]) = self.bulk_viscosity
             && [linear, quadratic] != [0.0; 2]
         {
             let _ = writeln!(w.out, "bulk_viscosity = [{}, {}]", number(linear), number(quadratic));
         }
         w.out.push('\n');
         Ok(())
+    }
+
+    /// Whether some elements are neither shells nor beams.
+    fn has_solids(&self) -> bool {
+        self.deck.elements.iter().any(|element| matches!(element.kind.family, Family::Plane(_) | Family::Solid))
     }
 
     fn make_parts(&mut self, w: &mut Writing) -> Result<(), Fault> {
@@ -137,7 +151,7 @@ impl Importer<'_> {
             let first = self.text.blocks.iter().position(|block| block.keyword == "ELEMENT").unwrap_or_default();
             self.note(first, Ignored, &format!("{without} elements have no section: they are no part of the model"));
         }
-        if !self.is_solid() && w.parts.iter().any(|part| part.thickness != w.parts[0].thickness) {
+        if !self.is_3d() && w.parts.iter().any(|part| part.depth != w.parts[0].depth) {
             let at = w.parts[0].at;
             self.note(
                 at,
@@ -159,36 +173,45 @@ impl Importer<'_> {
                 "name a set with elements",
             ));
         };
-        let Some(material) = self.materials.iter().find(|it| folded(&it.name) == section.material) else {
+        let Some(material) = self.materials.iter().find(|it| folded(&it.name) == section.material).map(|it| it.name.clone()) else {
             let message = format!("there is no material {}", shown(&section.material));
             return Err(self.text.fault(&UNKNOWN, line, message, "name a *MATERIAL of the deck"));
         };
-        let group = self.names.elements.get(&section.set).cloned().unwrap_or_default();
-        let others: BTreeSet<String> = w.taken.iter().filter(|name| **name != group).cloned().collect();
-        let name = free(&plain(&set.name), &others);
-        w.taken.insert(name.clone());
         let elements: BTreeSet<u32> = set.members.iter().copied().collect();
         let kinds: BTreeMap<&str, _> =
             elements.iter().map(|at| self.deck.elements[*at as usize].kind).map(|kind| (kind.name, kind)).collect();
-        let states: BTreeSet<&str> = kinds.values().map(|kind| kind.state).collect();
+        if let Some(kind) = kinds.values().find(|kind| !section.body.fits(kind.family)) {
+            let message = format!("set {} has elements {}, which have no *{}", shown(&set.name), kind.name, self.block(section.at).keyword);
+            let help = "give solids a *SOLID SECTION, shells a *SHELL SECTION, membranes a *MEMBRANE SECTION, beams a *BEAM SECTION";
+            return Err(self.text.fault(&NO_COUNTERPART, line, message, help));
+        }
+        let dimension = elements.first().map_or(2, |at| self.deck.elements[*at as usize].dimension());
+        let group = self.names.elements.get(&(section.set.clone(), dimension)).cloned().unwrap_or_default();
+        let others: BTreeSet<String> = w.taken.iter().filter(|name| **name != group).cloned().collect();
+        let name = free(&plain(&set.name), &others);
+        w.taken.insert(name.clone());
+        let states: BTreeSet<&str> = kinds.values().map(|kind| kind.state()).collect();
         if states.len() > 1 {
             let message =
                 format!("set {} mixes elements of {}", shown(&set.name), states.iter().copied().collect::<Vec<_>>().join(" and "));
             return Err(self.text.fault(&NO_COUNTERPART, line, message, "give each stress state a section of its own"));
         }
         let nodes = elements.iter().flat_map(|at| self.deck.elements[*at as usize].nodes()).copied().collect();
+        let members: Vec<Element> = elements.iter().map(|at| self.deck.elements[*at as usize]).collect();
+        let keys = self.section_keys(section, &members)?;
         let part = Part {
             at: section.at,
             name,
-            material: material.name.clone(),
+            material,
             group,
             element: None,
             state: states
                 .first()
                 .copied()
-                .and_then(|state| kinds.values().map(|kind| kind.state).find(|it| *it == state))
+                .and_then(|state| kinds.values().map(|kind| kind.state()).find(|it| *it == state))
                 .unwrap_or("plane_strain"),
-            thickness: section.thickness,
+            depth: section.depth,
+            keys,
             elements,
             nodes,
         };
@@ -199,7 +222,14 @@ impl Importer<'_> {
     /// The element of the quadrilaterals or hexahedra of a part, if it is not the usual one; what differs is
     /// noted. Triangles, wedges and tetrahedra are the usual ones.
     fn element(&mut self, part: &Part, kinds: &BTreeMap<&str, &'static ElementKind>) -> Option<&'static str> {
-        let (largest, usual, of) = if self.is_solid() { (CellKind::Hexahedron, "hex8", 3) } else { (CellKind::Quadrilateral, "quad4", 2) };
+        if let Some(kind) = kinds.values().find(|kind| kind.family.has_faces() || kind.family == Family::Beam) {
+            for kind in kinds.values().filter(|kind| !kind.differs.is_empty()) {
+                self.approximated(part.at, &format!("part {}: {} are computed as {}: {}", part.name, kind.name, kind.element, kind.differs));
+            }
+            let quadrilaterals = kinds.values().find(|kind| kind.cell == CellKind::Quadrilateral);
+            return Some(quadrilaterals.map_or(kind.element, |kind| kind.element));
+        }
+        let (largest, usual, of) = if self.is_3d() { (CellKind::Hexahedron, "hex8", 3) } else { (CellKind::Quadrilateral, "quad4", 2) };
         let known = |name: &str| embate_solver::element::elements_of(of).iter().any(|kind| kind.name == name);
         let mut largest = kinds.values().filter(|kind| kind.cell == largest);
         let first = largest.next().copied();
@@ -302,6 +332,7 @@ impl Importer<'_> {
             if !matches!(part.state, "" | "plane_strain") {
                 let _ = writeln!(w.out, "stress_state = \"{}\"", part.state);
             }
+            w.out.push_str(&part.keys);
             let rigid = self.rigid_of(&part, w);
             if let Some((_, text)) = &rigid {
                 let _ = writeln!(w.out, "rigid = {text}");

@@ -106,7 +106,7 @@ impl Importer<'_> {
     pub(super) fn write_obstacles(&mut self, w: &mut Writing) {
         for rigid in self.rigid.clone() {
             let Some(surface) = rigid.surface else { continue };
-            let points = self.rigid_surface(&surface).filter(|_| !self.is_solid()).cloned();
+            let points = self.rigid_surface(&surface).filter(|_| !self.is_3d()).cloned();
             let Some(points) = points else {
                 self.note(rigid.at, Ignored, "its surface is not one of straight lines; nothing meets it");
                 continue;
@@ -188,7 +188,7 @@ impl Importer<'_> {
             };
             motion[boundary.axis] = Some(text.unwrap_or("0".into()));
         }
-        if self.is_solid()
+        if self.is_3d()
             && let Some(&at) = turns.values().next()
         {
             if turns.len() < 3 {
@@ -223,8 +223,9 @@ impl Importer<'_> {
             if !groups.contains(group) {
                 groups.push(group.clone());
             }
-            // Nodes of solids don't turn.
-            if boundary.axis < self.dimension() {
+            // Nodes of solids don't rotate.
+            let rotates = boundary.nodes.iter().any(|node| self.rotating[*node as usize]);
+            if boundary.axis < self.dimension() || (boundary.axis > 2 && rotates) {
                 last.insert((group.clone(), boundary.axis), boundary);
             }
         }
@@ -240,6 +241,16 @@ impl Importer<'_> {
                     moved.entry(key).or_default().push(format!("{letter} = {text}"));
                 }
             }
+            let spins = self.spins(&group, &last, w);
+            // Where no node rotates at all it is clamped.
+            let axes = if self.is_3d() { 3 } else { 1 };
+            if spins.len() == axes && spins.iter().all(|(_, text)| text == "0") {
+                fixed.push("\"rotation\"".into());
+            } else {
+                moved.extend((!spins.is_empty()).then(|| {
+                    ("spin", spins.iter().map(|(letter, text)| format!("{letter} = {text}")).collect())
+                }));
+            }
             if fixed.is_empty() && moved.is_empty() {
                 continue;
             }
@@ -252,6 +263,22 @@ impl Importer<'_> {
             }
             w.out.push('\n');
         }
+    }
+
+    /// The rotations of a group that are held or driven: axes and their angular velocities.
+    fn spins(&mut self, group: &str, last: &BTreeMap<(String, usize), Boundary>, w: &mut Writing) -> Vec<(&'static str, String)> {
+        let mut spins = Vec::new();
+        for (letter, axis) in [("x", 4), ("y", 5), ("z", 3)] {
+            let Some(boundary) = last.get(&(group.to_string(), axis)).cloned() else { continue };
+            if boundary.value == 0.0 {
+                spins.push((letter, "0".to_string()));
+            } else if boundary.prescribed == Prescribed::Velocity {
+                spins.extend(self.driven(&boundary, Dimension::RATE, w).map(|text| (letter, text)));
+            } else {
+                self.note(boundary.at, Ignored, "of rotations only velocities are prescribed (TYPE=VELOCITY); this one is free");
+            }
+        }
+        spins
     }
 
     /// The key and value of a prescribed component.
@@ -276,8 +303,8 @@ impl Importer<'_> {
 
     pub(super) fn write_loads(&mut self, w: &mut Writing) {
         let round = w.parts.iter().any(|part| part.state == "axisymmetric");
-        let thickness = w.parts.first().map_or(1.0, |part| part.thickness);
-        let one_thickness = w.parts.iter().all(|part| part.thickness == thickness);
+        let depth = w.parts.first().map_or(1.0, |part| part.depth);
+        let one_depth = w.parts.iter().all(|part| part.depth == depth);
         for load in self.loads.clone() {
             let (text, amplitude, at) = match load {
                 Load::Gravity { at, elements, acceleration, amplitude } => {
@@ -286,22 +313,35 @@ impl Importer<'_> {
                     (format!("gravity = {acceleration}\n{parts}"), amplitude, at)
                 }
                 Load::Force { at, group, force, amplitude } => {
-                    if !round && !one_thickness && !self.is_solid() {
+                    if !round && !one_depth && !self.is_3d() {
                         self.note(at, Ignored, "a force on parts of different thicknesses has no counterpart per unit of depth");
                         continue;
                     }
                     let force = self.vector(force, |value| {
-                        if self.is_solid() {
+                        if self.is_3d() {
                             self.units.write(value, FORCE)
                         } else if round {
                             // In newtons, whatever the unit of the key: the force is that on the whole
                             // circumference.
                             self.units.write_si(value, FORCE)
                         } else {
-                            self.units.write(value / thickness, Dimension::FORCE_PER_LENGTH)
+                            self.units.write(value / depth, Dimension::FORCE_PER_LENGTH)
                         }
                     });
                     (format!("force = {force}\non = {}\n", quoted(&group)), amplitude, at)
+                }
+                Load::Moment { at, group, moment, amplitude } => {
+                    let per_depth = if round || self.is_3d() { 1.0 } else { depth };
+                    if per_depth != 1.0 && !one_depth {
+                        self.note(at, Ignored, "a moment on parts of different thicknesses has no counterpart per unit of depth");
+                        continue;
+                    }
+                    let moment = moment.map(|value| match (self.is_3d(), round) {
+                        (true, _) => self.units.write(value, Dimension::MOMENT),
+                        (_, true) => self.units.write_si(value, Dimension::MOMENT),
+                        _ => self.units.write(value / per_depth, FORCE),
+                    });
+                    (format!("moment = [{}]\non = {}\n", moment.join(", "), quoted(&group)), amplitude, at)
                 }
                 Load::Pressure { at, group, pressure, amplitude } => {
                     (format!("pressure = {}\non = {}\n", self.units.write(pressure, Dimension::PRESSURE), quoted(&group)), amplitude, at)

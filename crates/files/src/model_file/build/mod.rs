@@ -30,7 +30,8 @@ use std::sync::Arc;
 /// The model of a file; `meshes` are its mesh files.
 pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Model {
     document.records().for_each(|record| follow::cover(record, faults));
-    meshes.sheets = sheets(document);
+    meshes.sheets = files_of(document, Part::is_of_sheets);
+    meshes.frames = files_of(document, Part::is_of_beams);
     document.section("curve").iter().filter_map(|record| record.table("sine")).for_each(|sine| follow::sine(sine, faults));
     let parts = document.section("part").iter().map(|record| part(record, meshes, faults)).collect();
     let obstacles = document.section("obstacle").iter().map(|record| obstacle(record, meshes, faults)).collect();
@@ -58,11 +59,11 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
     model
 }
 
-/// Mesh files whose surfaces are shells in 3D.
-fn sheets(document: &Document) -> BTreeSet<String> {
+/// Mesh files of parts of a kind that are not swept.
+fn files_of(document: &Document, is_such: impl Fn(&Part) -> bool) -> BTreeSet<String> {
     let file = |record: &Record| {
         let part = Part::read(record);
-        let table = record.table("mesh").filter(|_| part.is_of_sheets() && part.sweep.is_none())?;
+        let table = record.table("mesh").filter(|_| is_such(&part) && part.sweep.is_none())?;
         Some(table.text("file"))
     };
     document.section("part").iter().filter_map(file).collect()
@@ -122,8 +123,9 @@ pub(super) struct Meshes<'a> {
     folder: &'a Path,
     bounds: Bounds,
     given: &'a GivenMeshes,
-    /// Those that are read for shells in 3D.
+    /// Those that are read for shells in 3D, and those for beams.
     sheets: BTreeSet<String>,
+    frames: BTreeSet<String>,
     read: Vec<(PathBuf, u64, Option<usize>)>,
     loaded: Vec<Arc<ImportedMesh>>,
 }
@@ -131,7 +133,8 @@ pub(super) struct Meshes<'a> {
 impl<'a> Meshes<'a> {
     /// Those of a file in `folder`, none of them read yet; some may be given instead of a file.
     pub(super) fn new(folder: &'a Path, reach: PathPolicy, given: &'a GivenMeshes) -> Self {
-        Self { folder, bounds: Bounds::of(folder, "model's", reach), given, sheets: BTreeSet::new(), read: Vec::new(), loaded: Vec::new() }
+        let bounds = Bounds::of(folder, "model's", reach);
+        Self { folder, bounds, given, sheets: BTreeSet::new(), frames: BTreeSet::new(), read: Vec::new(), loaded: Vec::new() }
     }
 
     /// Files that could not be read are tried again, so that their faults are reported again.
@@ -150,7 +153,8 @@ impl<'a> Meshes<'a> {
         let given = self.given.get(&file);
         let index = if given.is_some() || self.is_there(&path, &file, (record, place), faults) {
             let is_deck = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
-            let bodies = if self.sheets.contains(&file) { Bodies::Sheets } else { Bodies::Highest };
+            let is_of_3d = self.sheets.contains(&file) || (is_deck && self.frames.contains(&file));
+            let bodies = if is_of_3d { Bodies::Sheets } else { Bodies::Highest };
             let mesh = match given {
                 Some(bytes) => gmsh::parse_for(bodies, bytes, &file, scale),
                 None if is_deck => abaqus::read_within(bodies, &path, scale, &self.bounds),

@@ -4,6 +4,7 @@
 mod import;
 mod malformed;
 mod meshes;
+mod sheets;
 mod solids;
 
 use embate_files::abaqus::parse;

@@ -126,8 +126,8 @@ fn instances_of_solids_are_turned_about_any_axis() {
 
 #[test]
 fn plane_elements_do_not_go_with_solids() {
-    let faults = read(&format!("{SOLID}*ELEMENT, TYPE=S4\n7, 1,2,3,4\n")).unwrap_err();
-    assert!(faults[0].message == "element 7 is a S4, beside solids", "{}", faults[0]);
+    let faults = read(&format!("{SOLID}*ELEMENT, TYPE=CPE4\n7, 1,2,3,4\n")).unwrap_err();
+    assert!(faults[0].message == "element type CPE4 is one of 2D, beside bodies in 3D", "{}", faults[0]);
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("solid.inp"), SOLID).unwrap();
     // As a mesh they are parts of a model.

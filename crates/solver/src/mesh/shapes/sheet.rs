@@ -91,6 +91,7 @@ mod tests {
     use super::super::*;
     use crate::mesh::dimension::corner_normals;
     use crate::mesh::geometry::CellGeometry;
+    use crate::mesh::surface::Corners;
     use crate::mesh::{Mesh, dimension::Meshed};
     use crate::model::{ImportedMesh, MeshGroup, Model, Placement, ShellSection, SpaceTruss};
     use crate::tensor::cross as cross_in_space;
@@ -339,6 +340,61 @@ mod tests {
         assert_eq!((mesh.groups[0].elements(), mesh.nodes("sheet.front").map(|nodes| nodes.len())), (4, Some(2)));
         let [a, b, _, d] = [0, 1, 2, 3].map(|k| mesh.positions[mesh.groups[0].nodes_of(0)[k] as usize]);
         assert!(cross_in_space(minus(b, a), minus(d, a))[0] > 0.0);
+    }
+
+    #[test]
+    fn groups_of_a_mesh_file_are_on_the_faces_that_they_look_from() {
+        let group = |name: &str, cells| MeshGroup { name: name.into(), dimension: 2, cells };
+        let mut file = folded();
+        // The triangles look along x; the square, whose nodes here begin elsewhere, along -z.
+        file.groups.push(group("above", vec![vec![2, 5, 1], vec![3, 2, 1, 0]]));
+        file.groups.push(group("below", vec![vec![1, 2, 3, 0]]));
+        file.groups.push(group("both", vec![vec![1, 2, 3, 0], vec![0, 3, 2, 1]]));
+        file.groups.push(group("elsewhere", vec![vec![0, 1, 4]]));
+        let all = Part { shape: Shape::Group { mesh: 0, group: "all".into() }, ..part(Rectangle::default(), None) };
+        let mesh = Mesh::<3>::new(&Model { meshes: vec![Arc::new(file)], ..model(vec![all]) }).unwrap();
+        let own = |facet: &[u32; 4]| facet.corners().iter().map(|&node| mesh.positions[node as usize]).collect::<Vec<_>>();
+        let facets = |name: &str| mesh.surface(name, |_| false).unwrap_or_else(|fault| panic!("{name}: {fault}")).facets;
+        // Half of the thickness from the middle, each towards where its corners are counter-clockwise.
+        let looks = |facet: &[u32; 4]| {
+            let x = own(facet);
+            let normal = unit(cross_in_space(minus(x[1], x[0]), minus(x[2], x[0]))).unwrap();
+            let side = if normal[0].abs() > 0.5 { normal[0] * (x[2][0] - 1.0) } else { normal[2] * x[2][2] };
+            assert!((side - 0.5e-3).abs() < 1e-9, "{x:?} {normal:?}");
+            normal.map(|n| n.round())
+        };
+        let mut above: Vec<[f64; 3]> = facets("above").iter().map(looks).collect();
+        above.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        assert_eq!(above, [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0]]);
+        assert_eq!(facets("below").iter().map(looks).collect::<Vec<_>>(), [[0.0, 0.0, 1.0]]);
+        assert_eq!((facets("both").len(), facets("all").len()), (2, 3));
+        let upper = facets("sheet.upper");
+        assert!(facets("all").iter().all(|facet| upper.contains(facet)));
+        // What leads them are still the nodes of the middle; other groups are sets of nodes.
+        assert_eq!(["below", "elsewhere"].map(|name| mesh.nodes(name).unwrap().len()), [4, 3]);
+        assert!(mesh.nodes("below").unwrap().iter().all(|&node| (node as usize) < mesh.first_skin_node()));
+        assert!(mesh.surface("elsewhere", |_| false).is_err());
+    }
+
+    #[test]
+    fn groups_of_lines_are_on_the_left_of_shells_in_2d() {
+        let group = |name: &str, cells| MeshGroup { name: name.into(), dimension: 1, cells };
+        let file = ImportedMesh {
+            source: "line.msh".into(),
+            positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
+            groups: vec![group("all", vec![vec![0, 1], vec![1, 2]]), group("up", vec![vec![0, 1]]), group("down", vec![vec![2, 1]])],
+        };
+        let shell =
+            Part { shape: Shape::Group { mesh: 0, group: "all".into() }, element: "shell2".into(), ..part(Rectangle::default(), None) };
+        let mesh = Mesh::<2>::new(&Model { meshes: vec![Arc::new(file)], ..model(vec![shell]) }).unwrap();
+        let places = |name: &str| {
+            let surface = mesh.surface(name, |_| false).unwrap_or_else(|fault| panic!("{name}: {fault}"));
+            surface.segments.iter().map(|segment| segment.map(|node| mesh.positions[node as usize])).collect::<Vec<_>>()
+        };
+        let half = 0.5e-3;
+        // Segments have the body on their right.
+        assert_eq!((places("up"), places("down")), (vec![[[0.0, half], [1.0, half]]], vec![[[2.0, -half], [1.0, -half]]]));
+        assert_eq!(places("all"), places("sheet.left"));
     }
 
     #[test]

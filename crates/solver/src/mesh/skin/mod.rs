@@ -19,7 +19,7 @@ use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh};
 use crate::error::Fault;
 use crate::model::{Model, Symmetry};
 use crate::vector::{dot, first, minus, plus, unit};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Farthest that a node of a face is from the middle, in half thicknesses.
 const MITRE: f64 = 2.0;
@@ -57,6 +57,33 @@ where
     #[must_use]
     pub fn first_skin_node(&self) -> usize {
         self.positions.len() - self.skins.len()
+    }
+
+    /// Puts groups of elements of shells on the faces that they look from: the side from which the cells of
+    /// a group run counter-clockwise, in 2D that on the left of its lines. Where a solid has the same piece
+    /// it stays with the solid.
+    pub(super) fn put_on_faces(&mut self, groups: &[String]) {
+        if groups.is_empty() {
+            return;
+        }
+        let solids: BTreeSet<Facet<D>> = self.outside_of_solids().into_iter().map(Corners::canonical).collect();
+        let mut faces: BTreeMap<Facet<D>, Facet<D>> = BTreeMap::new();
+        for (cell, outer) in
+            self.groups.iter().filter(|group| !group.outer.is_empty()).flat_map(|group| group.cells().zip(group.outer_cells()))
+        {
+            let (below, above) = outer.nodes.split_at(cell.nodes.len());
+            // In 2D the cell goes back along the left.
+            let above: Vec<u32> = if D == 2 { above.iter().rev().copied().collect() } else { above.to_vec() };
+            let [own, below, above] = [cell.nodes, below, &above].map(Facet::<D>::of_cell);
+            let (Some(own), Some(below), Some(above)) = (own, below, above) else { continue };
+            faces.insert(own.canonical(), above.canonical());
+            faces.insert(own.reversed().canonical(), below.reversed().canonical());
+        }
+        for (_, facets) in self.sides.iter_mut().filter(|(name, _)| groups.contains(name)) {
+            for facet in facets.iter_mut().filter(|facet| !solids.contains(&facet.canonical())) {
+                *facet = faces.get(&facet.canonical()).copied().unwrap_or(*facet);
+            }
+        }
     }
 
     /// Shells that are too thick where they are bent: one face folds over.

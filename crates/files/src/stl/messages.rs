@@ -2,7 +2,20 @@
 
 use embate_solver::message::{Example, Message};
 
-pub(crate) static MESSAGES: &[&Message] = &[&STL];
+pub(crate) static MESSAGES: &[&Message] = &[&STL, &SHEET];
+
+pub(super) static SHEET: Message = Message {
+    code: "E0241",
+    title: "triangles of an STL file that are no surface of a shell",
+    example: Example::Shell(
+        "printf 'solid two\\n facet normal 0 0 1\\n outer loop\\n vertex 0 0 0\\n vertex 1 0 0\\n vertex 1 1 0\\n endloop\\n endfacet\\n facet normal 0 0 -1\\n \
+            outer loop\\n vertex 0 0 0\\n vertex 0 1 0\\n vertex 1 1 0\\n endloop\\n endfacet\\nendsolid two\\n' > two.stl\n\
+         embate check model.toml --set 'part=[{name=\"b\",material=\"steel\",element=\"shell3\",section={thickness=0.01},mesh={file=\"two.stl\",group=\"all\"}}]' \
+            --set 'contact=[]'\n",
+    ),
+    cause: "Two triangles look to different sides of the surface, or lie on each other, or all are smaller than the tolerance.",
+    remedy: "Make normals consistent and remove what is there twice, in the program that made the file; look at its unit (`scale`) and at `tolerance`.",
+};
 
 pub(super) static STL: Message = Message {
     code: "E0240",

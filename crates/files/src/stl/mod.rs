@@ -1,4 +1,5 @@
-//! Triangulated surfaces of STL files, text or binary: the triangles of an obstacle in 3D.
+//! Triangulated surfaces of STL files, text or binary: the triangles of an obstacle in 3D, or the mesh of a
+//! shell (`sheet.rs`).
 //!
 //! The bytes of a file become corners in its order, scaled to metres; corners at one place become one point,
 //! and whether the triangles make a surface is the solver's to say ([`TriangleSurface`]). A file is binary if
@@ -7,11 +8,12 @@
 //! file are one surface.
 
 pub(crate) mod messages;
+mod sheet;
 
 use crate::gmsh::messages::MESH_FILE;
 use crate::plain;
 use embate_solver::error::Fault;
-use embate_solver::model::TriangleSurface;
+use embate_solver::model::{ImportedMesh, TriangleSurface};
 use messages::STL;
 use std::path::Path;
 
@@ -26,10 +28,32 @@ const AGAIN: &str = "export the surface again, or copy the file again if it was 
 /// # Errors
 /// The file can't be read, or what [`parse`] finds.
 pub fn read(path: &Path, source: &str, scale: f64) -> Result<TriangleSurface, Fault> {
-    let bytes = plain::read(path).map_err(|error| {
+    parse(&bytes_of(path)?, source, scale)
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {
+    plain::read(path).map_err(|error| {
         Fault::new(&MESH_FILE, "", format!("the file can't be read: {error}"), "check its path, which starts at the model file's folder")
-    })?;
-    parse(&bytes, source, scale)
+    })
+}
+
+/// Reads an STL file as the mesh of a shell; see [`parse_sheet`].
+///
+/// # Errors
+/// The file can't be read, or what [`parse_sheet`] finds.
+pub fn read_sheet(path: &Path, source: &str, scale: f64, tolerance: Option<f64>) -> Result<ImportedMesh, Vec<Fault>> {
+    parse_sheet(&bytes_of(path).map_err(|fault| vec![fault])?, source, scale, tolerance)
+}
+
+/// Makes the mesh of a shell from the bytes of an STL file: its triangles are the group `all`, the edges that
+/// belong to one of them alone the group `rim`. Corners within `tolerance` (m; a millionth of the extent, if
+/// it is not given) are one node, and triangles that become points or lines by that are left out.
+///
+/// # Errors
+/// What [`parse`] finds; triangles that are there twice, or look to different sides.
+pub fn parse_sheet(bytes: &[u8], source: &str, scale: f64, tolerance: Option<f64>) -> Result<ImportedMesh, Vec<Fault>> {
+    let corners = corners(bytes, scale).map_err(|fault| vec![fault])?;
+    sheet::mesh(source, &corners, tolerance)
 }
 
 /// Makes a surface from the bytes of an STL file; positions are those of the file times `scale`, m.
@@ -38,14 +62,18 @@ pub fn read(path: &Path, source: &str, scale: f64) -> Result<TriangleSurface, Fa
 /// The first fault with its line (text) or byte (binary): a cut file, a word where another one should be, a
 /// number of triangles that does not fit the size, no triangles, coordinates that are no finite numbers.
 pub fn parse(bytes: &[u8], source: &str, scale: f64) -> Result<TriangleSurface, Fault> {
+    Ok(TriangleSurface::welded(source, &corners(bytes, scale)?))
+}
+
+/// Corners of the triangles of a file, m.
+fn corners(bytes: &[u8], scale: f64) -> Result<Vec<[[f64; 3]; 3]>, Fault> {
     let count = bytes.get(HEADER - 4..HEADER).and_then(|count| count.try_into().ok()).map(|count| u32::from_le_bytes(count) as usize);
     let fits = count.is_some_and(|count| count.checked_mul(TRIANGLE).and_then(|size| size.checked_add(HEADER)) == Some(bytes.len()));
     let triangles = if !fits && is_text(bytes) { Text::new(bytes).triangles() } else { binary(bytes, count, fits) }?;
     if triangles.is_empty() {
         return Err(fault("", "the file holds no triangles", "export the surface as triangles; drawings of lines alone have none"));
     }
-    let corners: Vec<[[f64; 3]; 3]> = triangles.iter().map(|triangle| triangle.map(|x| x.map(|c| c * scale))).collect();
-    Ok(TriangleSurface::welded(source, &corners))
+    Ok(triangles.iter().map(|triangle| triangle.map(|x| x.map(|c| c * scale))).collect())
 }
 
 fn fault(place: impl Into<String>, message: impl Into<String>, help: &str) -> Fault {

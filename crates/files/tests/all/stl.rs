@@ -134,3 +134,63 @@ fn a_surface_with_a_hole_is_warned_of() {
         "{found:?}"
     );
 }
+
+/// A square of 100 mm of n × n × 2 triangles.
+fn square(n: usize) -> Vec<[[f32; 3]; 3]> {
+    let at = |i: usize, j: usize| [100.0 * i as f32 / n as f32, 100.0 * j as f32 / n as f32, 0.0];
+    let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    cells
+        .flat_map(|(i, j)| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            if (i < n / 2) == (j < n / 2) { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] }
+        })
+        .collect()
+}
+
+#[test]
+fn a_shell_of_an_stl_file_bends_as_a_plate() {
+    use embate_solver::simulation::{Options, Simulation};
+    // Clamped along its rim, 1 mm thick: 0.00126532 p a^4 / D in the middle (Timoshenko and Woinowsky-Krieger
+    // have 0.00126; the series of Taylor and Govindjee the rest).
+    let (files, n) = ([("plate.stl", text(&square(20)).into_bytes()), ("plate-binary.stl", binary(&square(20)))], 20);
+    let names: Vec<(&str, &[u8])> = files.iter().map(|(name, bytes)| (*name, &bytes[..])).collect();
+    let folder = folder("plate", &names);
+    let mut hashes = Vec::new();
+    for (file, _) in &files {
+        let model = format!(
+            "run = {{ end = 1, relaxation = {{ tolerance = 1e-10 }} }}\n[material.steel]\nlaw = \"elastic\"\ndensity = 7800\nyoung = \"210 GPa\"\npoisson = 0.3\n\
+             [[part]]\nname = \"plate\"\nmaterial = \"steel\"\nelement = \"shell3\"\nsection = {{ thickness = \"1 mm\", points = 2 }}\n\
+             mesh = {{ file = \"{file}\", group = \"all\", scale = \"1 mm\" }}\n\
+             [[constraint]]\non = \"rim\"\nfixed = [\"x\", \"y\", \"z\", \"rotation\"]\n[[load]]\npressure = 100\non = \"plate.lower\"\n"
+        );
+        let model = load_text("m", &model, &folder, &[]).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+        let mut simulation = Simulation::new(&model, &Options::default()).unwrap_or_else(|error| panic!("{error:#?}"));
+        let start = simulation.frame().positions::<3>().to_vec();
+        let middle = start.iter().position(|x| (x[0] - 0.05).abs() + (x[1] - 0.05).abs() + x[2].abs() < 1e-6).unwrap();
+        assert_eq!(model.meshes[0].positions.len(), (n + 1) * (n + 1));
+        simulation.advance(model.run.end, u64::MAX).unwrap();
+        let stiffness = 210e9 * 1e-9 / (12.0 * 0.91);
+        let (found, expected) = (simulation.frame().positions::<3>()[middle][2], 0.001_265_32 * 100.0 * 1e-4 / stiffness);
+        assert!((found / expected - 1.0).abs() < 0.01, "{found:e} instead of {expected:e}");
+        hashes.push(simulation.summary().state_hash);
+    }
+    assert_eq!(hashes[0], hashes[1]);
+}
+
+#[test]
+fn what_of_an_stl_file_is_no_shell_is_reported_with_its_place() {
+    let mut turned = square(2);
+    turned[3].swap(0, 1);
+    let folder = folder("turned", &[("turned.stl", &binary(&turned)), ("sound.stl", &binary(&square(2)))]);
+    let model = |file: &str, element: &str| {
+        let model = format!(
+            "run.end = 1\n[material.steel]\nlaw = \"elastic\"\ndensity = 7800\nyoung = \"210 GPa\"\npoisson = 0.3\n\
+             [[part]]\nname = \"plate\"\nmaterial = \"steel\"\n{element}\nmesh = {{ file = \"{file}\", group = \"all\", scale = \"1 mm\" }}\n"
+        );
+        load_text("m", &model, &folder, &[])
+    };
+    let shell = "element = \"shell3\"\nsection = { thickness = \"1 mm\" }";
+    assert!(model("sound.stl", shell).is_ok());
+    let told = model("turned.stl", shell).unwrap_err().rendered;
+    assert!(told.contains("E0241") && told.contains("look to different sides of the surface"), "{told}");
+}

@@ -126,7 +126,8 @@ pub(super) struct Meshes<'a> {
     /// Those that are read for shells in 3D, and those for beams.
     sheets: BTreeSet<String>,
     frames: BTreeSet<String>,
-    read: Vec<(PathBuf, u64, Option<usize>)>,
+    /// Path, and bits of scale and tolerance.
+    read: Vec<(PathBuf, [u64; 2], Option<usize>)>,
     loaded: Vec<Arc<ImportedMesh>>,
 }
 
@@ -147,17 +148,22 @@ impl<'a> Meshes<'a> {
         let (file, scale) = (record.text("file"), record.number("scale")?);
         let place = record.written("file").filter(|_| record.is_sound("file"))?;
         let path = self.folder.join(&file);
-        if let Some((.., index)) = self.read.iter().find(|(known, bits, _)| *known == path && *bits == scale.to_bits()) {
+        let tolerance = record.number("tolerance");
+        let own = [scale, tolerance.unwrap_or(0.0)].map(f64::to_bits);
+        if let Some((.., index)) = self.read.iter().find(|(known, bits, _)| *known == path && *bits == own) {
             return *index;
         }
         let given = self.given.get(&file);
         let index = if given.is_some() || self.is_there(&path, &file, (record, place), faults) {
-            let is_deck = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
+            let ends = |with: &str| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(with));
+            let (is_deck, is_stl) = (ends("inp"), ends("stl"));
             let is_of_3d = self.sheets.contains(&file) || (is_deck && self.frames.contains(&file));
             let bodies = if is_of_3d { Bodies::Sheets } else { Bodies::Highest };
             let mesh = match given {
+                Some(bytes) if is_stl => stl::parse_sheet(bytes, &file, scale, tolerance),
                 Some(bytes) => gmsh::parse_for(bodies, bytes, &file, scale),
                 None if is_deck => abaqus::read_within(bodies, &path, scale, &self.bounds),
+                None if is_stl => stl::read_sheet(&path, &file, scale, tolerance),
                 None => gmsh::read_for(bodies, &path, scale),
             };
             match mesh {
@@ -173,7 +179,7 @@ impl<'a> Meshes<'a> {
         } else {
             None
         };
-        self.read.push((path, scale.to_bits(), index));
+        self.read.push((path, own, index));
         index
     }
 

@@ -428,8 +428,8 @@ const MESH: Key = shape_key("mesh", &MESH_SECTION, "A group of a mesh file.");
 static MESH_SECTION: Section = Section {
     name: "mesh",
     doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1, 3D if it has a group of volumes, or a part is made of its surfaces as a shell with `shell4`; Abaqus or CalculiX \
-        `.inp`), triangles, wedges and tetrahedra too. Its other groups can be named in contacts, constraints and \
-        probes.",
+        `.inp`; STL `.stl` for a shell of triangles, `shell3`), triangles, wedges and tetrahedra too. Its other groups can be named in contacts, constraints \
+        and probes.",
     form: Form::Inline,
     required: false,
     keys: &[
@@ -438,9 +438,16 @@ static MESH_SECTION: Section = Section {
             "group",
             Kind::Text,
             Need::Required,
-            "Name of a physical group of surfaces (of solids of volumes, of bars and of shells in 2D of lines), or of an element set.",
+            "Name of a physical group of surfaces (of solids of volumes, of bars, beams and of shells in 2D of lines), or of an element set; of an STL file `all`, \
+            and its open edges are the group `rim`.",
         ),
         key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file."),
+        key(
+            "tolerance",
+            Kind::Quantity(Dimension::LENGTH, Positive),
+            Need::Optional("a millionth of its extent"),
+            "Distance within which corners of the triangles of an STL file are one node.",
+        ),
     ],
     ..Section::EMPTY
 };

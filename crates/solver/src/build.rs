@@ -9,6 +9,7 @@ mod discrete;
 mod failure;
 mod node_elements;
 mod idle;
+mod normals;
 mod limits;
 mod mass;
 mod mirrors;
@@ -85,7 +86,8 @@ where
 {
     let with_axis = <Dim<D>>::with_axis(model, &mesh)?;
     let mut builder = Builder::new(with_axis.as_ref().unwrap_or(model), mesh)?;
-    let warnings = idle::warnings(builder.model, &builder.mesh, &builder.body_of_node);
+    let mut warnings = idle::warnings(builder.model, &builder.mesh, &builder.body_of_node);
+    warnings.extend(normals::warnings(builder.model, &builder.mesh));
     let start = builder.start()?;
     let elements = builder.elements(level)?;
     let conditions = builder.conditions(&elements)?;

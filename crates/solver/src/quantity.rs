@@ -138,6 +138,18 @@ impl Range {
     }
 }
 
+impl Range {
+    /// In words, of an angle: its bounds in degrees.
+    #[must_use]
+    pub fn of_angle(self) -> String {
+        match self {
+            Self::Between(low, high) => format!("between {} and {} deg, both excluded", low.to_degrees(), high.to_degrees()),
+            Self::UpTo(low, high) => format!("greater than {} and at most {} deg", low.to_degrees(), high.to_degrees()),
+            _ => self.to_string(),
+        }
+    }
+}
+
 impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -274,7 +274,7 @@ const SENSE: &[(&str, f64, &str)] = &[
 /// What is wrong with a number outside its range, and what to do: `(message, help)`. `shown` is the value as
 /// the user wrote it.
 #[must_use]
-pub fn out_of_range(name: &str, shown: &str, value: f64, range: Range) -> (String, String) {
+pub fn out_of_range(name: &str, shown: &str, value: f64, range: &str) -> (String, String) {
     if value.is_nan() {
         return (format!("`{name}` is not a number"), format!("give a number that is {range}"));
     }

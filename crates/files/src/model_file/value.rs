@@ -84,7 +84,8 @@ impl<'a> At<'a> {
         }
         let unit = if matches!(self.node.value, Value::Text(_)) { String::new() } else { format!(" {}", units::si(usual, angle)) };
         let shown = format!("{}{unit}", self.node.words().trim_matches('"'));
-        let (message, help) = out_of_range(self.name(), shown.trim_end(), value, range);
+        let words = if angle && usual == Dimension::NONE { range.of_angle() } else { range.to_string() };
+        let (message, help) = out_of_range(self.name(), shown.trim_end(), value, &words);
         self.wrong(&RANGE, message, help)
     }
 
@@ -131,7 +132,7 @@ impl<'a> At<'a> {
             Value::Text(text) => match units::read(text, Wanted { name: self.name(), dimensions: &[], angle: true }) {
                 Ok((value, dimension)) if value.is_finite() => Ok((value, Some(dimension))),
                 Ok((value, _)) => {
-                    let (message, help) = out_of_range(self.name(), text, value, Range::Finite);
+                    let (message, help) = out_of_range(self.name(), text, value, &Range::Finite.to_string());
                     self.wrong(&RANGE, message, help)
                 }
                 Err((message, help)) => self.wrong(&UNIT, message, help),

@@ -48,8 +48,9 @@ where
         if let Some(scaling) = self.model.run.mass_scaling
             && wanted_adds > scaling.limit * before
         {
+            let unit = if self.model.is_of_whole_bodies() { "kg" } else { "kg/m" };
             let message = format!(
-                "a step of {:.3e} s needs {wanted_adds:.4e} kg/m more mass, {:.3} % of what the deformable parts \
+                "a step of {:.3e} s needs {wanted_adds:.4e} {unit} more mass, {:.3} % of what the deformable parts \
                     have; the limit is {:.3} %",
                 scaling.time_step,
                 100.0 * wanted_adds / before,

@@ -62,7 +62,7 @@ where
             let Some(mut look) = self.look(contact) else { continue };
             let found = look.penetrations(&self.mesh.positions, tolerance);
             match contact.interface.initial_penetration {
-                InitialPenetration::Error => self.faults.extend(initial::faults(&format!("contact[{i}]"), &contact.name, &found)),
+                InitialPenetration::Error => self.faults.extend(initial::faults(model, &format!("contact[{i}]"), &contact.name, &found)),
                 InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, IGNORED)),
                 InitialPenetration::PushOut => {
                     lines.extend(initial::lines(&contact.name, &found, PUSHED));
@@ -125,7 +125,7 @@ where
         for meeting in meetings {
             let Meeting::Surfaces { contact: Some(i), look, .. } = meeting else { continue };
             let left = look.penetrations(&self.mesh.positions, tolerance);
-            let faults = initial::faults(&format!("contact[{i}]"), &self.model.contacts[*i].name, &left);
+            let faults = initial::faults(self.model, &format!("contact[{i}]"), &self.model.contacts[*i].name, &left);
             self.faults.extend(faults.into_iter().map(stuck));
         }
         if is_moved {

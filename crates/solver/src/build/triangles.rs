@@ -146,10 +146,13 @@ impl Builder<'_, 3> {
             let found = self.penetrations_of_triangles(surface, look, tolerance);
             match obstacle.interface.initial_penetration {
                 InitialPenetration::Ignore => lines.extend(initial::lines(&obstacle.name, &found, IGNORED)),
-                InitialPenetration::Error => self.faults.extend(initial::faults(&format!("obstacle[{i}]"), &obstacle.name, &found)),
+                InitialPenetration::Error => {
+                    self.faults.extend(initial::faults(self.model, &format!("obstacle[{i}]"), &obstacle.name, &found))
+                }
                 // What is left: the rest was pushed out.
                 InitialPenetration::PushOut => {
-                    self.faults.extend(initial::faults(&format!("obstacle[{i}]"), &obstacle.name, &found).into_iter().map(stuck));
+                    self.faults
+                        .extend(initial::faults(self.model, &format!("obstacle[{i}]"), &obstacle.name, &found).into_iter().map(stuck));
                 }
             }
         }

@@ -15,7 +15,7 @@ use super::search::Search;
 use crate::contact::messages::PENETRATION;
 use crate::error::Fault;
 use crate::load::constraint::Constraints;
-use crate::model::{InitialPenetration, Interface};
+use crate::model::{InitialPenetration, Interface, Model, Part};
 use crate::tensor::Dim;
 use crate::vector::{dot, place};
 
@@ -58,10 +58,14 @@ impl<const D: usize> Penetration<D> {
 }
 
 /// Faults of a contact or obstacle at `path` with these penetrations; the first 20 are reported, the rest is
-/// counted.
+/// counted. `model` says whether nodes can be pushed out.
 #[must_use]
-pub fn faults<const D: usize>(path: &str, name: &str, found: &[Penetration<D>]) -> Vec<Fault> {
-    let help = "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\"";
+pub fn faults<const D: usize>(model: &Model, path: &str, name: &str, found: &[Penetration<D>]) -> Vec<Fault> {
+    // Nodes on the faces of shells can not.
+    let help = match model.parts.iter().any(Part::is_of_shells) {
+        true => "move the bodies apart, or set `initial_penetration` to \"ignore\"; shells can't be pushed out",
+        false => "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\"",
+    };
     let one = |penetration: &Penetration<D>| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
     let mut faults: Vec<Fault> = found.iter().take(REPORTED_MAX).map(one).collect();
     if found.len() > REPORTED_MAX {

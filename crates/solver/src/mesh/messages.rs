@@ -18,6 +18,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NEGATIVE_RADIUS,
     &DIMENSION,
     &TINY_STEP,
+    &NOT_ON_SHELLS,
+    &ABOUT_NORMAL,
 ];
 
 pub(crate) static SHAPE: Message = Message {
@@ -177,6 +179,32 @@ pub(crate) static DIMENSION: Message = Message {
     cause: "A model is 2D, with forces per metre of depth, or 3D. A part is a solid if its shape is one (`box`, \
         `cylinder`, `tube`, `sphere`, a group of volumes of a mesh file), or by `extrude` or `revolve`.",
     remedy: "Make all parts solids, or none.",
+};
+
+pub(crate) static NOT_ON_SHELLS: Message = Message {
+    code: "W0202",
+    title: "a setting that does not act where it is asked for: on shells and beams, or on solids",
+    example: Example::Model(
+        "[run]\nend = \"1 us\"\nbulk_viscosity = [0.06, 1.2]\n\n[[part]]\nname = \"sheet\"\nmaterial = \"steel\"\nelement = \"shell2\"\n\
+         section = { thickness = \"1 mm\" }\nvelocity = [\"1 m/s\", 0]\nline = { points = [[0, 0], [\"10 mm\", 0]], elements = 4 }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "Shells and beams have no bulk viscosity, are evaluated in every step with `subcycling` too, and get no mass in the run; \
+        nodes of solids have no rotations that could be held.",
+    remedy: "Nothing, where it is meant for other parts; else leave it out.",
+};
+
+pub(crate) static ABOUT_NORMAL: Message = Message {
+    code: "W0203",
+    title: "a moment about the normal of a shell, or a rotation about it that is left free",
+    example: Example::Model(
+        "[run]\nend = \"1 us\"\n\n[[part]]\nname = \"sheet\"\nmaterial = \"steel\"\nelement = \"shell4\"\n\
+         section = { thickness = \"1 mm\" }\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[load]]\nmoment = [0, 0, \"1 N m\"]\non = \"sheet.left\"\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "A smooth shell has no stiffness against the rotation of its nodes about its normal: a moment about it spins them faster and \
+        faster, and a rotation that is held about one axis alone slips as soon as the normal leans towards that axis.",
+    remedy: "Let forces in the plane take the place of the moment, or hold the rotation about the normal too.",
 };
 
 pub(crate) static TINY_STEP: Message = Message {

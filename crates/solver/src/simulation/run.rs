@@ -131,7 +131,8 @@ where
         simulation.check_obstacles(model)?;
         let [added, of] = simulation.system.mass_added;
         if added != 0.0 {
-            let message = format!("mass scaling added {added:.6e} kg/m, {:.3} % of the mass of the deformable parts", 100.0 * added / of);
+            let unit = if model.is_of_whole_bodies() { "kg" } else { "kg/m" };
+            let message = format!("mass scaling added {added:.6e} {unit}, {:.3} % of the mass of the deformable parts", 100.0 * added / of);
             simulation.warnings.push(Notice::new(&MASS_ADDED, message));
         }
         if !simulation.system.initial_penetrations.is_empty() {
@@ -169,7 +170,7 @@ where
             let inside = contact.penetrations(&system.springs).filter(|&(_, depth)| depth > tolerance);
             let found: Vec<Penetration<D>> =
                 inside.map(|(node, depth)| Penetration { what: Inside::Node, place: system.positions[node as usize], depth }).collect();
-            faults.extend(initial::faults(&format!("obstacle[{index}]"), &contact.name, &found));
+            faults.extend(initial::faults(model, &format!("obstacle[{index}]"), &contact.name, &found));
         }
         if faults.is_empty() { Ok(()) } else { Err(Error::Model(faults)) }
     }

@@ -29,7 +29,7 @@ use crate::model::reference::{Reference, Wanted};
 use crate::model::{Axis, Cadence, Camera, Material, Model, Part, Probe, ProbeAt, Shape, StableStep};
 use crate::output;
 use crate::quantity::{Dimension, Parameter, Range};
-use crate::vocabulary::{Key, excerpt, nearest, out_of_range, suggestion};
+use crate::vocabulary::{Key, Kind, excerpt, nearest, out_of_range, suggestion};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most field files of a run.
@@ -88,17 +88,25 @@ impl Check<'_> {
 
     /// A number against the range of its key.
     fn number(&mut self, path: &str, value: f64) {
-        let (dimension, range) = sections::find(path).and_then(Key::range).unwrap_or((Dimension::NONE, Range::Finite));
-        self.within(path, value, dimension, range);
+        let key = sections::find(path);
+        let (dimension, range) = key.and_then(Key::range).unwrap_or((Dimension::NONE, Range::Finite));
+        if !range.contains(value) && key.is_some_and(|key| matches!(key.kind, Kind::Angle(Dimension::NONE, _))) {
+            self.out_of(path, &format!("{value} rad"), value, &range.of_angle());
+        } else {
+            self.within(path, value, dimension, range);
+        }
     }
 
     fn within(&mut self, path: &str, value: f64, dimension: Dimension, range: Range) {
         if !range.contains(value) {
-            let name = path.rsplit('.').next().unwrap_or(path);
             let shown = format!("{value} {}", dimension.unit());
-            let (message, help) = out_of_range(name, shown.trim_end(), value, range);
-            self.fault(&RANGE, path, message, help);
+            self.out_of(path, shown.trim_end(), value, &range.to_string());
         }
+    }
+
+    fn out_of(&mut self, path: &str, shown: &str, value: f64, range: &str) {
+        let (message, help) = out_of_range(path.rsplit('.').next().unwrap_or(path), shown, value, range);
+        self.fault(&RANGE, path, message, help);
     }
 
     fn vector<const N: usize>(&mut self, path: &str, value: [f64; N]) {

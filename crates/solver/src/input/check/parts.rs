@@ -194,6 +194,10 @@ impl Check<'_> {
             self.fault(&SHELLS, format!("{path}.element"), message, help);
             return;
         }
+        if part.element_triangles != "tri3" && part.element_triangles != "shell3" && !part.element_triangles.is_empty() {
+            let message = "`element_triangles` is that of solids, but the part is a shell";
+            self.fault(&SHELLS, format!("{path}.element_triangles"), message, "leave it out: triangles of shells are `shell3`");
+        }
         let Some(section) = &part.section else {
             self.fault(&SHELLS, at, "shells need their thickness", "add `section = { thickness = \"2 mm\" }`");
             return;

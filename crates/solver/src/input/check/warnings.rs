@@ -9,6 +9,7 @@ use crate::element::{Element, Quad4, Quad4Full, Tri3};
 use crate::error::Warning;
 use crate::material::messages::{FLUID, LOCKING, SOFTENING};
 use crate::material::{self, Law, Null, Parameters};
+use crate::mesh::messages::NOT_ON_SHELLS;
 use crate::model::{Material, Model, ObstacleShape, Part, Shape, TriangleSurface};
 use crate::stress_state::PLANE_STRESS;
 use crate::vector::place;
@@ -31,12 +32,34 @@ impl Model {
             warnings.extend(self.locking(index, part, it));
             warnings.extend(self.fluid(index, part, it));
         }
+        warnings.extend(self.not_on_shells());
         for (index, obstacle) in self.obstacles.iter().enumerate() {
             if let ObstacleShape::Triangles(surface) = &obstacle.shape {
                 warnings.extend(open(index, surface));
             }
         }
         warnings
+    }
+
+    /// Settings of the run that do not act on shells and beams.
+    fn not_on_shells(&self) -> Vec<Warning> {
+        let deformable = || self.parts.iter().filter(|part| part.rigid.is_none());
+        let Some(first) = deformable().find(|part| part.has_rotations()) else { return Vec::new() };
+        let rest = if deformable().all(Part::has_rotations) { "it does nothing" } else { "it acts on the other parts alone" };
+        let run = &self.run;
+        let settings = [
+            (run.subcycling, "subcycling", "are evaluated in every step"),
+            (run.bulk_viscosity != [0.0; 2], "bulk_viscosity", "have none"),
+            (run.mass_scaling.is_some_and(|scaling| scaling.in_run), "mass_scaling.in_run", "get no mass in the run"),
+        ];
+        let warning = |(_, key, what): (bool, &str, &str)| Warning {
+            kind: &NOT_ON_SHELLS,
+            path: format!("run.{key}"),
+            message: format!("`{key}` does not act on shells and beams, such as part `{}`: they {what}", first.name),
+            consequence: rest.into(),
+            help: "leave it out, if it is not meant for other parts".into(),
+        };
+        settings.into_iter().filter(|setting| setting.0).map(warning).collect()
     }
 
     /// A material whose flow stress falls, if a part is made of it.

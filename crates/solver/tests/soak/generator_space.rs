@@ -281,7 +281,7 @@ fn any_bodies(scene: &mut Scene, dice: &mut Dice) {
 }
 
 /// A solid within a ball of 0.45 cells around a point, and how it is swept.
-fn shape(dice: &mut Dice, centre: Vector) -> (Shape, Option<Sweep>) {
+pub(crate) fn shape(dice: &mut Dice, centre: Vector) -> (Shape, Option<Sweep>) {
     let n = dice.whole(1, 3);
     let radius = 0.45 * CELL * dice.number(0.5, 1.0);
     // Half the length, and the radius across it that is left.

@@ -10,7 +10,8 @@
 //! all bodies meet in `double_pass`, elements say whether nodes of one body are deep in another one
 //! (`inside.rs`): a run that does not say so is a finding. With `--heavy 1` every second material is 36 times
 //! as heavy, with `--subcycling 1` all models run with subcycling, too, and with `--shells 1` most bodies of
-//! models in 2D are shells: of these nothing is known before.
+//! models in 2D are shells, and models in 3D are others, of shells, beams and solids
+//! (`generator_sheets.rs`): of these nothing is known before. `--show 1` prints models in full.
 //!
 //! A drift of energy that at most half is left of with a quarter of the step is an error of the steps: of
 //! springs that are stiff against theirs, or of elements that collapse within a few. Those are counted. The
@@ -18,6 +19,7 @@
 //! one that drifts no more.
 
 mod generator;
+mod generator_sheets;
 mod generator_space;
 mod inside;
 
@@ -63,6 +65,8 @@ struct Change {
     heavy: bool,
     subcycling: bool,
     shells: bool,
+    /// Whether models are shown in full, and why they are refused.
+    show: bool,
 }
 
 impl Change {
@@ -91,6 +95,7 @@ fn main() {
             ("--heavy", Some(value)) => change.heavy = value > 0.0,
             ("--subcycling", Some(value)) => (change.heavy, change.subcycling) = (value > 0.0, value > 0.0),
             ("--shells", Some(value)) => change.shells = value > 0.0,
+            ("--show", Some(value)) => change.show = value > 0.0,
             // Those of the test runner.
             _ => {}
         }
@@ -120,14 +125,14 @@ fn main() {
                     _ => {}
                 }
                 // Said at once: a soak takes hours.
-                faults.iter().for_each(|fault| println!("model {seed}: {fault}; {}", reported(seed)));
+                faults.iter().for_each(|fault| println!("model {seed}: {fault}; {}", reported(seed, change)));
                 let name = match end {
                     End::Refused(why) => format!("refused: {} {}", why.code, why.title),
                     End::Failed(why) => why.map_or("failed".into(), |why| format!("failed: {} {}", why.code, why.title)),
                     End::Done => "done".into(),
                 };
                 *ends.entry(name).or_default() += 1;
-                found.extend(faults.into_iter().map(|fault| format!("model {seed}: {fault}; {}", reported(seed))));
+                found.extend(faults.into_iter().map(|fault| format!("model {seed}: {fault}; {}", reported(seed, change))));
             }
             Err(panic) => {
                 let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
@@ -174,8 +179,21 @@ fn dimension_of(seed: u64) -> u64 {
 }
 
 /// Model number `seed`.
-fn model(seed: u64) -> Model {
-    if dimension_of(seed) == 3 { generator_space::model(seed) } else { generator::model(seed) }
+fn model(seed: u64, change: Change) -> Model {
+    let mut model = match (dimension_of(seed), change.shells) {
+        (3, true) => generator_sheets::model(seed),
+        (3, false) => generator_space::model(seed),
+        _ => generator::model(seed),
+    };
+    model.run.subcycling = change.subcycling;
+    if change.shells && dimension_of(seed) == 2 {
+        generator::thin(seed, &mut model);
+    }
+    if change.heavy {
+        let heavy = model.materials.values_mut().skip(1).step_by(2);
+        heavy.filter_map(|material| material.parameters.get_mut("density")).for_each(|density| *density *= 36.0);
+    }
+    model
 }
 
 /// A drift of energy that neither erosion nor forces that were not solved explain.
@@ -187,17 +205,16 @@ struct Drift {
 
 /// Runs a model; its drift where that is large, and what is wrong with it.
 fn run(seed: u64, change: Change, [steps, longer]: [&mut u64; 2], hashes: &mut BTreeMap<u64, String>) -> (End, Option<Drift>, Vec<String>) {
-    let mut model = model(seed);
-    model.run.subcycling = change.subcycling;
-    if change.shells && dimension_of(seed) == 2 {
-        generator::thin(seed, &mut model);
-    }
-    if change.heavy {
-        let heavy = model.materials.values_mut().skip(1).step_by(2);
-        heavy.filter_map(|material| material.parameters.get_mut("density")).for_each(|density| *density *= 36.0);
-    }
+    let model = model(seed, change);
     let options = Options { threads: 1, simd: None };
+    if change.show {
+        println!("model {seed}: {model:#?}");
+    }
     let mut simulation = match Simulation::new(&model, &options) {
+        Err(Error::Model(faults)) if change.show => {
+            faults.iter().for_each(|fault| println!("model {seed} is refused: {fault}"));
+            return (End::Refused(faults[0].kind), None, Vec::new());
+        }
         Ok(simulation) => simulation,
         Err(Error::Model(faults)) => return (End::Refused(faults[0].kind), None, Vec::new()),
         Err(error) => return (End::Failed(error.kind()), None, Vec::new()),
@@ -302,8 +319,8 @@ fn wrong(summary: &Summary, result: &Result<(), Error>) -> Vec<String> {
 }
 
 /// What a model is made of.
-fn reported(seed: u64) -> String {
-    let model = model(seed);
+fn reported(seed: u64, change: Change) -> String {
+    let model = model(seed, change);
     let parts = model.parts.iter().map(|part| format!("{} of {}", part.element, model.materials[&part.material].law));
     let contacts = model.contacts.iter().map(|contact| format!("{:?} {:?}", contact.formulation, contact.interface));
     let obstacles = model.obstacles.iter().map(|obstacle| format!("{} {:?}", obstacle.name, obstacle.interface));

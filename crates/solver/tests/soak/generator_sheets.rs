@@ -92,7 +92,7 @@ fn solid(dice: &mut Dice, model: &mut Model, centre: Vector, start: Part, softne
 
 /// A sheet of any built-in shape.
 fn sheet(dice: &mut Dice, model: &mut Model, centre: Vector, start: Part, softness: f64) {
-    let half = 0.25 * CELL * dice.number(0.6, 1.2);
+    let half = 0.25 * CELL * dice.number(0.6, 1.5);
     let (n, m) = (dice.whole(1, 8), dice.whole(1, 8));
     let extrude = Some(Sweep::Extrude(Extrude { from: -half, length: 2.0 * half, elements: m, ..Extrude::default() }));
     let (shape, sweep): (Shape, Option<Sweep>) = match dice.whole(0, 6) {
@@ -178,7 +178,7 @@ fn frame(dice: &mut Dice, model: &mut Model, centre: Vector, start: Part, softne
 /// there, or are joined.
 fn branches(dice: &mut Dice, model: &mut Model, centre: Vector, start: Part, softness: f64) {
     let (count, n, m) = (dice.whole(2, 4), dice.whole(1, 5), dice.whole(1, 5));
-    let (length, width, is_joined) = (0.35 * CELL, 0.5 * CELL, dice.chance(0.4));
+    let (length, width, is_joined) = (0.4 * CELL, 0.6 * CELL, dice.chance(0.4));
     let mut file = ImportedMesh { source: format!("branches{}", model.meshes.len()), ..ImportedMesh::default() };
     let turn = dice.number(0.0, TAU);
     let mut sections = Vec::new();

@@ -9,9 +9,10 @@ use crate::mesh::{Mesh, Meshed};
 use crate::model::{Constraint, Drive, Load, Model, in_3d};
 use crate::tensor::Dim;
 use crate::vector::{dot, place, unit};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Part of a moment about a normal from which on it counts, and of a normal outside of the axes that are held.
+/// Part of a moment about a normal from which on it counts, and of a normal outside of the axes that are
+/// held.
 const MUCH: f64 = 1e-3;
 /// Cosine from which on two directions at a node are one smooth shell.
 const SAME: f64 = 1.0 - 1e-6;
@@ -40,14 +41,16 @@ where
         nodes.into_iter().filter_map(|node| Some((node, *turning.get(&node)?))).collect()
     };
     let at = |node: u32| place(mesh.positions[node as usize]);
+    let all_led = model.constraints.iter().filter(|it| holds_all(it)).filter_map(|it| mesh.nodes(&it.on));
+    let led: BTreeSet<u32> = all_led.flatten().collect();
     let mut warnings = Vec::new();
     for (i, load) in model.loads.iter().enumerate() {
         let Load::Moment { on, moment, .. } = load else { continue };
         let size = dot(*moment, *moment).sqrt();
-        let is_held =
-            |node: u32| model.constraints.iter().any(|it| holds_all(it) && mesh.nodes(&it.on).is_some_and(|all| all.contains(&node)));
         let about = of(on).into_iter().find_map(|(node, turning)| match turning {
-            Turning::Freely(normal) if dot(normal, *moment).abs() > MUCH * size && !is_held(node) => Some((node, dot(normal, *moment))),
+            Turning::Freely(normal) if dot(normal, *moment).abs() > MUCH * size && !led.contains(&node) => {
+                Some((node, dot(normal, *moment)))
+            }
             _ => None,
         });
         if let Some((node, part)) = about {

@@ -195,7 +195,13 @@ fn branches(dice: &mut Dice, model: &mut Model, centre: Vector, start: Part, sof
             }
         }
         let node = |i: usize, j: usize| {
-            if own { first + (i * (m + 1) + j) as u32 } else if i == 0 { j as u32 } else { first + ((i - 1) * (m + 1) + j) as u32 }
+            if own {
+                first + (i * (m + 1) + j) as u32
+            } else if i == 0 {
+                j as u32
+            } else {
+                first + ((i - 1) * (m + 1) + j) as u32
+            }
         };
         let is_split = dice.chance(0.3);
         let mut cells = Vec::new();
@@ -276,10 +282,12 @@ fn acting(dice: &mut Dice, model: &mut Model, softness: f64, speed: f64) {
         }
         model.constraints.push(constraint);
     }
-    // As large as what bends the smallest sheet by much.
+    // As large as what bends the thinnest sheet by much.
     let stiffness = 2e11 * softness;
     if !named.is_empty() && dice.chance(0.2) {
-        let thickness = dice.order(1e-5, 1e-4);
+        let all =
+            model.parts.iter().filter_map(|part| part.section.as_ref().map(|it| it.thickness).or_else(|| part.profile.as_ref()?.height));
+        let thickness = all.fold(1e-4, f64::min) * dice.order(0.3, 1.0);
         let size = stiffness * thickness.powi(3) * dice.number(0.1, 1.0);
         let moment = [0; 3].map(|_| size * dice.number(-1.0, 1.0));
         model.loads.push(Load::Moment { on: dice.choice(&named), moment, curve: None });

@@ -2,7 +2,8 @@
 
 use super::Importer;
 use super::report::Outcome::{Approximated, Ignored};
-use crate::abaqus::element_kind::Family;
+use crate::abaqus::deck::Surface;
+use crate::abaqus::element_kind::{Family, LOWER};
 use crate::abaqus::messages::SYNTAX;
 use crate::abaqus::text::{Line, folded, shown};
 use embate_solver::error::Fault;
@@ -223,16 +224,22 @@ fn pressure(importer: &mut Importer<'_>, at: usize, line: Line, (instance, side,
         importer.ignored(at, line, "a load along beams does not act: give it as `force` on their nodes");
         return Ok(());
     }
+    let mut on_edges = false;
     for &element in &elements {
-        importer.deck.face(importer.text, line, element, side)?;
+        let face = importer.deck.face(importer.text, line, element, side)?;
+        on_edges |= importer.is_3d() && importer.deck.elements[element as usize].kind.family.has_faces() && face > LOWER;
+    }
+    if on_edges {
+        importer.ignored(at, line, "a pressure on edges of shells does not act: give it as `force` on their nodes");
+        return Ok(());
     }
     if elements.is_empty() {
         importer.ignored(at, line, "a load on elements that are no bodies");
         return Ok(());
     }
     let full = importer.deck.full_shown(instance, field(0));
-    let group = importer
-        .add_set(&format!("{label}-{full}"), |group| format!("*SURFACE, TYPE=ELEMENT, NAME=\"{group}\"\n\"{full}\", {side}\n"));
+    let group =
+        importer.add_set(&format!("{label}-{full}"), |group| format!("*SURFACE, TYPE=ELEMENT, NAME=\"{group}\"\n\"{full}\", {side}\n"));
     let amplitude = amplitude_of(importer, at);
     importer.loads.push(Load::Pressure { at, group, pressure: value, amplitude });
     Ok(())
@@ -266,7 +273,11 @@ pub(super) fn surface_load(importer: &mut Importer<'_>, at: usize) -> Result<(),
         let fields = importer.text.fields(line);
         let field = |k: usize| fields.get(k).copied().unwrap_or_default();
         let key = importer.surface(line, field(0))?;
-        let group = importer.names.surfaces.get(&key).cloned();
+        let is_surface = match importer.deck.surfaces.get(&key).and_then(|it| it.members.first()) {
+            Some(Surface::Sides(sides)) => importer.is_surface(sides),
+            _ => false,
+        };
+        let group = importer.names.surfaces.get(&key).filter(|_| is_surface).cloned();
         let (Some(group), "P") = (group, folded(field(1)).as_str()) else {
             importer.ignored(at, line, "only a pressure (P) on edges or faces of elements is read");
             continue;

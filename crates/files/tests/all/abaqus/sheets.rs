@@ -332,6 +332,8 @@ fn what_shells_and_beams_can_not_keep_is_reported_or_refused() {
         ("*SHELL SECTION, ELSET=SHEET, MATERIAL=STEEL, NODAL THICKNESS\n1.\n", "", "the parameter NODAL THICKNESS is not read"),
         (section, "*BOUNDARY, AMPLITUDE=A\nX0-SHEET, 5, 5, 0.1\n", "of rotations only velocities are prescribed"),
         (section, "*INITIAL CONDITIONS, TYPE=VELOCITY\nX0-SHEET, 6, 3.\n", "an angular velocity"),
+        (section, "*DLOAD\nSHEET, E1, 3.\n", "a pressure on edges of shells does not act"),
+        (section, "*SURFACE, NAME=RIM\nSHEET, E1\n*DSLOAD\nRIM, P, 3.\n", "only a pressure (P) on edges or faces of elements is read"),
         (section, "*NODAL THICKNESS\nX0-SHEET, 2.\n", "embate has no counterpart of this keyword"),
     ] {
         let (made, _) = imported(&with(section, more));

@@ -3,10 +3,12 @@
 
 mod rebuild;
 mod bodies;
+mod connections;
 mod contacts;
 mod dimension;
 mod discrete;
 mod failure;
+mod hinges;
 mod node_elements;
 mod idle;
 mod normals;
@@ -88,6 +90,7 @@ where
     let mut builder = Builder::new(with_axis.as_ref().unwrap_or(model), mesh)?;
     let mut warnings = idle::warnings(builder.model, &builder.mesh, &builder.body_of_node);
     warnings.extend(normals::warnings(builder.model, &builder.mesh));
+    warnings.extend(hinges::warnings(builder.model, &builder.mesh, &builder.joins));
     let start = builder.start()?;
     let elements = builder.elements(level)?;
     let conditions = builder.conditions(&elements)?;

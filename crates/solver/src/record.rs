@@ -4,6 +4,7 @@
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::body_columns::BodyColumns;
 use crate::contact::ContactKind;
+use crate::contact::connection::Connected;
 use crate::contact::springs::Tangential;
 use crate::dimension::Dimension;
 use crate::error::Fault;
@@ -19,7 +20,7 @@ use crate::rigid::{Body, RigidMotion};
 use crate::rotation::{Rotate, unit_matrix};
 use crate::step::System;
 use crate::tensor::Dim;
-use crate::vector::{self, dot, first, minus, plus, times};
+use crate::vector::{self, dot, first, length, minus, plus, times};
 
 /// Columns of energies, after `energy.`.
 const ENERGIES: [&str; 12] = [
@@ -107,6 +108,17 @@ impl Recorded {
         for contact in &system.contacts {
             let (kind, name) = (contact.kind.name(), &contact.name);
             let column = |value: &&str| format!("{kind}.{value}[{name}]");
+            match contact.kind {
+                ContactKind::Weld => {
+                    columns.extend(["normal_force", "shear_force", "moment", "intact"].iter().map(column));
+                    continue;
+                }
+                ContactKind::Joint => {
+                    columns.extend(["force_x", "force_y", "force_z"][..D].iter().chain(<Dim<D>>::MOMENT).chain(&["gap"]).map(column));
+                    continue;
+                }
+                ContactKind::Contact | ContactKind::Obstacle(_) => {}
+            }
             columns.extend(["force_x", "force_y", "force_z"][..D].iter().chain(&["energy", "penetration", "friction_work"]).map(column));
             if let ContactKind::Obstacle(body) = contact.kind {
                 columns.extend(<Dim<D>>::MOMENT.iter().map(column));
@@ -153,6 +165,10 @@ impl Recorded {
         }
         row.extend(of_parts.iter().flatten());
         for contact in &system.contacts {
+            if contact.kind.is_connection() {
+                row.extend(connected::<D>(contact.kind, &contact.connected().unwrap_or_default()));
+                continue;
+            }
             let totals = &contact.totals;
             row.extend(totals.resultant);
             row.extend([totals.energy + totals.slip_energy, contact.depth(), contact.friction_work]);
@@ -184,6 +200,16 @@ impl Recorded {
     {
         LiveSnapshot::new(system, &self.fields)
     }
+}
+
+/// Values of a weld or joint in the history.
+fn connected<const D: usize>(kind: ContactKind, found: &Connected) -> Vec<f64> {
+    let Connected { force, moment, normal, shear, gap, intact, grounded: _ } = *found;
+    if kind == ContactKind::Weld {
+        return vec![normal, shear, length(moment), f64::from(u8::from(intact))];
+    }
+    let moment = if D == 2 { &moment[2..] } else { &moment[..] };
+    force[..D].iter().chain(moment).copied().chain([gap]).collect()
 }
 
 fn resolve<const D: usize>(at: &ProbeAt, system: &System<D>) -> Result<(Vec<(u32, f64)>, String), String>
@@ -317,7 +343,8 @@ where
             && system.boundary.is_empty()
             && !system.rotations.is_acted_on()
             && !system.joins.is_periodic()
-            && system.damping.is_empty();
+            && system.damping.is_empty()
+            && !system.contacts.iter().any(|contact| contact.connected().is_some_and(|found| found.grounded));
         // Forces at time zero have acted half a step already; both momenta are kept by them as well.
         isolated.then(|| {
             let centre = centre_of_mass(system);

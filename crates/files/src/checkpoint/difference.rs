@@ -39,6 +39,8 @@ const NAMES: &[(&str, &str)] = &[
     ("constraints[", "constraint["),
     ("loads[", "load["),
     ("joins[", "join["),
+    ("welds[", "weld["),
+    ("joints[", "joint["),
     ("springs[", "spring["),
     ("point_masses[", "point_mass["),
     ("probes[", "probe["),

@@ -218,7 +218,7 @@ impl Extent {
             (Dimension::PRESSURE, "stiffness") => Dimension::FORCE_PER_LENGTH,
             (Dimension::VISCOSITY, "damping") => Dimension::FORCE_PER_VELOCITY,
             (Dimension::LENGTH, "area") => Dimension::AREA,
-            (Dimension::FORCE, "moment") => Dimension::MOMENT,
+            (Dimension::FORCE, "moment" | "moment_strength") => Dimension::MOMENT,
             (Dimension::INERTIA_PER_LENGTH, _) => Dimension::INERTIA,
             (Dimension::PRESSURE, "penalty") => Dimension::FORCE_PER_LENGTH,
             (other, _) => other,

@@ -16,11 +16,12 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: Builds<D>,
 {
-    /// Contacts, then obstacles, both in the order of the model; notes faults.
+    /// Contacts, obstacles, welds and joints, each in the order of the model; notes faults.
     pub(super) fn contacts_and_obstacles(&mut self) -> Vec<Contact<D>> {
         let outlines = <Dim<D>>::outlines(self);
         let mut made = self.contacts(&outlines);
         made.extend(self.obstacles(&outlines));
+        made.extend(self.connections());
         made
     }
 
@@ -92,6 +93,7 @@ where
     /// now; one without any ends.
     pub(super) fn rebuild_contacts(&mut self, contacts: &mut [Contact<D>]) {
         let outlines = <Dim<D>>::outlines(self);
+        self.rebuild_connections(contacts);
         let (between, obstacles) = contacts.split_at_mut(self.model.contacts.len());
         for (model, contact) in self.model.contacts.iter().zip(between) {
             match self.formulation(model, &outlines) {

@@ -30,7 +30,10 @@ where
     let warning = |(index, part): (usize, &Part)| Warning {
         kind: &IDLE,
         path: format!("part[{index}]"),
-        message: format!("nothing acts on part `{}`: no contact, obstacle, join, spring, load or motion has to do with it", part.name),
+        message: format!(
+            "nothing acts on part `{}`: no contact, obstacle, join, weld, joint, spring, load or motion has to do with it",
+            part.name
+        ),
         consequence: "it stays as it is, and other parts go through it".into(),
         help: "name it in a [[contact]], move it or load it, or leave it out".into(),
     };
@@ -44,12 +47,13 @@ fn named(model: &Model) -> impl Iterator<Item = &str> {
         Partners::Bodies(parts) => parts,
     });
     let pairs = model.joins.iter().map(|join| &join.between).chain(model.springs.iter().map(|spring| &spring.between)).flatten();
+    let welded = model.welds.iter().flat_map(|weld| &weld.between).chain(model.joints.iter().flat_map(|joint| &joint.between));
     let driven = model.constraints.iter().filter(|constraint| drives(constraint)).map(|constraint| &constraint.on);
     let loaded = model.loads.iter().filter_map(|load| match load {
         Load::Force { on, .. } | Load::Moment { on, .. } | Load::Pressure { on, .. } => Some(on),
         _ => None,
     });
-    contacts.chain(pairs).chain(driven).chain(loaded).map(String::as_str)
+    contacts.chain(pairs).chain(welded).chain(driven).chain(loaded).map(String::as_str)
 }
 
 /// Whether it does more than hold.

@@ -31,7 +31,7 @@ where
     fn rebuild(&mut self, parts: ContactParts<'_, D>, contacts: &mut [Contact<D>]) {
         let made = contacts.iter().filter_map(|contact| match contact.kind {
             ContactKind::Obstacle(body) => Some((contact.name.clone(), body)),
-            ContactKind::Contact => None,
+            ContactKind::Contact | ContactKind::Weld | ContactKind::Joint => None,
         });
         let mut builder = Builder {
             constraints: take(parts.constraints),

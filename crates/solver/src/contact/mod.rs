@@ -24,6 +24,7 @@ pub mod segment;
 pub mod slaves;
 pub mod tied;
 pub mod obstacle;
+pub mod connection;
 pub mod findings;
 mod boxes;
 pub mod overlap;
@@ -43,6 +44,7 @@ use crate::mesh::surface::{Corners, Facet, Sided};
 use crate::rigid::{Bodies, RigidMotion};
 use crate::tensor::Dim;
 use crate::vector::{self, minus};
+use connection::Connected;
 use findings::{CAST, Findings, Overlap};
 use springs::{Answer, Answers, Springs, Totals};
 use std::any::Any;
@@ -99,6 +101,14 @@ where
     /// Its ties, if it has such.
     fn ties(&self) -> Option<Ties> {
         self.within()?.ties()
+    }
+
+    /// Lets go of nodes without elements; of what is made again when surfaces change there is nothing to do.
+    fn lose(&mut self, _has_elements: &dyn Fn(u32) -> bool) {}
+
+    /// What it transmits, if it is a connection at a point.
+    fn connected(&self) -> Option<Connected> {
+        None
     }
 
     /// What was checked so far, and whether a contact was missed; without [`Formulation::overlaps`].
@@ -161,13 +171,17 @@ impl<'a, const D: usize> Sweep<'a, D> {
     }
 }
 
-/// Whether a contact belongs to `[[contact]]` or `[[obstacle]]`.
+/// Which section of the model file a contact belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactKind {
     /// Surfaces of deformable bodies or rigid parts.
     Contact,
     /// A rigid obstacle; carries the number of its rigid body.
     Obstacle(usize),
+    /// A spot weld.
+    Weld,
+    /// A joint.
+    Joint,
 }
 
 impl ContactKind {
@@ -177,7 +191,15 @@ impl ContactKind {
         match self {
             Self::Contact => "contact",
             Self::Obstacle(_) => "obstacle",
+            Self::Weld => "weld",
+            Self::Joint => "joint",
         }
+    }
+
+    /// Whether it connects bodies at a point.
+    #[must_use]
+    pub fn is_connection(self) -> bool {
+        matches!(self, Self::Weld | Self::Joint)
     }
 }
 
@@ -282,6 +304,9 @@ where
         // Neither reads what the other one writes.
         let (found, ()) = both(sum, remember);
         (self.totals, self.penetration) = found;
+        if self.kind.is_connection() {
+            self.penetration = 0.0;
+        }
         self.has_pressed |= self.totals.pressing > 0.0;
         self.friction_work += self.totals.lost.friction;
         let acts = self.acts_at(self.time);
@@ -294,6 +319,17 @@ where
     pub fn renew(&mut self, formulation: Box<dyn Formulation<D>>) {
         let old = std::mem::replace(&mut self.formulation, formulation);
         self.formulation.inherit(old);
+    }
+
+    /// Lets go of nodes without elements.
+    pub fn lose(&mut self, has_elements: &dyn Fn(u32) -> bool) {
+        self.formulation.lose(has_elements);
+    }
+
+    /// What it transmits, if it is a connection at a point.
+    #[must_use]
+    pub fn connected(&self) -> Option<Connected> {
+        self.formulation.connected()
     }
 
     /// Acts no more: one of its surfaces is gone.
@@ -402,7 +438,8 @@ where
 
     /// Slave nodes that are inside in the last step, with their depth, m.
     pub fn penetrations<'a>(&'a self, springs: &'a Springs<D>) -> impl Iterator<Item = (u32, f64)> + 'a {
-        let inside = springs.answers(self.found.clone()).filter(|answer| answer.solved.gap < 0.0);
+        let found = if self.kind.is_connection() { 0..0 } else { self.found.clone() };
+        let inside = springs.answers(found).filter(|answer| answer.solved.gap < 0.0);
         inside.filter_map(|answer| Some((answer.ends().next()?.at, -answer.solved.gap)))
     }
 }

@@ -8,8 +8,8 @@ use crate::contact::{formulation, law, search};
 use crate::failure::CRITERIA;
 use crate::model::values::Datum;
 use crate::model::{
-    CONSTRAINT, CONTACT, CURVE, JOIN, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS, PROBE, RUN, SPRING, SYMMETRY,
-    Values,
+    CONSTRAINT, CONTACT, CURVE, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS, PROBE, RUN, SPRING,
+    SYMMETRY, Values, WELD,
 };
 use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
@@ -40,6 +40,8 @@ pub static SECTIONS: &[&Section] = &[
     &SYMMETRY,
     &CONSTRAINT,
     &JOIN,
+    &WELD,
+    &JOINT,
     &LOAD,
     &NON_REFLECTING,
     &SPRING,

@@ -17,6 +17,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NO_PARTNER,
     &HELD_TWICE,
     &OFF_SYMMETRY,
+    &CONNECTION,
+    &HINGE,
 ];
 
 pub(crate) static CURVE: Message = Message {
@@ -116,7 +118,7 @@ pub(crate) static TO_ITSELF: Message = Message {
     code: "E0511",
     title: "a set that is bound to itself",
     example: Example::Model("[[spring]]\nname = \"s\"\nbetween = [\"block.left\", \"block.left\"]\nstiffness = \"1 MN/m/m\"\n"),
-    cause: "A spring or a join names the same nodes on both sides.",
+    cause: "A spring, a join, a weld or a joint names the same nodes on both sides.",
     remedy: "Name two sets without common nodes.",
 };
 
@@ -145,4 +147,24 @@ pub(crate) static OFF_SYMMETRY: Message = Message {
     example: Example::Model("[[symmetry]]\npoint = [\"-1 mm\", 0]\nnormal = [1, 0]\n"),
     cause: "Nodes must lie on the line within 1e-9 of the model's extent; so nothing would be held.",
     remedy: "Move the line or the bodies.",
+};
+
+pub(crate) static CONNECTION: Message = Message {
+    code: "E0515",
+    title: "a weld or joint that can't be",
+    example: Example::Model("[[weld]]\nbetween = [\"block.right\", \"wall.left\"]\nat = [[\"10 mm\", \"5 mm\", \"1 mm\"]]\n"),
+    cause: "The nodes near its point hold no rigid body (they are too few, or on one line), they are far from it, or the kind of joint \
+        or its directions do not exist in this dimension.",
+    remedy: "Move the point to the surfaces, give a `radius` within which each set has some nodes, or another kind or direction.",
+};
+
+pub(crate) static HINGE: Message = Message {
+    code: "W0501",
+    title: "a join of a shell or beam with a solid that is a hinge",
+    example: Example::Model(
+        "[[part]]\nname = \"strip\"\nmaterial = \"steel\"\nelement = \"shell2\"\nsection = { thickness = \"1 mm\" }\nline = { points = [[\"-9 mm\", 0], [0, 0]], elements = 4 }\n\n\
+         [[join]]\nbetween = [\"strip.end\", \"block.left\"]\n",
+    ),
+    cause: "Nodes of solids have no rotation, so what is joined to one of them turns freely about it.",
+    remedy: "Bind the rim of a shell by a contact with `tied`, which holds both of its faces, the end of a beam by a weld; or let it be, if a hinge is meant.",
 };

@@ -201,6 +201,7 @@ impl Meshed<3> for Dim<3> {
 
     fn add_skins(mesh: &mut Mesh<3>, model: &Model) {
         mesh.add_skins_of_surfaces(model, Part::is_of_shells);
+        mesh.add_hubs_of_beams(model);
     }
 
     fn along_curve(cell: [u32; 3]) -> u64 {

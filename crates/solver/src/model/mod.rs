@@ -8,6 +8,7 @@
 mod section;
 pub mod values;
 pub mod messages;
+mod connection;
 mod contact;
 mod discrete;
 mod initial;
@@ -23,6 +24,7 @@ mod run;
 mod shell;
 mod triangles;
 
+pub use connection::{EXPONENT, Joint, KINDS, Weld};
 pub use contact::{Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Partners, Penalty, PenaltySource};
 pub use discrete::{PointMass, Spring};
 pub use initial::InitialStress;
@@ -46,6 +48,7 @@ pub use crate::mesh::shapes::{
     CircularArc, Cuboid, Cylinder, Disk, Edge, Extrude, Line, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, SpaceTruss,
     Sphere, Sweep, Trapezoid, Truss, Tube,
 };
+pub(crate) use connection::{JOINT, WELD};
 pub(crate) use contact::CONTACT;
 pub(crate) use discrete::{POINT_MASS, SPRING};
 pub(crate) use load::{CONSTRAINT, JOIN, LOAD, NON_REFLECTING, SYMMETRY};
@@ -97,6 +100,10 @@ pub struct Model {
     pub non_reflecting: Vec<NonReflecting>,
     /// `[[join]]`.
     pub joins: Vec<Join>,
+    /// `[[weld]]`.
+    pub welds: Vec<Weld>,
+    /// `[[joint]]`.
+    pub joints: Vec<Joint>,
     /// `[[spring]]`.
     pub springs: Vec<Spring>,
     /// `[[point_mass]]`.

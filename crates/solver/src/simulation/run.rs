@@ -160,7 +160,9 @@ where
         let tolerance = crate::mesh::tolerance(&system.positions);
         let mut faults = Vec::new();
         for contact in &system.contacts {
-            let Some(index) = model.obstacles.iter().position(|it| contact.kind != ContactKind::Contact && it.name == contact.name) else {
+            let Some(index) =
+                model.obstacles.iter().position(|it| matches!(contact.kind, ContactKind::Obstacle(_)) && it.name == contact.name)
+            else {
                 continue;
             };
             let interface = &model.obstacles[index].interface;

@@ -30,7 +30,11 @@ where
         for contact in &self.system.contacts {
             let Some(ties) = contact.ties() else { continue };
             let all = ties.held + ties.broken;
-            if ties.broken > 0 {
+            if contact.kind.is_connection() {
+                if ties.broken > 0 {
+                    report(&TIES_BROKE, format!("{} \"{}\" failed", contact.kind.name(), contact.name));
+                }
+            } else if ties.broken > 0 {
                 report(&TIES_BROKE, format!("contact \"{}\": {} of {all} ties broke", contact.name, ties.broken));
             } else if all == 0 {
                 report(&TIES_BROKE, format!("contact \"{}\": its ties bound nothing", contact.name));

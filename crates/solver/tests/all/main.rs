@@ -19,6 +19,7 @@ mod certificate;
 mod certificate_in_3d;
 mod chaboche;
 mod conditions;
+mod connections;
 mod contact;
 mod corners;
 mod discrete;

@@ -20,8 +20,8 @@ use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
 use embate_solver::model::{
-    Constraint, Curve, Drive, ImportedMesh, Join, Load, Material, Model, NonReflecting, Obstacle, ObstacleShape, Output, Part, Partners,
-    Placement, PointMass, Probe, Run, Shape, Spring, Symmetry, TriangleSurface, Values,
+    Constraint, Curve, Drive, ImportedMesh, Join, Joint, Load, Material, Model, NonReflecting, Obstacle, ObstacleShape, Output, Part,
+    Partners, Placement, PointMass, Probe, Run, Shape, Spring, Symmetry, TriangleSurface, Values, Weld,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -50,6 +50,8 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         loads: all(document, "load", Load::read),
         non_reflecting: all(document, "non_reflecting", NonReflecting::read),
         joins: all(document, "join", Join::read),
+        welds: all(document, "weld", Weld::read),
+        joints: all(document, "joint", Joint::read),
         springs: all(document, "spring", Spring::read),
         point_masses: all(document, "point_mass", PointMass::read),
         probes: all(document, "probe", Probe::read),
@@ -234,10 +236,21 @@ fn name_the_nameless(model: &mut Model) {
         contact.name = free(&joined, &taken);
         taken.insert(contact.name.clone());
     }
+    name_in_turn("weld", model.welds.iter_mut().map(|weld| &mut weld.name).collect());
+    name_in_turn("joint", model.joints.iter_mut().map(|joint| &mut joint.name).collect());
     let mut taken: BTreeSet<String> = model.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
     for obstacle in model.obstacles.iter_mut().filter(|obstacle| obstacle.name.is_empty()) {
         obstacle.name = free("obstacle", &taken);
         taken.insert(obstacle.name.clone());
+    }
+}
+
+/// Names those that have none: `word`, `word2`, ...
+fn name_in_turn(word: &str, mut names: Vec<&mut String>) {
+    let mut taken: BTreeSet<String> = names.iter().map(|name| name.to_string()).collect();
+    for name in names.iter_mut().filter(|name| name.is_empty()) {
+        **name = free(word, &taken);
+        taken.insert(name.to_string());
     }
 }
 

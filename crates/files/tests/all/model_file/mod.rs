@@ -69,6 +69,14 @@ on = "ball.outer"
 between = ["tube.start", "tube.end"]
 rotation = "180 deg"
 centre = [0, 0.1]
+[[weld]]
+between = ["tube.start", "ball.outer"]
+at = [[0, 0.1]]
+normal_strength = "5 kN/m"
+[[joint]]
+between = ["tube.end", "ball.outer"]
+kind = "revolute"
+at = [0, 0.1]
 [[spring]]
 between = ["tube.start", "ball.outer"]
 elongation = [0, "1 mm"]

@@ -3,6 +3,7 @@
 //! Laws come from the model, springs from the contacts; [`super::springs`] asks a law for the force of each
 //! spring, again in every sweep.
 
+pub mod lock;
 pub mod multiplier;
 pub mod penalty;
 pub mod pressure_gap;
@@ -36,6 +37,10 @@ pub trait Law: Send + Sync {
     /// Whether what the force takes is stored, and given back.
     fn is_elastic(&self) -> bool {
         true
+    }
+    /// Whether the ends of a spring at one rigid body or node are one arm; only without friction.
+    fn joins_ends(&self) -> bool {
+        false
     }
     /// Largest gap at which it pushes, m.
     fn reach(&self) -> f64 {

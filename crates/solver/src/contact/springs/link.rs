@@ -300,13 +300,21 @@ where
         self.slots.clear();
         self.movables.clear();
         let slides = springs.iter().any(|&number| !matches!(joints.laws.terms(number).tangential, Tangential::Free));
-        let mut arms = 0;
+        let (mut arms, mut met) = (0, Vec::new());
         for &number in springs {
             let mut link = Link::new(number, arms);
+            let joins_ends = joints.laws.terms(number).law.joins_ends();
+            met.clear();
             for k in joints.laws.list[number as usize].ends() {
                 let slot = joints.slots[joints.places[k] as usize];
                 if slot == NONE {
                     continue;
+                }
+                if joins_ends {
+                    if met.contains(&slot) {
+                        continue;
+                    }
+                    met.push(slot);
                 }
                 arms += 1;
                 // Slots are met in the order of their numbers.
@@ -361,6 +369,7 @@ where
         let [before, after] = self.laws.time_steps;
         let has_slip = !matches!(terms.tangential, Tangential::Free);
         let tangents = self.laws.tangents(number);
+        let joins_ends = terms.law.joins_ends();
         let mut next = 0;
         for k in spring.ends() {
             let (end, slot) = (self.ends.get(k), self.slots[self.places[k] as usize]);
@@ -381,6 +390,15 @@ where
             if slot == NONE {
                 continue;
             }
+            if joins_ends {
+                if let Some(arm) = arms[..next].iter_mut().find(|arm| arm.slot == slot) {
+                    arm.row = Dim::<D>::generalized(|d| arm.row[d] + row[d]);
+                } else {
+                    arms[next] = Arm { slot, row };
+                    next += 1;
+                }
+                continue;
+            }
             let response = Dim::<D>::response(&movable.mobility, &row);
             link.own[0] += Dim::<D>::dot(&row, &response);
             if has_slip {
@@ -399,6 +417,10 @@ where
                 *slips = slip_row;
             }
             next += 1;
+        }
+        if joins_ends {
+            let own = |arm: &Arm<D>| Dim::<D>::dot(&arm.row, &Dim::<D>::response(&movables[arm.slot as usize].mobility, &arm.row));
+            link.own[0] = arms.iter().map(own).sum();
         }
         link.compliance = 0.5 * after * link.own[0];
         (link.gap, link.gap_old) = begins(self, number, link.rate_old, before);

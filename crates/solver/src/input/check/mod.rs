@@ -7,6 +7,7 @@
 //! fault and should be known all the same is in `warnings.rs`.
 
 mod beams;
+mod connections;
 mod contact;
 mod discrete;
 mod load;
@@ -63,6 +64,7 @@ impl Model {
         check.joins();
         check.loads();
         check.non_reflecting();
+        check.connections();
         check.springs();
         check.point_masses();
         check.probes();

@@ -7,6 +7,7 @@
 
 mod arm;
 mod around;
+mod hubs;
 mod lines;
 mod surfaces;
 #[cfg(test)]

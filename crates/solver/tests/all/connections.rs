@@ -45,11 +45,13 @@ fn cuboid(corner: [f64; 3], size: [f64; 3], elements: [usize; 3]) -> Shape {
     Shape::Cuboid(Cuboid { corner, size, elements, ..Cuboid::default() })
 }
 
+/// The nodes of the solid are the slaves: all of them follow the section of the shell, and not only those at
+/// its faces.
 fn tied(model: &mut Model, one: &str, other: &str) {
     model.contacts.push(Contact {
         name: "tie".into(),
         partners: Partners::Between([one.into(), other.into()]),
-        formulation: Formulation::SinglePass { slave: 1 },
+        formulation: Formulation::SinglePass { slave: 0 },
         tied: Some(f64::INFINITY),
         interface: Interface { law: ContactLaw::Multiplier, ..Interface::default() },
         ..Contact::default()
@@ -72,7 +74,7 @@ fn halves(dimension: usize) -> Model {
         );
         model.loads.push(Load::Force { on: "shell.end".into(), force: [0.0, 0.1, 0.0], curve });
     } else {
-        part(&mut model, "solid", "hex8_reduced_assumed_strain", cuboid([0.0, 0.0, -0.05], [0.5, 0.1, 0.1], [16, 1, 4]));
+        part(&mut model, "solid", "hex8_reduced_assumed_strain", cuboid([0.0, 0.0, -0.05], [0.5, 0.1, 0.1], [16, 2, 4]));
         let sheet = Rectangle { corner: [0.5, 0.0], size: [0.5, 0.1], elements: [8, 2], ..Rectangle::default() };
         part(&mut model, "shell", "shell4", Shape::Rectangle(sheet));
         model.loads.push(Load::Force { on: "shell.right".into(), force: [0.0, 0.0, 0.01], curve });

@@ -73,6 +73,7 @@ impl Recorded {
                 Needs::Failure => has_failure,
                 Needs::Shells => model.parts.iter().any(Part::is_of_shells),
                 Needs::Beams => model.parts.iter().any(Part::is_of_beams),
+                Needs::Asking => false,
             };
             // Pictures fall back on these two.
             let pictured = model.output.pictures && (kind.name == VON_MISES.name || (kind.name == PLASTIC_STRAIN.name && sensible));

@@ -163,12 +163,28 @@ pub struct ElementState {
     /// and the thickness, m; in 2D 1 is along the shell, 2 out of the plane. Of beams: normal and transverse
     /// forces y z (N), torque and moments about y z (N m), and no thickness. Zero of others.
     pub shell: [f64; SHELL_VALUES],
+    /// Of shells: 1 − t/t₀, and what is at the lower face, half way and at the upper face (in 2D the right
+    /// and the left one). Zero of others.
+    pub thinning: f64,
+    /// See [`ElementState::thinning`].
+    pub through: [Through; 3],
 }
+
+/// What is at a height of a shell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Through {
+    /// Cauchy stress xx yy zz xy (yz zx) in the axes of the model, Pa.
+    pub stress: [f64; 6],
+    /// Plastic strain.
+    pub plastic_strain: f64,
+}
+
+persist_all!(Through { stress, plastic_strain });
 
 /// Values of [`ElementState::shell`].
 pub const SHELL_VALUES: usize = 9;
 
-persist_all!(ElementState { stress, variables, energy_density, shell });
+persist_all!(ElementState { stress, variables, energy_density, shell, thinning, through });
 
 /// What a block reports at the start, at rest; its state is that of the first [`Block::advance`].
 pub fn evaluate_at_rest<const D: usize>(block: &mut dyn Block<D>, positions: &[[f64; D]], level: Level) -> Report {

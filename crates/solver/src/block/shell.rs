@@ -34,12 +34,14 @@ pub(super) use quad_full::Full;
 pub(super) use triangle::Triangle;
 
 use super::make::BlockInput;
-use super::{Report, SHELL_VALUES};
+use super::{Report, SHELL_VALUES, Through};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::material::points::{PointLaw, RESPONSE, Scratch};
+use crate::material::variable::PLASTIC_STRAIN;
 use crate::material::{Family, Parameters, young_and_poisson};
 use crate::rotations::Rotations;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
+use crate::vector::{plus, times};
 use embate_lanes::{BATCH, Batch, Lane};
 use profile::Profile;
 use section::Points as Section;
@@ -542,6 +544,30 @@ where
             damped: &[],
             thickness: &self.elements[batch].thickness_initial,
         }
+    }
+
+    /// What is at the lower face, half way and at the upper face: linear between two points of a layer, and
+    /// beyond them.
+    fn through(&self, element: usize) -> [Through; 3] {
+        let (batch, lane) = (element / BATCH, element % BATCH);
+        let state = &self.state[batch * K::STATE..][..K::STATE];
+        let place = self.law.place(&PLASTIC_STRAIN);
+        let mut all = [Through::default(); 3];
+        let part = 1.0 / K::PLANES as f64;
+        for (own, height) in all.iter_mut().zip([-0.5, 0.0, 0.5]) {
+            for plane in 0..K::PLANES {
+                let mut stress = [0.0; 6];
+                for (point, share) in self.facts.section.around(height) {
+                    let point = plane * self.facts.section.count() + point;
+                    stress = plus(stress, times(share, self.stress_of(element, point)));
+                    let history = (batch * self.points() + point) * self.facts.width;
+                    own.plastic_strain += place.map_or(0.0, |place| part * share * self.history[history + place].0[lane]);
+                }
+                own.stress = plus(own.stress, times(part, K::turned(state, stress, plane, lane)));
+            }
+            own.plastic_strain = own.plastic_strain.max(0.0);
+        }
+        all
     }
 
     /// Stress xx yy zz xy yz zx of a point in the frame of the element.

@@ -31,6 +31,8 @@ pub enum Needs {
     Shells,
     /// A part of beams.
     Beams,
+    /// Someone who asks for it.
+    Asking,
 }
 
 /// Description of a field: the same for all its frames.

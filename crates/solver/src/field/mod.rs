@@ -179,6 +179,7 @@ fields! {
     laws;
     erosion;
     shells;
+    through;
     beams;
     equations_of_state;
     energy;

@@ -9,8 +9,11 @@ use crate::contact::traces::{State, Traces, Tractions};
 use crate::dimension::Dimension;
 use crate::field::{Cell, NodeFields, OfCell, OfNode, Source};
 use crate::mesh::ElementGroup;
+use crate::rotation::applied;
+use crate::skins::RotatedArm;
 use crate::step::System;
 use crate::tensor::Dim;
+use crate::vector::{dot, minus, plus, unit};
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -32,6 +35,8 @@ where
     tractions: OnceLock<Vec<[f64; 2]>>,
     /// Of the nodes as far as any has a spring.
     states: OnceLock<Vec<State>>,
+    /// Of the nodes of shells' middles; zero of others.
+    directors: OnceLock<Vec<[f64; D]>>,
 }
 
 impl<'a, const D: usize> LiveSnapshot<'a, D>
@@ -39,7 +44,15 @@ where
     Dim<D>: Dimension<D>,
 {
     pub(crate) fn new(system: &'a System<D>, fields: &'a [&'static FieldKind]) -> Self {
-        Self { system, fields, nodes: OnceLock::new(), elements: OnceLock::new(), tractions: OnceLock::new(), states: OnceLock::new() }
+        Self {
+            system,
+            fields,
+            nodes: OnceLock::new(),
+            elements: OnceLock::new(),
+            tractions: OnceLock::new(),
+            states: OnceLock::new(),
+            directors: OnceLock::new(),
+        }
     }
 
     pub(crate) fn elements(&self) -> &[u32] {
@@ -73,6 +86,13 @@ where
         let of =
             || Traces::states(&system.springs, system.mesh.user_nodes.len(), system.contacts.iter().flat_map(|contact| contact.inside()));
         self.states.get_or_init(of).get(node).copied().unwrap_or(State::OPEN)
+    }
+
+    /// The direction normal to a shell at its node, of the middle or of a face; zero at others.
+    pub(crate) fn director(&self, node: usize) -> [f64; D] {
+        let mesh = &self.system.mesh;
+        let middle = node.checked_sub(mesh.first_skin_node()).map_or(node, |face| mesh.skins[face].owner as usize);
+        self.directors.get_or_init(|| directors(self.system))[middle]
     }
 
     /// Values of nodes by the user's numbers, `width` for each.
@@ -150,4 +170,27 @@ pub(crate) struct Column<'v> {
     width: usize,
     of_cell: OfCell,
     values: &'v mut [f64],
+}
+
+/// The mean of the directors of the elements at each node of shells, where it is now; those that are turned
+/// over against the first count the other way.
+fn directors<const D: usize>(system: &System<D>) -> Vec<[f64; D]>
+where
+    Dim<D>: Dimension<D>,
+{
+    let (mesh, rotations) = (&system.mesh, &system.rotations.now);
+    let mut sums = vec![[0.0; D]; mesh.positions.len()];
+    for (group, own) in mesh.groups.iter().zip(&mesh.directions).filter(|(group, _)| !group.outer.is_empty()) {
+        for (&node, &direction) in group.connectivity.iter().zip(own) {
+            // In 2D it is the tangent that is known.
+            let normal = if D == 2 { std::array::from_fn(|k| if k == 0 { -direction[1] } else { direction[0] }) } else { direction };
+            let sum = &mut sums[node as usize];
+            *sum = if dot(*sum, normal) < 0.0 { minus(*sum, normal) } else { plus(*sum, normal) };
+        }
+    }
+    for (node, sum) in sums.iter_mut().enumerate().filter(|(_, sum)| **sum != [0.0; D]) {
+        let now = rotations.place(node as u32).map_or(*sum, |place| applied(&<Dim<D>>::turn(rotations, place), *sum));
+        *sum = unit(now).unwrap_or([0.0; D]);
+    }
+    sums
 }

@@ -18,7 +18,7 @@ pub(super) fn fields() -> Vec<Description> {
             "stress",
             Components::Stress,
             "Pa",
-            "Cauchy stress, mean over the element's points",
+            "Cauchy stress, mean over the element's points, of shells that of the worst layer",
             of_cells(|cell, values| values.copy_from_slice(&cell.state.stress[..values.len()])),
         ),
         VON_MISES,

@@ -109,7 +109,9 @@ where
             let of = |point: usize| self.history[(batch * self.points() + point) * self.facts.width + variable.place].0[lane];
             *value = (0..self.points()).map(of).fold(f64::NEG_INFINITY, f64::max);
         }
+        shown.through = self.through(element);
         let own = &self.elements[batch];
+        shown.thinning = 1.0 - own.thickness.0[lane] / own.thickness_initial.0[lane];
         shown.energy_density = (own.stored.0[lane] + own.besides[0].0[lane]) / self.volume[element];
         let response = vec![Batch::default(); self.points() * RESPONSE];
         let (mut forces, mut moments) = (vec![[[0.0; D]; BATCH]; K::NODES], vec![[[0.0; 3]; BATCH]; K::NODES]);

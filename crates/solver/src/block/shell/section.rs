@@ -94,6 +94,19 @@ impl Points {
         Self::at((0..count * count).map(all))
     }
 
+    /// The two points between or beyond which a height is, with their shares in what varies linearly: exact
+    /// where a point is there.
+    pub(super) fn around(&self, height: f64) -> [(usize, f64); 2] {
+        let last = self.count() - 1;
+        let upper = self.heights.partition_point(|own| *own < height).clamp(last.min(1), last);
+        let lower = upper.saturating_sub(1);
+        if lower == upper {
+            return [(lower, 1.0), (upper, 0.0)];
+        }
+        let share = (height - self.heights[lower]) / (self.heights[upper] - self.heights[lower]);
+        [(lower, 1.0 - share), (upper, share)]
+    }
+
     pub(super) fn count(&self) -> usize {
         self.heights.len()
     }

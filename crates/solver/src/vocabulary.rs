@@ -168,6 +168,16 @@ pub enum Kind {
     Choices(Choices),
     /// A table of its own.
     Table(&'static Section),
+    /// A list of such tables.
+    Tables(&'static Section),
+}
+
+impl Kind {
+    /// The section of a table, or of the tables of a list.
+    #[must_use]
+    pub fn inner(&self) -> Option<&'static Section> {
+        if let Self::Table(inner) | Self::Tables(inner) = self { Some(inner) } else { None }
+    }
 }
 
 /// Whether a key may be left out.
@@ -256,7 +266,8 @@ impl Key {
             | Kind::References(_)
             | Kind::Choice(_)
             | Kind::Choices(_)
-            | Kind::Table(_) => None,
+            | Kind::Table(_)
+            | Kind::Tables(_) => None,
         }
     }
 }

@@ -199,13 +199,17 @@ pub(super) fn named(name: &str, is_3d: bool) -> Found {
     ]) {
         Found::Refused("is of second order: its lumped masses and its contact are not sound in an explicit computation", FIRST)
     } else if starts(&["SC6", "SC8", "CSS", "R3D"]) {
-        Found::Refused("is a continuum shell or a rigid surface, which embate does not compute", "take S4R or C3D8R, with *RIGID BODY where it is rigid")
+        Found::Refused(
+            "is a continuum shell or a rigid surface, which embate does not compute",
+            "take S4R or C3D8R, with *RIGID BODY where it is rigid",
+        )
     } else if starts(&["C3D5"]) {
         Found::Refused("is a pyramid, for which there is no element", "mesh with hexahedra, wedges or tetrahedra")
     } else if starts(&["C3D", "CPE", "CPS", "CAX", "CPEG", "CGAX", "S3", "S4", "STRI", "M3D", "AC", "DC", "CIN"]) {
         Found::Refused("is not one that embate computes (hybrid, coupled, twisting, infinite or thermal)", FIRST)
     } else if starts(&[
-        "R2D", "RAX", "B2", "B3", "PIPE", "ELBOW", "T2D", "T3D", "SPRING", "DASHPOT", "MASS", "ROTARYI", "CONN", "GAP", "SAX", "MAX", "D", "HEATCAP",
+        "R2D", "RAX", "B2", "B3", "PIPE", "ELBOW", "T2D", "T3D", "SPRING", "DASHPOT", "MASS", "ROTARYI", "CONN", "GAP", "SAX", "MAX", "D",
+        "HEATCAP",
     ]) {
         Found::Beside
     } else {

@@ -182,7 +182,12 @@ fn check_positions(deck: &Deck, text: &Text, scale: f64, used: &[bool], is_flat:
         } else if is_flat && z.abs() > OFF_PLANE * size {
             faults.add("nodes off the plane z = 0", || {
                 let message = format!("node {} is at z = {z:e}, off the plane z = 0", node.tag);
-                text.fault(&NODE, node.line, message, "bodies lie in the plane of x and y: move the geometry there; of shells take `element = \"shell4\"`")
+                text.fault(
+                    &NODE,
+                    node.line,
+                    message,
+                    "bodies lie in the plane of x and y: move the geometry there; of shells take `element = \"shell4\"`",
+                )
             });
         }
     }

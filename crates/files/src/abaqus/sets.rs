@@ -3,8 +3,8 @@
 //! Part of [`Deck`]; what they name must stand above them. Members are indices into the deck's nodes and
 //! elements.
 
-use super::element_kind::{Family, LOWER, UPPER};
 use super::deck::{Deck, Scope, Set, Surface, extend};
+use super::element_kind::{Family, LOWER, UPPER};
 use super::text::{Block, Line, Text, folded, shown};
 use crate::abaqus::messages::{SYNTAX, UNKNOWN};
 use embate_solver::error::Fault;

@@ -94,7 +94,7 @@ fn groups_after(out: &mut String, section: &Section) {
 /// The tables that some of the keys stand for.
 fn tables_in(out: &mut String, keys: &[Key]) {
     for key in keys {
-        if let Kind::Table(inner) = key.kind {
+        if let Some(inner) = key.kind.inner() {
             let _ = writeln!(out, "### `{}`\n\n{}\n", header(inner), inner.doc);
             table(out, inner.keys, inner.rules);
             tables_in(out, inner.keys);
@@ -196,6 +196,7 @@ fn words(key: &Key) -> String {
             format!("{}, or a list of them", known.names().iter().map(|name| format!("`\"{name}\"`")).collect::<Vec<_>>().join(" or "))
         }
         Kind::Table(section) => format!("table, see `{}` below", section.name),
+        Kind::Tables(section) => format!("list of tables, see `{}` below", section.name),
         other => value::words(other).trim_start_matches("a ").to_string(),
     }
 }

@@ -48,6 +48,7 @@ pub(crate) struct Record {
     pub(crate) name: String,
     values: BTreeMap<String, Datum>,
     tables: BTreeMap<String, Record>,
+    lists: BTreeMap<String, Vec<Record>>,
     /// Keys that the file has, sound or not, with the places of their values.
     written: BTreeMap<String, Place>,
 }
@@ -87,7 +88,7 @@ impl Record {
 
     /// Whether a key has a sound value, of the file or by default.
     pub(super) fn is_sound(&self, name: &str) -> bool {
-        self.values.contains_key(name) || self.tables.contains_key(name)
+        self.values.contains_key(name) || self.tables.contains_key(name) || self.lists.contains_key(name)
     }
 
     /// Whether a key has this value, a text or a flag; `None` where its value is not sound.
@@ -128,6 +129,10 @@ impl Values for Record {
 
     fn tables(&self) -> Vec<(&str, &dyn Values)> {
         self.tables.iter().map(|(key, record)| (key.as_str(), record as &dyn Values)).collect()
+    }
+
+    fn list(&self, key: &str) -> Option<Vec<&dyn Values>> {
+        Some(self.lists.get(key)?.iter().map(|record| record as &dyn Values).collect())
     }
 }
 
@@ -241,7 +246,7 @@ impl Reader<'_> {
         match (section.form, &entry.node.value) {
             (Form::Single | Form::Inline, Value::Table(entries)) => vec![self.table(section, entries, name, entry.node.place)],
             (Form::Repeated, Value::List(items)) => {
-                items.iter().enumerate().filter_map(|(index, item)| self.item(section, item, index)).collect()
+                items.iter().enumerate().filter_map(|(index, item)| self.item(section, item, &format!("{name}[{index}]"))).collect()
             }
             (Form::Named, Value::Table(entries)) => entries.iter().filter_map(|entry| self.named(section, entry)).collect(),
             _ => {
@@ -253,14 +258,13 @@ impl Reader<'_> {
         }
     }
 
-    fn item(&mut self, section: &Section, item: &Node, index: usize) -> Option<Record> {
-        let path = format!("{}[{index}]", section.name);
+    fn item(&mut self, section: &Section, item: &Node, path: &str) -> Option<Record> {
         if let Value::Table(entries) = &item.value {
-            return Some(self.table(section, entries, &path, item.place));
+            return Some(self.table(section, entries, path, item.place));
         }
         self.faults.value(
             &FORM,
-            &path,
+            path,
             item.place,
             (format!("`{}` is not a list of tables", section.name), format!("write {}", header(section))),
         );
@@ -290,6 +294,11 @@ impl Reader<'_> {
                 Some(key) => match (key.kind, &entry.node.value) {
                     (Kind::Table(section), Value::Table(entries)) => {
                         record.tables.insert(entry.key.clone(), self.table(section, entries, &path, entry.node.place));
+                    }
+                    (Kind::Tables(section), Value::List(items)) if !items.is_empty() => {
+                        let items = items.iter().enumerate();
+                        let read = items.filter_map(|(index, item)| self.item(section, item, &format!("{path}[{index}]"))).collect();
+                        record.lists.insert(entry.key.clone(), read);
                     }
                     _ => record.values.extend(self.datum(key, &entry.node, &path).map(|datum| (entry.key.clone(), datum))),
                 },
@@ -342,7 +351,7 @@ impl Reader<'_> {
         }
         let name = entry.key.as_str();
         let home = |other: &&&Section| other.name != section.name && other.all_keys().any(|key| key.name == name);
-        let within = |key: &&Key| matches!(key.kind, Kind::Table(inner) if inner.all_keys().any(|key| key.name == name));
+        let within = |key: &&Key| key.kind.inner().is_some_and(|inner| inner.all_keys().any(|key| key.name == name));
         let moved = MOVED.iter().find(|(old, _)| section.name.is_empty() && *old == name);
         let help = match nearest(name, known.iter().copied()) {
             _ if moved.is_some() => moved.map_or(String::new(), |(_, help)| (*help).to_string()),

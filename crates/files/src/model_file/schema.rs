@@ -254,6 +254,7 @@ fn of_key(key: &Key) -> Json {
         Kind::Choice(known) => choice(&known.names()),
         Kind::Choices(known) => one_or_more(choice(&known.names())),
         Kind::Table(section) => of_table(section, &all(section)),
+        Kind::Tables(section) => at_least(of_table(section, &all(section)), 1),
     };
     let json = json.with("description", text(key.doc));
     match key.need {

@@ -313,7 +313,7 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
         }
         Kind::Choice(known) => Datum::Text(at.choice(&known.names())?),
         Kind::Choices(known) => Datum::Texts(at.several(|at| at.choice(&known.names()))?),
-        Kind::Table(_) => return at.unlike(),
+        Kind::Table(_) | Kind::Tables(_) => return at.unlike(),
     })
 }
 
@@ -376,6 +376,7 @@ pub(super) fn words(kind: Kind) -> String {
         Kind::References(Some(count)) => format!("a list of {count} names"),
         Kind::References(None) | Kind::Choices(_) => "a name or a list of names".to_string(),
         Kind::Table(_) => "a table".to_string(),
+        Kind::Tables(_) => "a list of tables".to_string(),
     }
 }
 
@@ -418,6 +419,7 @@ pub(super) fn example(key: &Key) -> String {
         }
         Kind::Choice(known) => format!("\"{}\"", known.names().first().copied().unwrap_or("...")),
         Kind::Choices(known) => format!("[\"{}\"]", known.names().first().copied().unwrap_or("...")),
+        Kind::Tables(section) => format!("[{}]", example(&Key { kind: Kind::Table(section), ..*key })),
         Kind::Table(section) => {
             let required = section.keys.iter().filter(|key| key.need == embate_solver::vocabulary::Need::Required);
             format!("{{ {} }}", required.map(|key| format!("{} = {}", key.name, example(key))).collect::<Vec<_>>().join(", "))

@@ -23,6 +23,8 @@ pub struct BlockInput<'a, const D: usize> {
     pub directions: &'a [[f64; D]],
     /// Section of shells.
     pub section: Option<&'a ShellSection>,
+    /// Materials of the layers of the section, if it has any; those beyond are of `material`.
+    pub layers: &'a [&'a Material],
     /// Cross-section of beams.
     pub profile: Option<&'a Profile>,
     /// Its options.
@@ -50,6 +52,7 @@ impl<'a, const D: usize> BlockInput<'a, D> {
             area: 0.0,
             directions: &[],
             section: None,
+            layers: &[],
             profile: None,
             damping: 0.0,
             options: ElementOptions::default(),
@@ -85,8 +88,8 @@ impl Blocks<2> for Dim<2> {
     fn make(input: &BlockInput<'_, 2>) -> Option<Box<dyn Block<2>>> {
         let state = StressState::named(input.stress_state)?;
         if input.element == SHELL2.name {
-            let law = points::layer(input.material, state.is_plane_stress)?;
-            return Some(Box::new(Shells::<Line, 2>::new(input, law, [state.is_plane_stress, state.is_axisymmetric])?));
+            let law_of = |material: &Material| points::layer(material, state.is_plane_stress);
+            return Some(Box::new(Shells::<Line, 2>::new(input, &law_of, [state.is_plane_stress, state.is_axisymmetric])?));
         }
         let law = if state.is_plane_stress { points::plane_stress } else { points::of::<2> };
         of_elements(input, state, law)
@@ -96,13 +99,13 @@ impl Blocks<2> for Dim<2> {
 impl Blocks<3> for Dim<3> {
     fn make(input: &BlockInput<'_, 3>) -> Option<Box<dyn Block<3>>> {
         if input.element == SHELL4.name {
-            return Some(Box::new(Shells::<Quad, 3>::new(input, points::layer_in_3d(input.material)?, [false; 2])?));
+            return Some(Box::new(Shells::<Quad, 3>::new(input, &points::layer_in_3d, [false; 2])?));
         }
         if input.element == SHELL4_FULL.name {
-            return Some(Box::new(Shells::<Full, 3>::new(input, points::layer_in_3d(input.material)?, [false; 2])?));
+            return Some(Box::new(Shells::<Full, 3>::new(input, &points::layer_in_3d, [false; 2])?));
         }
         if input.element == SHELL3.name {
-            return Some(Box::new(Shells::<Triangle, 3>::new(input, points::layer_in_3d(input.material)?, [false; 2])?));
+            return Some(Box::new(Shells::<Triangle, 3>::new(input, &points::layer_in_3d, [false; 2])?));
         }
         if input.element == BEAM2.name {
             return Some(Box::new(Shells::<Beam, 3>::of_beams(input, points::uniaxial(input.material)?)?));

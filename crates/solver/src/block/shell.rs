@@ -18,6 +18,7 @@ mod advance;
 mod as_block;
 mod beam;
 mod bound;
+mod laws;
 mod line;
 mod profile;
 mod quad;
@@ -38,11 +39,12 @@ use super::{Report, SHELL_VALUES, Through};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::material::points::{PointLaw, RESPONSE, Scratch};
 use crate::material::variable::PLASTIC_STRAIN;
-use crate::material::{Family, Parameters, young_and_poisson};
+use crate::material::{Family, young_and_poisson};
 use crate::rotations::Rotations;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use crate::vector::{plus, times};
 use embate_lanes::{BATCH, Batch, Lane};
+use laws::{Held, LawOf, Laws, Stiffness};
 use profile::Profile;
 use section::Points as Section;
 use std::sync::Mutex;
@@ -68,36 +70,63 @@ pub(super) struct Facts {
     is_axisymmetric: bool,
     /// Whether the law wants the volume ratio.
     needs_ratio: bool,
-    /// Places in the history of λ across (of λ² where it is also that out of the plane), and of λ out of the
-    /// plane where that is another.
-    ratios: [Option<usize>; 2],
-    /// Batches of history per point.
+    /// Places in the history of a batch of λ across at each point (of λ² where it is also that out of the
+    /// plane), and of λ out of the plane where that is another.
+    ratios: Vec<[Option<usize>; 2]>,
+    /// Batches of history of a batch of elements.
     width: usize,
     /// Components of a stress.
     components: usize,
     /// K and µ at rest, Pa.
     at_rest: [f64; 2],
+    /// Modulus of a membrane, and shear moduli in the plane and across it, at rest, Pa.
+    moduli: [f64; 3],
+    /// Whether its layers have laws of their own, and whether none of them grows stiffer than at rest.
+    is_layered: bool,
+    is_limited: bool,
+    /// What holds patterns of hourglass in 3D.
+    held: Held,
 }
 
 impl Facts {
     /// Of points with a law, in plane strain or in 3D.
-    fn new<K: ShellKernel<D>, const D: usize>(section: Section, law: &dyn PointLaw) -> Self
+    fn new<K: ShellKernel<D>, const D: usize>(section: Section, laws: &Laws, is_plane_stress: bool) -> Self
     where
         Dim<D>: Space<D>,
     {
-        Self {
+        let (family, at_rest) = (laws.first().family(), laws.stiffness());
+        let mut facts = Self {
             section,
             profile: Profile::default(),
-            family: law.family(),
-            is_isotropic: law.is_stiffest_at_rest() || law.family() == Family::Hyperelastic,
-            is_plane_stress: false,
+            family,
+            is_isotropic: laws.all(|law| law.is_stiffest_at_rest() || law.family() == Family::Hyperelastic),
+            is_plane_stress,
             is_axisymmetric: false,
-            needs_ratio: law.needs_volume() || law.family() == Family::Hyperelastic,
-            ratios: law.ratios(),
-            width: law.state_width(),
+            needs_ratio: !laws.all(|law| !law.needs_volume()) || family == Family::Hyperelastic,
+            ratios: laws.ratios(),
+            width: laws.width(),
             components: <K::Tensor as SymmetricTensor<f64>>::COMPONENTS,
-            at_rest: law.stiffness(),
+            at_rest,
+            moduli: [0.0; 3],
+            is_layered: false,
+            is_limited: false,
+            held: Held::isotropic(young_and_poisson(at_rest), at_rest[1]),
+        };
+        let moduli = |law: &dyn PointLaw| {
+            let [bulk, shear] = law.stiffness();
+            [facts.membrane_modulus(bulk, shear), shear, shear]
+        };
+        facts.moduli = laws.largest(moduli);
+        facts
+    }
+
+    /// The same of layers with laws of their own.
+    fn layered<const D: usize>(self, laws: &Laws) -> Self {
+        if D < 3 {
+            return Self { is_layered: true, ..self };
         }
+        let Stiffness { held, moduli, is_limited } = laws.measured(&self.section);
+        Self { is_layered: true, held, moduli, is_limited, ..self }
     }
 
     /// Modulus of a membrane, Pa, from K and µ: E/(1 − ν²), in plane stress E; of laws whose K and µ bound
@@ -116,24 +145,18 @@ impl Facts {
         }
     }
 
-    /// Moduli of a membrane, and of shear, at rest, Pa.
-    fn moduli(&self) -> [f64; 2] {
-        let [bulk, shear] = self.at_rest;
-        [self.membrane_modulus(bulk, shear), shear]
+    /// The shear modulus that Poisson's ratio is taken from: 0 makes it 1, which bounds that of any layer.
+    #[inline(always)]
+    fn contracting<L: Lane>(&self, shear: L) -> L {
+        if self.is_layered { L::splat(0.0) } else { shear }
     }
 
-    /// E, Pa, and ν at rest.
+    /// λ across of a point, and its product with that out of the plane, from the history of its batch.
     #[inline(always)]
-    fn elastic(&self) -> [f64; 2] {
-        young_and_poisson(self.at_rest)
-    }
-
-    /// λ across of a point, and its product with that out of the plane, from its history.
-    #[inline(always)]
-    fn stretches<L: Lane>(&self, history: &[Batch], at: usize) -> [L; 2] {
-        let Some(place) = self.ratios[0] else { return [L::splat(1.0); 2] };
+    fn stretches<L: Lane>(&self, history: &[Batch], point: usize, at: usize) -> [L; 2] {
+        let [Some(place), beside] = self.ratios[point] else { return [L::splat(1.0); 2] };
         let own = L::load(&history[place], at);
-        match self.ratios[1] {
+        match beside {
             Some(other) => [own, own * L::load(&history[other], at)],
             None if self.is_plane_stress => [own.sqrt(), own],
             None => [own, own],
@@ -164,15 +187,23 @@ pub(super) struct Layers<'a> {
     damped: &'a [Batch],
     /// Thickness at the start, m.
     thickness: &'a Batch,
+    /// Number of the first of these points in the history.
+    first: usize,
 }
 
 impl Layers<'_> {
+    /// λ across of a point, and its product with that out of the plane.
+    #[inline(always)]
+    fn stretches<L: Lane>(&self, facts: &Facts, point: usize, at: usize) -> [L; 2] {
+        facts.stretches(self.history, self.first + point, at)
+    }
+
     /// Present thickness, m.
     #[inline(always)]
     fn thickness_now<L: Lane>(&self, facts: &Facts, at: usize) -> L {
         let mut sum = L::splat(0.0);
         for (p, &weight) in facts.section.weights.iter().enumerate() {
-            let [across, _] = facts.stretches::<L>(&self.history[p * facts.width..][..facts.width], at);
+            let [across, _] = self.stretches::<L>(facts, p, at);
             sum += L::splat(weight) * across;
         }
         L::load(self.thickness, at) * sum
@@ -184,10 +215,11 @@ impl Layers<'_> {
         let count = facts.section.count();
         Self {
             stress: &self.stress[number * count * facts.components..],
-            history: &self.history[number * count * facts.width..],
+            history: self.history,
             response: &self.response[number * count * RESPONSE..],
             damped: if self.damped.is_empty() { self.damped } else { &self.damped[number * count * facts.components..] },
             thickness: self.thickness,
+            first: number * count,
         }
     }
 
@@ -394,7 +426,7 @@ struct Room<const D: usize> {
 
 /// The shells of a part.
 pub(super) struct Shells<K, const D: usize> {
-    law: Box<dyn PointLaw>,
+    laws: Laws,
     facts: Facts,
     /// β of the damping in proportion to the stiffness, s.
     damping: f64,
@@ -429,25 +461,27 @@ where
     K: ShellKernel<D>,
     Dim<D>: Space<D>,
 {
-    /// From what [`super::make`] was given, with the law of its layers; `None` without a section.
-    pub(super) fn new(input: &BlockInput<'_, D>, law: Box<dyn PointLaw>, [is_plane_stress, is_axisymmetric]: [bool; 2]) -> Option<Self> {
+    /// From what [`super::make`] was given; `None` without a section, or where a law is unknown.
+    pub(super) fn new(input: &BlockInput<'_, D>, law_of: LawOf<'_>, [is_plane_stress, is_axisymmetric]: [bool; 2]) -> Option<Self> {
         let section = input.section?;
-        let points = Section::new(section.points, section.rule == crate::model::LOBATTO);
-        let facts = Facts { is_plane_stress, is_axisymmetric, ..Facts::new::<K, D>(points, law.as_ref()) };
-        Some(Self::of(input, law, facts, section.failed_points, [section.thickness, section.fold_angle]))
+        let (laws, points) = Laws::of(input, section, law_of, K::PLANES)?;
+        let facts = Facts { is_axisymmetric, ..Facts::new::<K, D>(points, &laws, is_plane_stress) };
+        let facts = if section.layers.is_empty() { facts } else { facts.layered::<D>(&laws) };
+        Some(Self::of(input, laws, facts, section.failed_points, [section.thickness, section.fold_angle]))
     }
 
     /// The same of beams, with the law of their fibres; `None` without a cross-section.
     pub(super) fn of_beams(input: &BlockInput<'_, D>, law: Box<dyn PointLaw>) -> Option<Self> {
         let given = input.profile?;
         let (profile, points) = Profile::of(given)?;
+        let laws = Laws::one(input.material, law, points.count() * K::PLANES);
         // No stress in both directions across.
-        let facts = Facts { profile, is_plane_stress: true, ..Facts::new::<K, D>(points, law.as_ref()) };
-        Some(Self::of(input, law, facts, given.failed_points, [profile.area, 0.0]))
+        let facts = Facts { profile, ..Facts::new::<K, D>(points, &laws, true) };
+        Some(Self::of(input, laws, facts, given.failed_points, [profile.area, 0.0]))
     }
 
-    fn of(input: &BlockInput<'_, D>, law: Box<dyn PointLaw>, facts: Facts, failed_share: f64, [thickness, fold_angle]: [f64; 2]) -> Self {
-        let density = Parameters::new(&[], &input.material.parameters, &input.material.lists).value("density");
+    fn of(input: &BlockInput<'_, D>, laws: Laws, facts: Facts, failed_share: f64, [thickness, fold_angle]: [f64; 2]) -> Self {
+        let density = laws.density(&facts.section);
         let (points, count, components) = (facts.section.count() * K::PLANES, input.connectivity.len() / K::NODES, facts.components);
         let batches = count.div_ceil(BATCH);
         let scratch = |width: usize| vec![Batch::default(); batches * width];
@@ -456,8 +490,8 @@ where
         for point in rotation.chunks_exact_mut(turn) {
             (0..BATCH).for_each(|lane| <<K::Tensor as SymmetricTensor<f64>>::Rotation as Turn<f64>>::none().store(point, lane));
         }
-        let mut history = scratch(points * facts.width);
-        history.chunks_exact_mut(facts.width).for_each(|point| law.start(point));
+        let mut history = scratch(facts.width);
+        history.chunks_exact_mut(facts.width).for_each(|batch| laws.start(batch));
         let damped = if input.damping > 0.0 { scratch(points * components) } else { vec![Batch::default(); batches.div_ceil(CHUNK)] };
         let mut shells = Self {
             damping: input.damping,
@@ -478,7 +512,7 @@ where
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
             rooms: vec![Mutex::default()],
             kernel: std::marker::PhantomData,
-            law,
+            laws,
             facts,
         };
         shells.begin_elements(input, thickness, fold_angle, density);
@@ -489,7 +523,7 @@ where
         let own =
             input.directions.is_empty().then(|| K::directions(input.connectivity, input.positions, crate::angle::cos_sin(fold_angle)[0]));
         let directions = own.as_deref().unwrap_or(input.directions);
-        let stored = self.law.stored();
+        let stored = self.laws.first().stored();
         for (element, nodes) in input.connectivity.chunks_exact(K::NODES).enumerate() {
             let (batch, lane) = (element / BATCH, element % BATCH);
             let positions: Vec<[f64; D]> = nodes.iter().map(|&node| input.positions[node as usize]).collect();
@@ -534,15 +568,21 @@ where
         self.facts.section.count() * K::PLANES
     }
 
+    /// The history of a batch.
+    fn history_of(&self, batch: usize) -> &[Batch] {
+        &self.history[batch * self.facts.width..][..self.facts.width]
+    }
+
     /// The layers of a batch; responses are those of the last step where they are given.
     fn layers<'a>(&'a self, batch: usize, response: &'a [Batch]) -> Layers<'a> {
         let points = self.points();
         Layers {
             stress: &self.stress[batch * points * self.facts.components..][..points * self.facts.components],
-            history: &self.history[batch * points * self.facts.width..][..points * self.facts.width],
+            history: self.history_of(batch),
             response,
             damped: &[],
             thickness: &self.elements[batch].thickness_initial,
+            first: 0,
         }
     }
 
@@ -551,7 +591,7 @@ where
     fn through(&self, element: usize) -> [Through; 3] {
         let (batch, lane) = (element / BATCH, element % BATCH);
         let state = &self.state[batch * K::STATE..][..K::STATE];
-        let place = self.law.place(&PLASTIC_STRAIN);
+        let history = self.history_of(batch);
         let mut all = [Through::default(); 3];
         let part = 1.0 / K::PLANES as f64;
         for (own, height) in all.iter_mut().zip([-0.5, 0.0, 0.5]) {
@@ -560,8 +600,8 @@ where
                 for (point, share) in self.facts.section.around(height) {
                     let point = plane * self.facts.section.count() + point;
                     stress = plus(stress, times(share, self.stress_of(element, point)));
-                    let history = (batch * self.points() + point) * self.facts.width;
-                    own.plastic_strain += place.map_or(0.0, |place| part * share * self.history[history + place].0[lane]);
+                    let strain = self.laws.place(point, &PLASTIC_STRAIN).map_or(0.0, |place| history[place].0[lane]);
+                    own.plastic_strain += part * share * strain;
                 }
                 own.stress = plus(own.stress, times(part, K::turned(state, stress, plane, lane)));
             }

@@ -165,7 +165,7 @@ where
         let contacts = self.contacts_and_obstacles();
         let contacts = self.sound(contacts)?;
         self.bodies.weigh(&elements.body_forces, &self.mass);
-        let criteria = self.criteria(&elements.blocks);
+        let criteria = self.criteria();
         let criteria = self.sound(criteria)?;
         Ok(Conditions { springs, forces, boundary, contacts, criteria })
     }
@@ -319,10 +319,12 @@ where
                 continue;
             };
             let element = part.element_in(D, group.kind).map_or("", |kind| kind.name);
+            let layers: Vec<&model::Material> = part.materials().map(|name| self.model.materials.get(name).unwrap_or(material)).collect();
             let viscosity = self.model.run.bulk_viscosity;
             let input = BlockInput {
                 area: part.area.unwrap_or(0.0),
                 section: part.section.as_ref(),
+                layers: &layers,
                 profile: part.profile.as_ref(),
                 directions: self.mesh.directions.get(index).map_or(&[], |own| &own[..]),
                 damping: self.model.stiffness_damping(part),

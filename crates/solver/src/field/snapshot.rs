@@ -189,7 +189,7 @@ where
         }
     }
     for (node, sum) in sums.iter_mut().enumerate().filter(|(_, sum)| **sum != [0.0; D]) {
-        let now = rotations.place(node as u32).map_or(*sum, |place| applied(&<Dim<D>>::turn(rotations, place), *sum));
+        let now = rotations.place(node as u32).map_or(*sum, |place| applied(&<Dim<D>>::turn(rotations.numbers_at::<D>(place)), *sum));
         *sum = unit(now).unwrap_or([0.0; D]);
     }
     sums

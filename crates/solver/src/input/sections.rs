@@ -15,7 +15,7 @@ use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
 use crate::vocabulary::Kind::{Choice, Flag, Quantities, Quantity, Table, Text};
 use crate::vocabulary::Need::{self, Optional, Required};
-use crate::vocabulary::{Choices, Form, Key, Kind, More, Section, key};
+use crate::vocabulary::{Choices, Form, Key, More, Section, key};
 use crate::{element, material, output};
 
 /// Largest number of elements of a model.
@@ -171,8 +171,8 @@ pub fn find(path: &str) -> Option<&'static Key> {
     loop {
         let name = steps.next()?;
         let key = here.all_keys().find(|key| key.name == name)?;
-        match (key.kind, steps.clone().next()) {
-            (Kind::Table(inner), Some(_)) => here = inner,
+        match (key.kind.inner(), steps.clone().next()) {
+            (Some(inner), Some(_)) => here = inner,
             _ => return Some(key),
         }
     }
@@ -198,7 +198,7 @@ mod tests {
         let mut all: Vec<&Section> = SECTIONS.to_vec();
         all.push(&TOP);
         for section in &mut all.clone() {
-            all.extend(section.all_keys().filter_map(|key| if let Kind::Table(inner) = key.kind { Some(inner) } else { None }));
+            all.extend(section.all_keys().filter_map(|key| key.kind.inner()));
         }
         for section in all {
             assert!(section.doc.ends_with('.'), "{}", section.name);

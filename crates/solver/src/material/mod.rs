@@ -338,6 +338,12 @@ fn facts(name: &str) -> Option<Facts> {
     with_law(name, Ask)
 }
 
+/// Whether the law called `name` has its stress from the whole deformation; `None` when there is no such law.
+#[must_use]
+pub fn is_hyperelastic(name: &str) -> Option<bool> {
+    facts(name).map(|law| law.family == Family::Hyperelastic)
+}
+
 /// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there
 /// is no such law.
 #[must_use]

@@ -1,11 +1,12 @@
 //! Sections of shells: `section` of a part.
 
-use super::section;
+use super::{Values, section};
+use crate::model::values::Field;
 use crate::quantity::Dimension;
-use crate::quantity::Range::{Between, Positive, UpTo};
+use crate::quantity::Range::{Between, Finite, Positive, UpTo};
 use crate::vocabulary::Choices;
-use crate::vocabulary::Kind::{Angle, Choice, Integer, Quantity};
-use crate::vocabulary::Section;
+use crate::vocabulary::Kind::{Angle, Choice, Integer, Quantity, Reference, Tables};
+use crate::vocabulary::{Rule, Section};
 
 /// Points inside.
 pub const GAUSS: &str = "gauss";
@@ -19,9 +20,13 @@ section! {
         name: "section",
         doc: "The section of shells (`shell2`, in 3D `shell4` and `shell3`): thickness, and layers of points through it. Two Gauss points are exact while \
             the material is elastic; odd numbers of them are a little weak in plastic hinges, even ones a little stiff.",
+        rules: &[Rule::OneOf(&["thickness", "layers"]), Rule::NotBoth("points", "layers")],
         ..Section::EMPTY
     };
-    thickness: f64 = Quantity(Dimension::LENGTH, Positive), Required, "Thickness at the start; it follows the strain.";
+    thickness: f64 = Quantity(Dimension::LENGTH, Positive), Optional("the sum of its layers"), "Thickness at the start; it follows the strain.",
+        read thickness;
+    layers: Vec<ShellLayer> = Tables(&SHELL_LAYER), Optional("one of the part's material"),
+        "Layers of different materials or directions, from the lower face (in 2D the right one) to the upper one.";
     points: usize = Integer(1), Default("5"), "Points through the thickness, 1 to 10 (`lobatto`: 3 to 10); 1 is a membrane without bending.";
     rule: String = Choice(Choices::Words(&[GAUSS, LOBATTO])), Default("\"gauss\""),
         "Where points are: `gauss` inside, `lobatto` with one on each face.";
@@ -29,4 +34,57 @@ section! {
         "Part of its points that have to fail until an element fails.";
     fold_angle: f64 = Angle(Dimension::NONE, Between(0.0, std::f64::consts::FRAC_PI_2)), Default("\"30 deg\""),
         "Elements that meet at a smaller angle are a smooth shell there; at a larger one there is a fold.";
+}
+
+section! {
+    /// A layer of a shell.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct ShellLayer in SHELL_LAYER = Section {
+        name: "layers",
+        doc: "A layer of a shell. Two Gauss points in each are exact while it is elastic, one is as good where there are many layers. \
+            Strains are linear through the whole thickness, so a soft core between stiff faces shears too little.",
+        ..Section::EMPTY
+    };
+    material: String = Reference, Optional("that of the part"), "Name of a `[material.NAME]` section.";
+    thickness: f64 = Quantity(Dimension::LENGTH, Positive), Required, "Thickness at the start; it follows the strain.";
+    angle: f64 = Angle(Dimension::NONE, Finite), Default("0"),
+        "Angle from the projection of x on the shell (of z where the shell is normal to x) to the x of the layer, from which the law \
+            counts its own `angle`; counter-clockwise seen from above, in 3D alone.";
+    points: Option<usize> = Integer(1), Optional("2, with `lobatto` 3"), "Points through the layer, 1 to 10 (`lobatto`: 3 to 10).";
+}
+
+impl Field for Vec<ShellLayer> {
+    fn sound(values: &dyn Values, key: &str) -> Option<Self> {
+        Some(values.list(key)?.into_iter().map(ShellLayer::read).collect())
+    }
+
+    fn placeholder() -> Self {
+        Self::new()
+    }
+}
+
+/// The thickness of a section, m.
+fn thickness(section: &dyn Values) -> f64 {
+    let layers = section.list("layers").unwrap_or_default();
+    if layers.is_empty() { section.or("thickness", 0.0) } else { layers.into_iter().map(|layer| layer.get::<f64>("thickness")).sum() }
+}
+
+impl ShellSection {
+    /// Of layers, with the sum of their thicknesses.
+    #[must_use]
+    pub fn of_layers(layers: Vec<ShellLayer>) -> Self {
+        Self { thickness: layers.iter().map(|layer| layer.thickness).sum(), layers, ..Self::default() }
+    }
+
+    /// The name of the material of one of its layers, given that of its part.
+    #[must_use]
+    pub fn material_of<'a>(&self, layer: &'a ShellLayer, of_part: &'a str) -> &'a str {
+        if layer.material.is_empty() { of_part } else { &layer.material }
+    }
+
+    /// Points through one of its layers.
+    #[must_use]
+    pub fn points_of(&self, layer: &ShellLayer) -> usize {
+        layer.points.unwrap_or(if self.rule == LOBATTO { 3 } else { 2 })
+    }
 }

@@ -51,6 +51,8 @@ pub trait Values {
     fn values(&self) -> &BTreeMap<String, Datum>;
     /// Its tables with their keys, in the order of the keys.
     fn tables(&self) -> Vec<(&str, &dyn Values)>;
+    /// The tables of the list that a key stands for; `None` where it has none.
+    fn list(&self, key: &str) -> Option<Vec<&dyn Values>>;
 }
 
 impl dyn Values + '_ {
@@ -158,6 +160,10 @@ impl Values for LeftOut {
 
     fn tables(&self) -> Vec<(&str, &dyn Values)> {
         Vec::new()
+    }
+
+    fn list(&self, _: &str) -> Option<Vec<&dyn Values>> {
+        None
     }
 }
 

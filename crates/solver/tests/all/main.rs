@@ -39,6 +39,7 @@ mod free_bodies;
 mod hardening;
 mod hourglass;
 mod initial;
+mod layers;
 mod loads;
 mod locking;
 mod johnson_cook;

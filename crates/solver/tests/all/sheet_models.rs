@@ -6,7 +6,7 @@ use crate::shells::section;
 use embate_solver::model::{Contact, Cylinder, Model, Motion, Partners, Placement, Rectangle, Shape, ShellSection};
 
 /// A sheet or a skin of the material `soft`, moved to a place.
-fn sheet(model: &mut Model, name: &str, shape: impl Into<Shape>, thickness: f64, translation: [f64; 3], velocity: [f64; 3]) {
+pub(crate) fn sheet(model: &mut Model, name: &str, shape: impl Into<Shape>, thickness: f64, translation: [f64; 3], velocity: [f64; 3]) {
     add(model, name, shape.into(), [0.0; 2]);
     let part = model.parts.last_mut().unwrap();
     part.element = "shell4".into();
@@ -14,12 +14,12 @@ fn sheet(model: &mut Model, name: &str, shape: impl Into<Shape>, thickness: f64,
     part.placement = Placement { translation, ..Placement::default() };
 }
 
-fn square(size: f64, elements: usize) -> Rectangle {
+pub(crate) fn square(size: f64, elements: usize) -> Rectangle {
     Rectangle { corner: [-0.5 * size; 2], size: [size; 2], elements: [elements; 2], ..Rectangle::default() }
 }
 
 /// Sheets of steel that flows.
-fn steel(end: f64, yields: f64) -> Model {
+pub(crate) fn steel(end: f64, yields: f64) -> Model {
     let mut model = model(end);
     let mut flows = material("j2", 0.3);
     for (name, value) in [("young", 200e9), ("density", 7800.0), ("yield", yields), ("hardening", 1e9)] {
@@ -29,7 +29,7 @@ fn steel(end: f64, yields: f64) -> Model {
     model
 }
 
-fn all_touch(model: &mut Model, friction: f64) {
+pub(crate) fn all_touch(model: &mut Model, friction: f64) {
     model.contacts.push(Contact {
         name: "all".into(),
         partners: Partners::Bodies(Vec::new()),
@@ -39,7 +39,7 @@ fn all_touch(model: &mut Model, friction: f64) {
 }
 
 /// Two sheets, one of them turned, and a pipe, which hit each other.
-fn crash(end: f64, elements: usize) -> Model {
+pub(crate) fn crash(end: f64, elements: usize) -> Model {
     let mut model = steel(end, 300e6);
     sheet(&mut model, "lower", square(0.1, elements), 0.002, [0.0; 3], [0.0; 3]);
     sheet(&mut model, "upper", square(0.06, elements), 0.001, [0.01, 0.005, 0.008], [30.0, 0.0, -60.0]);

@@ -3,24 +3,25 @@
 
 use crate::shells::section;
 use crate::shells_in_space::Driven;
-use embate_solver::model::Material;
+use embate_solver::block::BlockInput;
+use embate_solver::model::{Material, ShellSection};
 use embate_solver::rigid::space::Attitude;
 use std::f64::consts::FRAC_PI_2;
 
 type Vector = [f64; 3];
 
 /// A mesh of n × m quadrilaterals (or twice as many triangles), held and loaded.
-struct Problem {
+pub(crate) struct Problem {
     sheet: Driven,
     start: Vec<Vector>,
     cells: Vec<u32>,
     corners: usize,
     size: [usize; 2],
     held: Vec<bool>,
-    load: Vec<f64>,
+    pub(crate) load: Vec<f64>,
 }
 
-fn elastic(young: f64, poisson: f64) -> Material {
+pub(crate) fn elastic(young: f64, poisson: f64) -> Material {
     let mut material = crate::patches::material("elastic", poisson);
     material.parameters.insert("young".into(), young);
     material
@@ -29,9 +30,21 @@ fn elastic(young: f64, poisson: f64) -> Material {
 impl Problem {
     fn new(
         element: &str,
-        [n, m]: [usize; 2],
+        size: [usize; 2],
         material: &Material,
         thickness: f64,
+        smooth: bool,
+        at: impl Fn(f64, f64) -> [Vector; 2],
+    ) -> Self {
+        Self::of(element, size, material, (&section(thickness), &[]), smooth, at)
+    }
+
+    /// With a section, and the materials of its layers.
+    pub(crate) fn of(
+        element: &str,
+        [n, m]: [usize; 2],
+        material: &Material,
+        (section, layers): (&ShellSection, &[&Material]),
         smooth: bool,
         at: impl Fn(f64, f64) -> [Vector; 2],
     ) -> Self {
@@ -45,17 +58,19 @@ impl Problem {
         let cells: Vec<u32> = quads.flat_map(|[a, b, c, d]| if corners == 4 { vec![a, b, c, d] } else { vec![a, b, c, a, c, d] }).collect();
         // Else the mean of the elements around each node.
         let directions: Vec<Vector> = cells.iter().filter(|_| smooth).map(|&node| points[node as usize][1]).collect();
-        let sheet = Driven::new(element, material, &section(thickness), &start, &cells, &directions);
+        let input =
+            BlockInput { section: Some(section), layers, directions: &directions, ..BlockInput::new(element, material, &cells, &start) };
+        let sheet = Driven::of(&input);
         let count = 6 * start.len();
         Self { sheet, start, cells, corners, size: [n, m], held: vec![false; count], load: vec![0.0; count] }
     }
 
-    fn node(&self, i: usize, j: usize) -> usize {
+    pub(crate) fn node(&self, i: usize, j: usize) -> usize {
         j * (self.size[0] + 1) + i
     }
 
     /// Holds these of u_x u_y u_z ω_x ω_y ω_z at all nodes where `on` says so.
-    fn hold(&mut self, on: impl Fn(usize, usize) -> bool, which: &[usize]) {
+    pub(crate) fn hold(&mut self, on: impl Fn(usize, usize) -> bool, which: &[usize]) {
         for j in 0..=self.size[1] {
             for i in (0..=self.size[0]).filter(|&i| on(i, j)) {
                 let node = self.node(i, j);
@@ -85,7 +100,7 @@ impl Problem {
     }
 
     /// Displacements and rotations.
-    fn solve(&mut self) -> Vec<f64> {
+    pub(crate) fn solve(&mut self) -> Vec<f64> {
         let count = self.load.len();
         let still = vec![Attitude::default(); self.start.len()];
         let mut matrix = vec![vec![0.0; count]; count];
@@ -238,7 +253,7 @@ fn plate(element: &str, n: usize, slenderness: f64, rough: f64) -> f64 {
     plate.displacement(0, 0, 2) * stiffness / 0.001_265_32
 }
 
-fn is_near(what: &str, value: f64, expected: f64, tolerance: f64) {
+pub(crate) fn is_near(what: &str, value: f64, expected: f64, tolerance: f64) {
     println!("{what}: {value:.4}, expected {expected}");
     assert!((value / expected - 1.0).abs() < tolerance, "{what}: {value} instead of {expected}");
 }

@@ -210,7 +210,13 @@ pub(super) fn shell(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault>
     let thickness = of_sheet(importer, at, &numbers)?;
     let is_gauss = block.is("SECTION INTEGRATION", "GAUSS");
     // As many as Abaqus takes where nothing is said; of a general section two are exact.
-    let usual = if is_general { 2.0 } else if is_gauss { 3.0 } else { 5.0 };
+    let usual = if is_general {
+        2.0
+    } else if is_gauss {
+        3.0
+    } else {
+        5.0
+    };
     let asked = numbers.get(1).copied().flatten().filter(|_| !is_general).unwrap_or(usual);
     if asked < 1.0 || asked.fract() != 0.0 {
         let message = format!("{asked} points through the thickness");
@@ -220,7 +226,9 @@ pub(super) fn shell(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault>
     if !is_general {
         let more = if points as f64 == asked { String::new() } else { format!(", {points} instead of {asked}") };
         if !is_gauss || !more.is_empty() {
-            let text = format!("points through the thickness are those of Gauss{more}: elastic shells are alike, plastic bending differs by a few per cent");
+            let text = format!(
+                "points through the thickness are those of Gauss{more}: elastic shells are alike, plastic bending differs by a few per cent"
+            );
             importer.approximated(at, &text);
         }
     }

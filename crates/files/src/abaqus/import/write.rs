@@ -2,8 +2,8 @@
 //! parts is in `write_conditions.rs`.
 
 use super::material::Material;
-use super::section::Section;
 use super::report::Outcome::{Ignored, Used};
+use super::section::Section;
 use super::units::number;
 use super::{Importer, MESH_NAME};
 use crate::abaqus::deck::Element;
@@ -224,7 +224,10 @@ impl Importer<'_> {
     fn element(&mut self, part: &Part, kinds: &BTreeMap<&str, &'static ElementKind>) -> Option<&'static str> {
         if let Some(kind) = kinds.values().find(|kind| kind.family.has_faces() || kind.family == Family::Beam) {
             for kind in kinds.values().filter(|kind| !kind.differs.is_empty()) {
-                self.approximated(part.at, &format!("part {}: {} are computed as {}: {}", part.name, kind.name, kind.element, kind.differs));
+                self.approximated(
+                    part.at,
+                    &format!("part {}: {} are computed as {}: {}", part.name, kind.name, kind.element, kind.differs),
+                );
             }
             let quadrilaterals = kinds.values().find(|kind| kind.cell == CellKind::Quadrilateral);
             return Some(quadrilaterals.map_or(kind.element, |kind| kind.element));

@@ -247,9 +247,9 @@ impl Importer<'_> {
             if spins.len() == axes && spins.iter().all(|(_, text)| text == "0") {
                 fixed.push("\"rotation\"".into());
             } else {
-                moved.extend((!spins.is_empty()).then(|| {
-                    ("spin", spins.iter().map(|(letter, text)| format!("{letter} = {text}")).collect())
-                }));
+                moved.extend(
+                    (!spins.is_empty()).then(|| ("spin", spins.iter().map(|(letter, text)| format!("{letter} = {text}")).collect())),
+                );
             }
             if fixed.is_empty() && moved.is_empty() {
                 continue;

@@ -196,6 +196,7 @@ fn values(kind: Kind) -> Vec<Bad> {
         Kind::Choices(_) => {
             vec![bad("\"nonsense\"", "", "can't be"), bad("[]", "", "is empty"), bad("[\"nonsense\"]", "[0]", "can't be")]
         }
+        Kind::Tables(_) => ["5", "[]", "\"a\"", "{}"].map(|value| bad(value, "", "must be a list of tables")).into(),
         Kind::Table(_) => ["5", "[]", "\"a\"", "true"].map(|value| bad(value, "", "must be a table")).into(),
     }
 }

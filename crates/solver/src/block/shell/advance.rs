@@ -1,6 +1,7 @@
 //! A step of shells: strips of elements go through strain, law, damping and forces; chunks of strips are
 //! shared by threads, and their reports joined in order.
 
+use super::laws::Laws;
 use super::{BATCH, Batch, CHUNK, Corners, Facts, Layers, Pulls, Room, ShellBatch, ShellKernel, Shells, Strains};
 use crate::block::strip::{ForEachBatch, Parts, STRIP};
 use crate::block::{Motion, NodalForces, Report, damping};
@@ -125,10 +126,11 @@ where
         let own = &mut self.elements[batch];
         let layers = Layers {
             stress: &self.stress[points.start * components..points.end * components],
-            history: &self.history[points.start * width..points.end * width],
+            history: &self.history[batch * width..(batch + 1) * width],
             response: &self.response[points.start * RESPONSE..points.end * RESPONSE],
             damped,
             thickness: &own.thickness_initial,
+            first: 0,
         };
         let state = &self.state[batch * K::STATE..][..K::STATE];
         let there = L::splat(0.5).less(L::load(&own.live, at));
@@ -163,11 +165,12 @@ where
         let factor = L::splat(if time_step > 0.0 { beta / time_step } else { 0.0 });
         let components = self.facts.components;
         let mut work = L::splat(0.0);
-        for p in batch * self.points..(batch + 1) * self.points {
+        let history = &self.history[batch * self.facts.width..][..self.facts.width];
+        for (point, p) in (batch * self.points..(batch + 1) * self.points).enumerate() {
             let strain = &self.strain[p * components..][..components];
             let stiffness = [L::load(&self.response[p * RESPONSE + 2], at), L::load(&self.response[p * RESPONSE + 3], at)];
             let new = K::elastic::<L>(self.facts, strain, stiffness, at);
-            let [_, stretch] = self.facts.stretches::<L>(&self.history[p * self.facts.width..][..self.facts.width], at);
+            let [_, stretch] = self.facts.stretches::<L>(history, point, at);
             let volume = L::load(&self.volume[p], at) * stretch;
             let kept = &mut self.damped[p * components..][..components];
             for (c, kept) in kept.iter_mut().enumerate() {
@@ -185,7 +188,8 @@ where
 
 /// What is the same for all tasks.
 struct Common<'a, const D: usize> {
-    law: &'a dyn crate::material::points::PointLaw,
+    laws: &'a Laws,
+    needs_rotation: bool,
     facts: &'a Facts,
     damping: f64,
     slots: &'a [u32],
@@ -221,7 +225,8 @@ where
         }
         let damped_size = if self.damping > 0.0 { CHUNK * points * components } else { 1 };
         let common = Common {
-            law: self.law.as_ref(),
+            laws: &self.laws,
+            needs_rotation: !self.laws.all(|law| !law.needs_rotation()),
             facts: &self.facts,
             damping: self.damping,
             slots: &self.slots,
@@ -237,7 +242,7 @@ where
             Chunks::new(&mut self.elements, CHUNK),
             Chunks::new(&mut self.stress, CHUNK * points * components),
             Chunks::new(&mut self.damped, damped_size),
-            Chunks::new(&mut self.history, CHUNK * points * width),
+            Chunks::new(&mut self.history, CHUNK * width),
             Chunks::new(pulls.forces, nodes),
             Chunks::new(pulls.moments, nodes),
             Chunks::new(&mut self.reports, 1),
@@ -260,14 +265,14 @@ where
             let to = (from + STRIP).min(count);
             let batches = to - from;
             room.fit::<K>(batches, points, components);
-            let turns = if K::ROTATES && common.law.needs_rotation() { common.rotation.len() / STRIP * batches } else { 0 };
+            let turns = if K::ROTATES && common.needs_rotation { common.rotation.len() / STRIP * batches } else { 0 };
             room.rotation.resize(turns, Batch::default());
             for batch in 0..batches {
                 let nodes = batch * K::NODES..(batch + 1) * K::NODES;
                 Self::gather(common, chunk.first + from + batch, &mut room.positions[nodes.clone()], &mut room.rotations[nodes]);
             }
             let stress = &mut chunk.stress[from * points * components..to * points * components];
-            let history = &mut chunk.history[from * points * width..to * points * width];
+            let history = &mut chunk.history[from * width..to * width];
             let state = &mut chunk.state[from * K::STATE..to * K::STATE];
             let elements = &mut chunk.elements[from..to];
             let Room { positions, rotations, strain, ratio, rotation, volume, response, forces, moments, law } = &mut *room;
@@ -285,7 +290,7 @@ where
                 volume: &mut *volume,
                 kernel: PhantomData,
             }));
-            common.law.respond(
+            common.laws.respond(
                 level,
                 Points {
                     time_step: motion.time_step,
@@ -298,6 +303,7 @@ where
                     response: &mut *response,
                     scratch: law,
                 },
+                batches,
             );
             let damped =
                 if common.damping > 0.0 { &mut chunk.damped[from * points * components..to * points * components] } else { &mut [][..] };

@@ -2,7 +2,7 @@
 
 use super::{Pulls, ShellKernel, Shells};
 use crate::archive::{Archive, ArchiveResult, Persist};
-use crate::block::initial::{self, Initial, Wrong};
+use crate::block::initial::{Initial, Wrong};
 use crate::block::{Block, ElementState, Motion, NodalForces, Report, damping};
 use crate::failure::{Criterion, Seen};
 use crate::material::Variable;
@@ -31,8 +31,7 @@ where
         stress
     }
     fn variable(&self, variable: &Variable) -> Batch {
-        let first = (self.batch * self.shells.points() + self.point) * self.shells.facts.width;
-        self.shells.law.place(variable).map_or(Batch::default(), |place| self.shells.history[first + place])
+        self.shells.laws.place(self.point, variable).map_or(Batch::default(), |place| self.shells.history_of(self.batch)[place])
     }
     fn time_step_squared(&self) -> Batch {
         self.shells.elements[self.batch].time_step_squared
@@ -105,9 +104,10 @@ where
         let worst = stresses.max_by(|(_, a), (_, b)| crate::tensor::von_mises(a).total_cmp(&crate::tensor::von_mises(b)));
         let (plane, worst) = worst.unwrap_or_default();
         let mut shown = ElementState { stress: K::turned(state, worst, plane, lane), ..ElementState::default() };
-        for (value, variable) in shown.variables.iter_mut().zip(self.law.variables()) {
-            let of = |point: usize| self.history[(batch * self.points() + point) * self.facts.width + variable.place].0[lane];
-            *value = (0..self.points()).map(of).fold(f64::NEG_INFINITY, f64::max);
+        let history = self.history_of(batch);
+        for (value, variable) in shown.variables.iter_mut().zip(self.laws.variables()) {
+            let of = |point: usize| self.laws.place(point, variable).map(|place| history[place].0[lane]);
+            *value = (0..self.points()).filter_map(of).fold(f64::NEG_INFINITY, f64::max);
         }
         shown.through = self.through(element);
         let own = &self.elements[batch];
@@ -121,7 +121,19 @@ where
     }
 
     fn law(&self) -> Option<&dyn PointLaw> {
-        Some(self.law.as_ref())
+        Some(self.laws.first())
+    }
+
+    fn wave_modulus(&self) -> f64 {
+        self.laws.largest(|law| [law.stiffness()[0] + 4.0 / 3.0 * law.stiffness()[1]])[0]
+    }
+
+    fn bulk_modulus(&self) -> f64 {
+        self.laws.stiffness()[0]
+    }
+
+    fn index_of(&self, variable: &Variable) -> Option<usize> {
+        self.laws.variables().iter().position(|own| *own == variable)
     }
 
     fn scale_mass(&mut self, element: usize, factor: f64) {
@@ -131,7 +143,7 @@ where
 
     fn begin(&mut self, initial: &Initial<'_>, _positions: &[[f64; D]]) -> Result<(), Wrong> {
         if let Some(temperature) = initial.temperature {
-            initial::warm(self.law.as_ref(), &mut self.history, temperature)?;
+            self.laws.warm(&mut self.history, temperature)?;
         }
         Ok(())
     }
@@ -142,19 +154,8 @@ where
 
     fn failed(&self, criteria: &[Criterion], _parallel: bool) -> Vec<(u32, u32)> {
         let mut failed = Vec::new();
-        let needed = self.failed_share * self.points() as f64 - 1e-9;
         for batch in 0..self.elements.len() {
-            let mut first = [None; BATCH];
-            for (number, criterion) in (0..).zip(criteria) {
-                let mut counts = [0.0; BATCH];
-                for point in 0..self.points() {
-                    let fails = (criterion.kind.fails)(&Look { shells: self, batch, point }, criterion.limit);
-                    counts.iter_mut().zip(fails).for_each(|(count, fails)| *count += f64::from(u8::from(fails)));
-                }
-                for (first, count) in first.iter_mut().zip(counts) {
-                    *first = first.or((count > 0.0 && count >= needed).then_some(number));
-                }
-            }
+            let first = if self.facts.is_layered { self.failing_layers(batch, criteria) } else { self.failing(batch, criteria) };
             let elements = (batch * BATCH..).zip(first).filter(|&(element, _)| element < self.count && self.is_alive(element));
             failed.extend(elements.filter_map(|(element, first)| Some((element as u32, first?))));
         }
@@ -194,5 +195,52 @@ where
             self.sum_reports();
         }
         Ok(())
+    }
+}
+
+impl<K, const D: usize> Shells<K, D>
+where
+    K: ShellKernel<D>,
+    Dim<D>: Space<D>,
+{
+    /// Points that have to fail until an element fails.
+    fn needed(&self) -> f64 {
+        self.failed_share * self.points() as f64 - 1e-9
+    }
+
+    /// The first criterion by which enough points of each element of a batch fail.
+    fn failing(&self, batch: usize, criteria: &[Criterion]) -> [Option<u32>; BATCH] {
+        let mut first = [None; BATCH];
+        for (number, criterion) in (0..).zip(criteria) {
+            let mut counts = [0.0; BATCH];
+            for point in 0..self.points() {
+                let fails = (criterion.kind.fails)(&Look { shells: self, batch, point }, criterion.limit);
+                counts.iter_mut().zip(fails).for_each(|(count, fails)| *count += f64::from(u8::from(fails)));
+            }
+            for (first, count) in first.iter_mut().zip(counts) {
+                *first = first.or((count > 0.0 && count >= self.needed()).then_some(number));
+            }
+        }
+        first
+    }
+
+    /// The same of layers with criteria of their own: a point fails by any of these. A step is that of all.
+    fn failing_layers(&self, batch: usize, criteria: &[Criterion]) -> [Option<u32>; BATCH] {
+        let (mut first, mut counts) = ([None; BATCH], [0.0; BATCH]);
+        for point in 0..self.points() {
+            let mut own = [None; BATCH];
+            for (number, criterion) in (0u32..).zip(criteria) {
+                if criterion.kind.limit.name != "time_step" && !self.laws.counts_at(number as usize, point) {
+                    continue;
+                }
+                let fails = (criterion.kind.fails)(&Look { shells: self, batch, point }, criterion.limit);
+                own.iter_mut().zip(fails).for_each(|(own, fails)| *own = own.or(fails.then_some(number)));
+            }
+            for ((first, count), own) in first.iter_mut().zip(&mut counts).zip(own) {
+                *count += f64::from(u8::from(own.is_some()));
+                *first = first.or(own);
+            }
+        }
+        std::array::from_fn(|lane| first[lane].filter(|_| counts[lane] >= self.needed()))
     }
 }

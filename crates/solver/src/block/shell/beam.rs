@@ -216,7 +216,7 @@ impl ShellKernel<3> for Beam {
         let shape = Shape::<f64>::new(way, [triad; 2]);
         let mut state: Vec<f64> = triad.into_iter().chain([length]).chain(shape.all()).collect();
         state.resize(STATE, 0.0);
-        let [young, shear] = facts.moduli();
+        let [young, shear, _] = facts.moduli;
         let (round, factor) = (profile.inertia[0].max(profile.inertia[1]), profile.shear[0].max(profile.shear[1]));
         let by_shear = young / (factor * shear) - 1.0;
         let sheared = if by_shear > 0.0 { length * length / (4.0 * by_shear) } else { 0.25 * length * length };
@@ -278,7 +278,7 @@ impl ShellKernel<3> for Beam {
         let initial = L::load(layers.thickness, at);
         let mut section = zero;
         for (p, &weight) in facts.section.weights.iter().enumerate() {
-            let [_, stretch] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
+            let [_, stretch] = layers.stretches::<L>(facts, p, at);
             section += L::splat(weight) * stretch;
         }
         let square = if matches!(facts.family, Family::Rate) { section } else { one };
@@ -287,7 +287,7 @@ impl ShellKernel<3> for Beam {
         let (mut force, mut moment) = ([zero; 3], [zero; 3]);
         let (mut young, mut determinant) = (zero, one);
         for (p, &weight) in facts.section.weights.iter().enumerate() {
-            let [_, stretch] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
+            let [_, stretch] = layers.stretches::<L>(facts, p, at);
             let [along, ..] = layers.stress_of::<Plane<L>, L>(p, at).0;
             let (bulk, stiff) = (L::load(&layers.response[p * RESPONSE + 2], at), L::load(&layers.response[p * RESPONSE + 3], at));
             let [y, z] = [L::splat(facts.section.sides[p]) * scale, L::splat(facts.section.heights[p]) * scale];

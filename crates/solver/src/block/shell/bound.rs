@@ -1,6 +1,7 @@
 //! What bounds the stable step of shells in 3D: m ω² of motion in the plane of an element and across it, and
 //! both together.
 
+use super::Facts;
 use super::surface::{Frame, Vector, arc};
 use crate::tensor::{Dim, Matrix, Space, dot, product};
 use embate_lanes::Lane;
@@ -28,6 +29,13 @@ pub(super) fn steepest<L: Lane>(m: &Matrix<L, 2>) -> L {
     let difference = m[0][0] - m[1][1];
     let root = (difference * difference + L::splat(4.0) * m[0][1] * m[0][1]).sqrt();
     L::splat(0.5) * (m[0][0] + m[1][1] + root)
+}
+
+/// Moduli of layers with laws of their own, from the largest of each: one that is soft in shear may be stiff
+/// against stretches in both directions.
+#[inline(always)]
+pub(super) fn of_layers<L: Lane>(facts: &Facts, [membrane, shear, across]: [L; 3]) -> [L; 3] {
+    if facts.is_limited { facts.moduli.map(L::splat) } else { [membrane + L::splat(2.0) * shear, shear, across] }
 }
 
 /// C V (max(1 − s, 0) T + s Λ) with the trace T and the larger eigenvalue Λ of the metric, s = 2 µ/C: what

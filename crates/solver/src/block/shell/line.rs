@@ -145,13 +145,13 @@ fn shape<L: Lane>([x, y]: [[L; 2]; 2], mean: L, bend: L) -> (Shape<L>, [L; 4]) {
 impl Line {
     /// Inertia of a node by its mass, m²: see the head of the file.
     fn inertia(facts: &Facts, thickness: f64, [length, radius]: [f64; 2]) -> f64 {
-        let [membrane, shear] = facts.moduli();
+        let [membrane, shear, _] = facts.moduli;
         let shear = SHEAR * shear;
         let least = thickness * thickness / 12.0;
         if !facts.is_axisymmetric {
             return least.max(length * length / (4.0 * (membrane / shear - 1.0)));
         }
-        let all = Self::of_revolution(membrane, shear / SHEAR, [length, radius]);
+        let all = Self::of_revolution(membrane, facts.contracting(shear / SHEAR), [length, radius]);
         let rest = all - 4.0 * shear / (length * length);
         if rest > 0.0 { least.max((shear + all * least) / rest) } else { least.max(0.25 * length * length) }
     }
@@ -317,7 +317,7 @@ impl ShellKernel<2> for Line {
         let (mut normal, mut moment, mut transverse, mut hoop, mut hoop_moment) = (zero, zero, zero, zero, zero);
         let (mut section, mut membrane, mut shear, mut determinant) = (zero, zero, zero, one);
         for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
-            let [_, stretch] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
+            let [_, stretch] = layers.stretches::<L>(facts, p, at);
             let [xx, _, zz, xy] = layers.stress_of::<Tensor<2, L>, L>(p, at).0;
             let (bulk, stiff) = (L::load(&layers.response[p * RESPONSE + 2], at), L::load(&layers.response[p * RESPONSE + 3], at));
             let z = L::splat(height) * heights;
@@ -406,7 +406,7 @@ fn bound<L: Lane>(
     let bend = thickness * thickness / (L::splat(12.0) * inertia);
     let across = L::splat(SHEAR) * shear * section * length * (four / square + one / inertia);
     let material = if facts.is_axisymmetric {
-        let along = section * length * Line::of_revolution(membrane, shear, [length, now.radius]);
+        let along = section * length * Line::of_revolution(membrane, facts.contracting(shear), [length, now.radius]);
         along.max(across) + along * bend
     } else {
         let along = four * membrane * section / length;

@@ -177,15 +177,19 @@ struct Held<L> {
 impl<L: Lane> Held<L> {
     #[inline(always)]
     fn new(facts: &Facts, begin: &Measures<L>, thickness: L) -> Self {
-        let [young, poisson] = facts.elastic();
+        let crate::block::shell::Held { young, side, poisson, bending: bent, shear, shear_side } = facts.held;
         let third = L::splat(4.0 / 3.0) * Dim::<2>::determinant(&begin.map);
         let g = begin.inverse();
         let stiff = L::splat(young) * thickness * third;
         let mixed = -(L::splat(poisson) * stiff * (g[0][0] * g[0][1] + g[1][0] * g[1][1]));
-        let membrane = [[stiff * (g[0][0] * g[0][0] + g[1][0] * g[1][0]), mixed], [mixed, stiff * (g[0][1] * g[0][1] + g[1][1] * g[1][1])]];
-        let shear = L::splat(SHEAR * facts.at_rest[1]) * thickness * third;
-        let bending = crate::tensor::scaled(membrane, thickness * thickness * L::splat(1.0 / 12.0));
-        Self { membrane, bending, shear: [shear * both(g[0], g[0]), shear * both(g[1], g[1])] }
+        let along = stiff * (g[0][0] * g[0][0] + g[1][0] * g[1][0]);
+        let membrane = [[along, mixed], [mixed, stiff * (g[0][1] * g[0][1] + g[1][1] * g[1][1]) * L::splat(side)]];
+        let shear = L::splat(SHEAR * shear) * thickness * third;
+        let [[a, b], [_, d]] = crate::tensor::scaled(membrane, thickness * thickness * L::splat(1.0 / 12.0));
+        let [first, both, second] = bent.map(L::splat);
+        let bending = [[a * first, b * both], [b * both, d * second]];
+        let of = |g: [L; 2]| shear * (g[0] * g[0] + g[1] * g[1] * L::splat(shear_side));
+        Self { membrane, bending, shear: [of(g[0]), of(g[1])] }
     }
 }
 
@@ -257,7 +261,7 @@ impl ShellKernel<3> for Quad {
         let volume = volumes.iter().sum();
         let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, thickness));
         let inertia = bound::inertia(thickness, Self::AREA * area, 0.0, |inertia| {
-            bounds(&form, &inverse, &held, skew, [thickness; 2], facts.moduli(), [inertia, volume])
+            bounds(&form, &inverse, &held, skew, [thickness; 2], facts.moduli, [inertia, volume])
         });
         Start { state, areas: form.areas(), volumes, inertia }
     }
@@ -277,7 +281,7 @@ impl ShellKernel<3> for Quad {
         let held = Held::new(facts, &begin, thickness);
         let [warp, twist] = form.warped(loaded(state, SKEW, at));
         let [mean, bending, stress] = loaded::<L, 3>(strains.flow, 0, at);
-        let [young, _] = facts.elastic();
+        let young = facts.held.young;
         let volume = thickness * L::splat(Self::AREA) * Dim::<2>::determinant(&begin.map);
         let most = L::splat(STRENGTH * STRENGTH / (2.0 * young)) * stress * stress * volume;
         let lost = Self::flow(state, &held.membrane, 0, frame.seen(warp), [mean, most], there, at)
@@ -398,7 +402,7 @@ fn bounds<L: Lane>(
     held: &Held<L>,
     skew: [L; 2],
     [initial, thickness]: [L; 2],
-    [membrane, shear]: [L; 2],
+    [membrane, shear, transverse]: [L; 3],
     [inertia, volume]: [L; 2],
 ) -> [L; 3] {
     let (zero, one, two) = (L::splat(0.0), L::splat(1.0), L::splat(2.0));
@@ -416,7 +420,7 @@ fn bounds<L: Lane>(
     let slid = [[d0 + d2 + turning * (g1 + q), mixed], [mixed, d0 + d1 + turning * (g2 + q)]];
     let mixed = d0 + turning * q;
     let varied = [[slid[0][0], mixed], [mixed, slid[1][1]]];
-    let across = L::splat(SHEAR) * shear * volume * bound::largest(&metric, &slid);
+    let across = L::splat(SHEAR) * transverse * volume * bound::largest(&metric, &slid);
     let across_held = bound::largest(&[[held.shear[0], zero], [zero, held.shear[1]]], &varied);
     let plane = along + warping;
     let plate = across.max(along * bend + warping * bend_held) + across_held;

@@ -93,9 +93,9 @@ impl<L: Lane> Point<L> {
 
     /// m ω² in the plane and across it, N/m.
     #[inline(always)]
-    fn bounds(&self, form: &Form<L>, inverse: &Matrix<L, 2>, thickness: L, moduli: [L; 2], [inertia, volume]: [L; 2]) -> [L; 2] {
+    fn bounds(&self, form: &Form<L>, inverse: &Matrix<L, 2>, thickness: L, moduli: [L; 3], [inertia, volume]: [L; 2]) -> [L; 2] {
         let Self { xi, eta, .. } = *self;
-        let along = bound::membrane(&bound::metric(&self.sharpened(inverse)), moduli, volume);
+        let along = bound::membrane(&bound::metric(&self.sharpened(inverse)), [moduli[0], moduli[1]], volume);
         let bend = bound::folding(form.mean, &self.d, ARC) * thickness * thickness / (L::splat(12.0) * inertia);
         let turning = L::splat(1.0) / inertia;
         // What g₁ and q, and d₀ and d₂, change of s₁(η); g₂ and q, d₀ and d₁ of s₂(ξ).
@@ -106,7 +106,7 @@ impl<L: Lane> Point<L> {
         let own = |a: Vector<L>, b: Vector<L>| dot(a, a) + dot(b, b);
         let mixed = dot(d2, e2) + turning * dot(x1, y1);
         let slid = [[own(d1, d2) + turning * own(x1, x2), mixed], [mixed, own(e1, e2) + turning * own(y1, y2)]];
-        let across = L::splat(SHEAR) * moduli[1] * volume * bound::largest(&bound::metric(inverse), &slid);
+        let across = L::splat(SHEAR) * moduli[2] * volume * bound::largest(&bound::metric(inverse), &slid);
         [along, along * bend + across]
     }
 }
@@ -155,7 +155,7 @@ impl ShellKernel<3> for Full {
             let mut sum = [0.0, 0.0, cosine(&form)];
             for (k, point) in points.iter().enumerate() {
                 let volume = volumes.iter().skip(k * facts.section.count()).take(facts.section.count()).sum();
-                let own = point.bounds(&form, &measures[k].inverse(), thickness, facts.moduli(), [inertia, volume]);
+                let own = point.bounds(&form, &measures[k].inverse(), thickness, facts.moduli, [inertia, volume]);
                 (sum[0], sum[1]) = (sum[0] + own[0], sum[1] + own[1]);
             }
             sum

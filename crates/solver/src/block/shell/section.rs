@@ -7,6 +7,7 @@
 //! of Mathematical Functions (1964), 25.4.29 and 25.4.32.
 
 use crate::angle::cos_sin;
+use std::ops::Range;
 
 /// Points through a thickness of one, from the lower to the upper face, or those of a cross-section: heights
 /// over the middle, and weights, which sum to one.
@@ -16,6 +17,8 @@ pub(super) struct Points {
     /// Places across the heights, of cross-sections alone.
     pub(super) sides: Vec<f64>,
     pub(super) weights: Vec<f64>,
+    /// Points of each layer, and its upper side, where there are several.
+    layers: Vec<(Range<usize>, f64)>,
 }
 
 /// Legendre's polynomials P_n and P_{n−1} at x.
@@ -70,7 +73,20 @@ impl Points {
             (0.5 * if 2 * k < n { x } else { -x }, 0.5 * w)
         });
         let (heights, weights) = all.unzip();
-        Self { heights, sides: Vec::new(), weights }
+        Self { heights, weights, ..Self::default() }
+    }
+
+    /// Of layers from the lower face up: part of the thickness, and points of the rule.
+    pub(super) fn layered(layers: impl IntoIterator<Item = (f64, usize)>, lobatto: bool) -> Self {
+        let (mut points, mut low) = (Self::default(), -0.5);
+        for (share, count) in layers {
+            let (own, first) = (Self::new(count, lobatto), points.count());
+            points.heights.extend(own.heights.iter().map(|height| low + share * (height + 0.5)));
+            points.weights.extend(own.weights.iter().map(|weight| share * weight));
+            low += share;
+            points.layers.push((first..points.count(), low));
+        }
+        points
     }
 
     /// At places y and z, with weights by their sum.
@@ -94,17 +110,19 @@ impl Points {
         Self::at((0..count * count).map(all))
     }
 
-    /// The two points between or beyond which a height is, with their shares in what varies linearly: exact
-    /// where a point is there.
+    /// The two points of a layer between or beyond which a height is, with their shares in what varies
+    /// linearly: exact where a point is there. Where two layers meet it is the lower one.
     pub(super) fn around(&self, height: f64) -> [(usize, f64); 2] {
-        let last = self.count() - 1;
-        let upper = self.heights.partition_point(|own| *own < height).clamp(last.min(1), last);
+        let own = self.layers.iter().find(|(_, upper)| height <= upper + 1e-12);
+        let Range { start, end } = own.or(self.layers.last()).map_or(0..self.count(), |(points, _)| points.clone());
+        let (heights, last) = (&self.heights[start..end], end - start - 1);
+        let upper = heights.partition_point(|own| *own < height).clamp(last.min(1), last);
         let lower = upper.saturating_sub(1);
         if lower == upper {
-            return [(lower, 1.0), (upper, 0.0)];
+            return [(start + lower, 1.0), (start + upper, 0.0)];
         }
-        let share = (height - self.heights[lower]) / (self.heights[upper] - self.heights[lower]);
-        [(lower, 1.0 - share), (upper, share)]
+        let share = (height - heights[lower]) / (heights[upper] - heights[lower]);
+        [(start + lower, 1.0 - share), (start + upper, share)]
     }
 
     pub(super) fn count(&self) -> usize {

@@ -338,8 +338,8 @@ pub(super) struct Flux<L> {
     /// Volume V of all layers, m³, and √(V Σ V |σ|²) of them, J.
     pub(super) volume: L,
     pub(super) strained: L,
-    /// Largest modulus of a membrane and shear modulus, Pa.
-    pub(super) moduli: [L; 2],
+    /// Largest modulus of a membrane, and shear moduli in the plane and across it, Pa.
+    pub(super) moduli: [L; 3],
     /// Present thickness, m.
     pub(super) thickness: L,
     /// Least area of a layer over that of the middle, and of the middle over that at the start.
@@ -372,7 +372,7 @@ pub(super) fn flux<L: Lane>(
         transverse: [zero; 2],
         volume: zero,
         strained: zero,
-        moduli: [zero; 2],
+        moduli: [zero; 3],
         thickness,
         determinant: area / Dim::<2>::determinant(&begin.map),
         flow: [zero; 3],
@@ -380,7 +380,7 @@ pub(super) fn flux<L: Lane>(
     };
     let (mut sheared, mut squares) = ([zero; 2], 0.0);
     for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
-        let [_, stretch] = facts.stretches::<L>(&layers.history[p * facts.width..][..facts.width], at);
+        let [_, stretch] = layers.stretches::<L>(facts, p, at);
         let stress = layers.stress_of::<Tensor<3, L>, L>(p, at).0;
         let [xx, yy, _, xy, yz, zx] = stress;
         let own: [L; RESPONSE] = loaded(layers.response, p * RESPONSE, at);
@@ -410,7 +410,8 @@ pub(super) fn flux<L: Lane>(
         let norm = xx * xx + yy * yy + L::splat(2.0) * (xy * xy + yz * yz + zx * zx);
         to.strained += volume * norm;
         to.volume += volume;
-        to.moduli = [to.moduli[0].max(facts.membrane_modulus(own[2], own[3])), to.moduli[1].max(own[3])];
+        let shear = to.moduli[1].max(own[3]);
+        to.moduli = [to.moduli[0].max(facts.membrane_modulus(own[2], own[3])), shear, shear];
         to.determinant = to.determinant.min(determinant / area);
         if is_rate {
             let (work, lost) = (half * own[0], own[1]);
@@ -425,6 +426,9 @@ pub(super) fn flux<L: Lane>(
     // No less than the sum of volumes times norms.
     to.strained = (to.volume * to.strained).sqrt();
     to.flow[2] = to.flow[2].sqrt();
+    if facts.is_layered {
+        to.moduli = bound::of_layers(facts, to.moduli);
+    }
     to.flow[1] = if squares > 0.0 { to.flow[1] * L::splat(1.0 / squares) } else { to.flow[0] };
     let inverse = if is_rate { now.inverse() } else { begin.inverse() };
     to.transverse = times(&inverse, [kind.shear * sheared[0], kind.shear * sheared[1]]);

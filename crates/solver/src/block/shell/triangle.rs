@@ -168,7 +168,7 @@ impl ShellKernel<3> for Triangle {
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
         let inertia = bound::inertia(thickness, area, INERTIA, |inertia| {
-            bounds(&form, &form.shear_rows(), &measures.inverse(), thickness, facts.moduli(), factor, [inertia, volume])
+            bounds(&form, &form.shear_rows(), &measures.inverse(), thickness, facts.moduli, factor, [inertia, volume])
         });
         Start { state, areas: vec![area / 3.0; 3], volumes, inertia }
     }
@@ -249,18 +249,18 @@ fn bounds<L: Lane>(
     rows: &ShearRows<L>,
     inverse: &Matrix<L, 2>,
     thickness: L,
-    moduli: [L; 2],
+    [membrane, shear, transverse]: [L; 3],
     factor: L,
     [inertia, volume]: [L; 2],
 ) -> [L; 3] {
     let metric = bound::metric(inverse);
-    let plane = L::splat(SHARP) * bound::membrane(&metric, moduli, volume);
+    let plane = L::splat(SHARP) * bound::membrane(&metric, [membrane, shear], volume);
     let bend = bound::folding(form.mean(), &natural(&form.d), ARC) * thickness * thickness / (L::splat(12.0) * inertia);
     let turning = L::splat(1.0) / inertia;
     let mixed = gram(&rows[0], &rows[1], turning);
     let across = factor
         * factor
-        * moduli[1]
+        * transverse
         * volume
         * bound::largest(&metric, &[[gram(&rows[0], &rows[0], turning), mixed], [mixed, gram(&rows[1], &rows[1], turning)]]);
     let d = natural(&form.d);

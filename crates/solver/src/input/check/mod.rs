@@ -14,6 +14,7 @@ mod load;
 mod motion;
 mod parts;
 mod plane;
+mod shells;
 mod space;
 mod triangles;
 mod warnings;

@@ -8,11 +8,11 @@ use crate::input::sections::ELEMENTS_MAX;
 use crate::material;
 use crate::material::messages::{INITIAL_STATE, SOFTENS_TOO_STEEPLY};
 use crate::mesh::cell::CellKind;
-use crate::mesh::messages::{BARS, DIMENSION, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, SHELLS, TOO_MANY};
+use crate::mesh::messages::{BARS, DIMENSION, GROUP, NO_ELEMENT, SAME_PLACE, SHAPE, TOO_MANY};
 use crate::mesh::shapes::{Count, ShapeCheck};
 use crate::model::messages::{CLASH, NOTHING, OF_REVOLUTION, UNKNOWN_NAME};
 use crate::model::reference::dimension_word;
-use crate::model::{Extrude, GAUSS, LOBATTO, Model, Part, Placement, Revolve, Shape, Sweep};
+use crate::model::{Extrude, Model, Part, Placement, Revolve, Shape, Sweep};
 use crate::stress_state::{PLANE_STRESS, STRESS_STATES};
 use crate::vocabulary::{excerpt, suggestion};
 use std::collections::BTreeSet;
@@ -170,80 +170,6 @@ impl Check<'_> {
             let path = format!("{path}.stress_initial.{}", ["xx", "yy", "zz", "xy"][component]);
             self.fault(&BARS, path, "bars have a stress along their line and no other", "give it as `xx`, whatever their direction");
         }
-    }
-
-    /// What shells need, and what they can't have.
-    fn shells(&mut self, path: &str, part: &Part) {
-        let at = format!("{path}.section");
-        if !part.is_of_shells() {
-            if part.section.is_some() {
-                self.fault(
-                    &SHELLS,
-                    at,
-                    "`section` is that of shells, but the part has none",
-                    if self.model.dimension_of(part) == 3 {
-                        "leave it out, or take `element = \"shell4\"`"
-                    } else {
-                        "leave it out, or take `element = \"shell2\"`"
-                    },
-                );
-            }
-            return;
-        }
-        if let Some((message, help)) = self.no_shell(part) {
-            self.fault(&SHELLS, format!("{path}.element"), message, help);
-            return;
-        }
-        if part.element_triangles != "tri3" && part.element_triangles != "shell3" && !part.element_triangles.is_empty() {
-            let message = "`element_triangles` is that of solids, but the part is a shell";
-            self.fault(&SHELLS, format!("{path}.element_triangles"), message, "leave it out: triangles of shells are `shell3`");
-        }
-        let Some(section) = &part.section else {
-            self.fault(&SHELLS, at, "shells need their thickness", "add `section = { thickness = \"2 mm\" }`");
-            return;
-        };
-        for (key, value) in [("thickness", section.thickness), ("failed_points", section.failed_points), ("fold_angle", section.fold_angle)]
-        {
-            self.number(&format!("{at}.{key}"), value);
-        }
-        self.known(&format!("{at}.rule"), "rule", &section.rule, &[GAUSS, LOBATTO]);
-        let least = if section.rule == LOBATTO { 3 } else { 1 };
-        if !(least..=10).contains(&section.points) {
-            let message = format!("`{}` has {least} to 10 points, not {}", section.rule, section.points);
-            self.fault(&SHELLS, format!("{at}.points"), message, "take as many as that: 5 do in most cases");
-        }
-        let Some(material) = self.model.materials.get(&part.material) else { return };
-        if !material.eos.is_empty() || material::equation_of_state(&material.law) == Some([true, true]) {
-            let message = format!("`{}` has an equation of state, but there is no pressure across a shell", excerpt(&part.material));
-            self.fault(&SHELLS, format!("{path}.material"), message, "take a solid without one, such as `elastic` or `j2`");
-        }
-        if part.hourglass.is_some() {
-            self.fault(&SHELLS, format!("{path}.hourglass"), "these shells have no hourglass control", "leave it out");
-        }
-        self.rotating(&SHELLS, path, part, Part::is_of_shells, ["shells", "their membrane"]);
-    }
-
-    /// Why a part can't be the shell that its element says, and what to do.
-    fn no_shell(&self, part: &Part) -> Option<(String, &'static str)> {
-        if !part.is_of_sheets() {
-            let is_line = part.shape.cell_kind().is_none_or(|kind| kind == CellKind::Line);
-            return (!is_line || self.model.dimension() == 3).then(|| {
-                let message = "`shell2` is a line in 2D, but the part is not made of lines in a 2D model";
-                let help = "take `line`, `arc`, `truss` or lines of a mesh file, in 2D; in 3D `shell4`, lines with `extrude` or `revolve`";
-                (message.to_string(), help)
-            });
-        }
-        let is_line = part.shape.cell_kind() == Some(CellKind::Line);
-        let (what, help) = match (part.shape.solid(), part.shape.built_in()) {
-            _ if part.makes_sheet() => return None,
-            (Some(_), _) if is_line => {
-                ("made of lines in 3D", "take `cylinder`, `sphere` or `box`, whose skin a shell can be, or a plane shape")
-            }
-            (Some(_), _) => ("a solid with two skins", "take `cylinder`, whose side `outer` a shell can be, or `arc` with `extrude`"),
-            _ if is_line => ("made of lines that are not swept", "add `extrude` or `revolve`, or take `shell2` in a 2D model"),
-            _ => ("a solid", "leave its sweep out, or sweep `line` or `arc`"),
-        };
-        Some((format!("`{}` is a surface, but the part is {what}", part.element), help))
     }
 
     fn shape(&mut self, path: &str, part: &Part) {

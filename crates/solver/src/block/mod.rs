@@ -163,8 +163,8 @@ pub struct ElementState {
     /// and the thickness, m; in 2D 1 is along the shell, 2 out of the plane. Of beams: normal and transverse
     /// forces y z (N), torque and moments about y z (N m), and no thickness. Zero of others.
     pub shell: [f64; SHELL_VALUES],
-    /// Of shells: 1 − t/t₀, and what is at the lower face, half way and at the upper face (in 2D the right and
-    /// the left one). Zero of others.
+    /// Of shells: 1 − t/t₀, and what is at the lower face, half way and at the upper face (in 2D the right
+    /// and the left one). Zero of others.
     pub thinning: f64,
     /// See [`ElementState::thinning`].
     pub through: [Through; 3],

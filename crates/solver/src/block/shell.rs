@@ -89,6 +89,19 @@ pub(super) struct Facts {
 }
 
 impl Facts {
+    /// Thickness of a section about its middle with the moment of inertia that one has about the surface of
+    /// the nodes: t √(1 + 12 o²) with the middle at o t.
+    #[inline(always)]
+    fn reach(&self) -> f64 {
+        (1.0 + 12.0 * self.section.middle * self.section.middle).sqrt()
+    }
+
+    /// Bounds in the plane, across it and the cosine between both: 1 where the middle is beside the nodes.
+    #[inline(always)]
+    fn coupled<L: Lane>(&self, [plane, plate, cosine]: [L; 3]) -> [L; 3] {
+        [plane, plate, if self.section.middle == 0.0 { cosine } else { L::splat(1.0) }]
+    }
+
     /// Of points with a law, in plane strain or in 3D.
     fn new<K: ShellKernel<D>, const D: usize>(section: Section, laws: &Laws, is_plane_stress: bool) -> Self
     where
@@ -531,10 +544,12 @@ where
             let start = K::start(&self.facts, &positions, own, thickness);
             let state = &mut self.state[batch * K::STATE..][..K::STATE];
             state.iter_mut().zip(&start.state).for_each(|(batch, &value)| batch.0[lane] = value);
-            let masses = start.areas.iter().map(|area| density * thickness * area);
+            let volume: f64 = start.volumes.iter().sum();
+            // What a middle beside the nodes has more of a bent shell.
+            let more = if self.facts.section.middle == 0.0 { 1.0 } else { volume / (thickness * start.areas.iter().sum::<f64>()) };
+            let masses = start.areas.iter().map(|area| density * thickness * area * more);
             let least = masses.clone().fold(f64::INFINITY, f64::min);
             self.corner_mass.extend(masses);
-            let volume = start.volumes.iter().sum();
             self.volume.push(volume);
             let own = &mut self.elements[batch];
             for (batch, value) in [

@@ -25,7 +25,7 @@ pub(super) fn fields() -> Vec<Description> {
             "bending_moment",
             Components::Section,
             "N",
-            "moments of a shell by width; positive where the face on the left of the line (in 3D the upper face) is compressed",
+            "moments of a shell by width about the surface of its nodes; positive where the face on the left of the line (in 3D the upper face) is compressed",
             of_cells(|cell, values| values.copy_from_slice(&of_shell(cell)[3..3 + values.len()])),
         ),
         field(

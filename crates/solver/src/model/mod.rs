@@ -38,7 +38,7 @@ pub(crate) use profile::PROFILE;
 pub use profile::{BOX, GIVEN, I, PROFILES, Profile, RECTANGLE, ROUND, TUBE};
 pub use run::{MassScaling, Relaxation, Run, StableStep};
 pub(crate) use shell::SHELL_SECTION;
-pub use shell::{GAUSS, LOBATTO, ShellLayer, ShellSection};
+pub use shell::{GAUSS, LOBATTO, LOWER, MIDDLE, ShellLayer, ShellSection, UPPER};
 pub use triangles::TriangleSurface;
 pub use values::Values;
 

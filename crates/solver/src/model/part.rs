@@ -92,7 +92,8 @@ impl Part {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.state.is_axisymmetric)
     }
 
-    /// The names of its materials: that of its own, or those of the layers of its section one after the other.
+    /// The names of its materials: that of its own, or those of the layers of its section one after the
+    /// other.
     pub fn materials(&self) -> impl Iterator<Item = &str> {
         let layers = self.section.iter().flat_map(|section| section.layers.iter().map(|layer| section.material_of(layer, &self.material)));
         let is_layered = self.section.as_ref().is_some_and(|section| !section.layers.is_empty());

@@ -13,6 +13,13 @@ pub const GAUSS: &str = "gauss";
 /// Points on the faces too.
 pub const LOBATTO: &str = "lobatto";
 
+/// The nodes are half way through.
+pub const MIDDLE: &str = "middle";
+/// The nodes are on the lower face.
+pub const LOWER: &str = "lower";
+/// The nodes are on the upper face.
+pub const UPPER: &str = "upper";
+
 section! {
     /// The section of a shell: its thickness, and the points through it.
     #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +27,7 @@ section! {
         name: "section",
         doc: "The section of shells (`shell2`, in 3D `shell4` and `shell3`): thickness, and layers of points through it. Two Gauss points are exact while \
             the material is elastic; odd numbers of them are a little weak in plastic hinges, even ones a little stiff.",
-        rules: &[Rule::OneOf(&["thickness", "layers"]), Rule::NotBoth("points", "layers")],
+        rules: &[Rule::OneOf(&["thickness", "layers"]), Rule::NotBoth("points", "layers"), Rule::NotBoth("reference", "offset")],
         ..Section::EMPTY
     };
     thickness: f64 = Quantity(Dimension::LENGTH, Positive), Optional("the sum of its layers"), "Thickness at the start; it follows the strain.",
@@ -30,6 +37,11 @@ section! {
     points: usize = Integer(1), Default("5"), "Points through the thickness, 1 to 10 (`lobatto`: 3 to 10); 1 is a membrane without bending.";
     rule: String = Choice(Choices::Words(&[GAUSS, LOBATTO])), Default("\"gauss\""),
         "Where points are: `gauss` inside, `lobatto` with one on each face.";
+    reference: String = Choice(Choices::Words(&[MIDDLE, LOWER, UPPER])), Default("\"middle\""),
+        "Which surface of the shell its nodes are: its middle, its lower (in 2D right) or its upper (left) face.";
+    offset: f64 = Quantity(Dimension::LENGTH, Finite), Optional("as `reference` says"),
+        "How far the middle is from the surface of the nodes, to the upper face; half of the thickness at most.",
+        read |section| section.or("offset", 0.0);
     failed_points: f64 = Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("1"),
         "Part of its points that have to fail until an element fails.";
     fold_angle: f64 = Angle(Dimension::NONE, Between(0.0, std::f64::consts::FRAC_PI_2)), Default("\"30 deg\""),
@@ -74,6 +86,23 @@ impl ShellSection {
     #[must_use]
     pub fn of_layers(layers: Vec<ShellLayer>) -> Self {
         Self { thickness: layers.iter().map(|layer| layer.thickness).sum(), layers, ..Self::default() }
+    }
+
+    /// How far the middle is from the surface of the nodes, in thicknesses.
+    #[must_use]
+    pub fn middle(&self) -> f64 {
+        match self.reference.as_str() {
+            LOWER => 0.5,
+            UPPER => -0.5,
+            _ if self.offset == 0.0 => 0.0,
+            _ => self.offset / self.thickness,
+        }
+    }
+
+    /// How far its lower and its upper face are from the surface of the nodes, m.
+    #[must_use]
+    pub fn faces(&self) -> [f64; 2] {
+        [-1.0, 1.0].map(|side| (0.5 + side * self.middle()) * self.thickness)
     }
 
     /// The name of the material of one of its layers, given that of its part.

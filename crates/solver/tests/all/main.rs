@@ -50,6 +50,7 @@ mod nodal_bound;
 mod nodal_pressure;
 mod numbering;
 mod obstacles;
+mod offset;
 mod orthotropy;
 mod pressed;
 mod prestress;

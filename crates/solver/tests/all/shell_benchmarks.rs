@@ -13,8 +13,10 @@ type Vector = [f64; 3];
 /// A mesh of n × m quadrilaterals (or twice as many triangles), held and loaded.
 pub(crate) struct Problem {
     sheet: Driven,
-    start: Vec<Vector>,
-    cells: Vec<u32>,
+    /// More of the same nodes.
+    pub(crate) twins: Vec<Driven>,
+    pub(crate) start: Vec<Vector>,
+    pub(crate) cells: Vec<u32>,
     corners: usize,
     size: [usize; 2],
     held: Vec<bool>,
@@ -62,7 +64,7 @@ impl Problem {
             BlockInput { section: Some(section), layers, directions: &directions, ..BlockInput::new(element, material, &cells, &start) };
         let sheet = Driven::of(&input);
         let count = 6 * start.len();
-        Self { sheet, start, cells, corners, size: [n, m], held: vec![false; count], load: vec![0.0; count] }
+        Self { sheet, twins: Vec::new(), start, cells, corners, size: [n, m], held: vec![false; count], load: vec![0.0; count] }
     }
 
     pub(crate) fn node(&self, i: usize, j: usize) -> usize {
@@ -116,9 +118,12 @@ impl Problem {
                     turns[k / 6] = Attitude::exponential(axis);
                 }
                 // Elastic in rate form: from the start again.
-                self.sheet.go(&places, &turns);
-                let pulls = self.sheet.pulls();
-                self.sheet.go(&self.start.clone(), &still);
+                let mut pulls = vec![0.0; count];
+                for sheet in std::iter::once(&mut self.sheet).chain(&mut self.twins) {
+                    sheet.go(&places, &turns);
+                    pulls.iter_mut().zip(sheet.pulls()).for_each(|(sum, own)| *sum += own);
+                    sheet.go(&self.start, &still);
+                }
                 pulls
             });
             let [plus, minus] = &mut pulls;

@@ -86,7 +86,7 @@ impl Driven {
         all
     }
 
-    fn energy(&self) -> f64 {
+    pub(crate) fn energy(&self) -> f64 {
         self.report.stored + self.report.hourglass
     }
 }

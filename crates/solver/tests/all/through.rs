@@ -166,7 +166,7 @@ fn a_sheet_that_is_pulled_grows_thinner_by_what_the_law_says() {
     assert!(values(&simulation, "thinning").iter().all(|&value| value == 0.0));
     let nodes = simulation.nodes_of("sheet").unwrap();
     let places = simulation.coordinates();
-    // Every node is led: a homogeneous stretch in the first step.
+    // A homogeneous stretch in the first step.
     let rate = 1e-3;
     let velocities: Vec<f64> = nodes.iter().flat_map(|&node| [rate * places[3 * node as usize], 0.0, 0.0]).collect();
     simulation.set_velocities(&nodes, &velocities).unwrap();

@@ -5,9 +5,9 @@
 //!
 //! What bounds the step of layers, and what holds the patterns of hourglass, comes from the stiffness of each
 //! layer at rest, C = ∂σ/∂ε without stress across, which is asked of its law: the form of each is at most
-//! that of an isotropic sheet with C₁₂ = max(C₁₂), 2 µ = max(2 µ, λ(C) of anisotropic laws), and of transverse
-//! shear the largest eigenvalue; A = Σ w C and D = 12 Σ w ζ² C of the section (ζ from −½ to ½) give the moduli
-//! along and across, 1/(A⁻¹)₁₁ and 1/(A⁻¹)₂₂, and the like of D.
+//! that of an isotropic sheet with C₁₂ = max(C₁₂), 2 µ = max(2 µ, λ(C) of anisotropic laws), and of
+//! transverse shear the largest eigenvalue; A = Σ w C and D = 12 Σ w ζ² C of the section (ζ from −½ to ½)
+//! give the moduli along and across, 1/(A⁻¹)₁₁ and 1/(A⁻¹)₂₂, and the like of D.
 
 use super::section::Points as Section;
 use crate::block::BlockInput;
@@ -87,12 +87,12 @@ impl Laws {
     ) -> Option<(Self, Section)> {
         let is_lobatto = section.rule == LOBATTO;
         if section.layers.is_empty() {
-            let points = Section::new(section.points, is_lobatto);
+            let points = Section::new(section.points, is_lobatto).moved(section.middle());
             return Some((Self::one(input.material, law_of(input.material)?, points.count() * planes), points));
         }
         let counts: Vec<usize> = section.layers.iter().map(|layer| section.points_of(layer)).collect();
         let shares = section.layers.iter().map(|layer| layer.thickness / section.thickness);
-        let points = Section::layered(shares.zip(counts.iter().copied()), is_lobatto);
+        let points = Section::layered(shares.zip(counts.iter().copied()), is_lobatto).moved(section.middle());
         let (mut layers, mut point, mut history) = (Vec::new(), 0, 0);
         for _ in 0..planes {
             let mut criteria = 0;
@@ -279,7 +279,7 @@ impl Laws {
                 doubled = doubled.max(form.principal().0.into_iter().fold(0.0, f64::max));
             }
             for point in layer.points.clone().take_while(|&point| point < section.count()) {
-                let (weight, height) = (section.weights[point], section.heights[point]);
+                let (weight, height) = (section.weights[point], section.heights[point] - section.middle);
                 for i in 0..3 {
                     for j in 0..3 {
                         plane[i][j] += weight * flat[i][j];

@@ -28,6 +28,9 @@
 //! (E*/(kµ) − 1))). Of revolution, where bending around the axis is not orthogonal to shear, max(membrane,
 //! shear) + bending with a = 4/l², b = 1/r²: membrane ½ E* (a + b + √((a − b)² + 4 ν² a b)).
 //!
+//! A middle at o from the nodes: heights are z + o, t²/12 becomes t²/12 + o², and membrane and bending, which
+//! are no longer orthogonal, are added.
+//!
 //! Derived for this program; the lineage is Hughes and Liu, Comput. Meth. Appl. Mech. Engng 27 (1981)
 //! 167-181, and Simo and Vu-Quoc, J. Appl. Mech. 53 (1986) 849-854.
 
@@ -147,7 +150,8 @@ impl Line {
     fn inertia(facts: &Facts, thickness: f64, [length, radius]: [f64; 2]) -> f64 {
         let [membrane, shear, _] = facts.moduli;
         let shear = SHEAR * shear;
-        let least = thickness * thickness / 12.0;
+        let reach = thickness * facts.reach();
+        let least = reach * reach / 12.0;
         if !facts.is_axisymmetric {
             return least.max(length * length / (4.0 * (membrane / shear - 1.0)));
         }
@@ -356,7 +360,7 @@ impl ShellKernel<2> for Line {
         pulls.put(0, [fx - inwards, fy], [zero, zero, moment - common + one_more], at);
         pulls.put(1, [-fx - inwards, -fy], [zero, zero, -moment - common + two_more], at);
         Answer {
-            stiffness: bound(facts, &now, [normal, transverse], section, [membrane, shear], [inertia, heights]),
+            stiffness: bound(facts, &now, [normal, transverse], section, [membrane, shear], [inertia, L::splat(facts.reach()) * heights]),
             determinant,
             thickness,
             hourglass: zero,
@@ -407,10 +411,13 @@ fn bound<L: Lane>(
     let across = L::splat(SHEAR) * shear * section * length * (four / square + one / inertia);
     let material = if facts.is_axisymmetric {
         let along = section * length * Line::of_revolution(membrane, facts.contracting(shear), [length, now.radius]);
-        along.max(across) + along * bend
+        let apart = along.max(across) + along * bend;
+        if facts.section.middle == 0.0 { apart } else { along + along * bend + across }
     } else {
         let along = four * membrane * section / length;
-        along.max(along * bend).max(across)
+        // Beside the nodes a middle that is stretched bends, too.
+        let both = if facts.section.middle == 0.0 { along.max(along * bend) } else { along + along * bend };
+        both.max(across)
     };
     let (d, b) = (square / inertia, L::splat(2.0) * length / inertia.sqrt());
     let root = (d * d + four * b * b).sqrt();

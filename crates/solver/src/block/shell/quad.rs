@@ -249,19 +249,22 @@ impl ShellKernel<3> for Quad {
         let frame = form.frame(turn);
         let measures = form.measures(&frame);
         let skew = times(&measures.inverse(), frame.seen(form.q));
-        let [_, bent] = form.warped(skew).map(|v| frame.seen(v));
+        let [warp, twist] = form.warped(skew);
+        let bent = frame.seen(twist);
+        let flat = if facts.section.middle == 0.0 { [0.0; 2] } else { frame.seen(at_middle(facts, warp, twist, thickness)) };
         let of_layers = [measures.all(); 2].into_iter().flatten().chain(turn);
         let stabilised = skew.into_iter().chain(form.sheared()).chain(bent);
         // Amplitudes, what has flowed of them, and the work of that: bent as it is, it holds nothing.
-        let amplitudes = [[0.0; 2], bent, [0.0; 2], bent].into_iter().flatten().chain([0.0]);
+        let amplitudes = [flat, bent, flat, bent].into_iter().flatten().chain([0.0]);
         let now = form.all().into_iter().flatten();
         let state = of_layers.chain(d.into_iter().flatten()).chain(stabilised).chain(amplitudes).chain(now).collect();
         let area = Dim::<2>::determinant(&measures.map);
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
         let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, thickness));
-        let inertia = bound::inertia(thickness, Self::AREA * area, 0.0, |inertia| {
-            bounds(&form, &inverse, &held, skew, [thickness; 2], facts.moduli, [inertia, volume])
+        let reach = thickness * facts.reach();
+        let inertia = bound::inertia(reach, Self::AREA * area, 0.0, |inertia| {
+            bounds(&form, &inverse, &held, skew, [reach; 2], facts.moduli, [inertia, volume])
         });
         Start { state, areas: form.areas(), volumes, inertia }
     }
@@ -280,6 +283,7 @@ impl ShellKernel<3> for Quad {
         let thickness = L::load(strains.thickness[1], at);
         let held = Held::new(facts, &begin, thickness);
         let [warp, twist] = form.warped(loaded(state, SKEW, at));
+        let warp = if facts.section.middle == 0.0 { warp } else { at_middle(facts, warp, twist, thickness) };
         let [mean, bending, stress] = loaded::<L, 3>(strains.flow, 0, at);
         let young = facts.held.young;
         let volume = thickness * L::splat(Self::AREA) * Dim::<2>::determinant(&begin.map);
@@ -311,13 +315,18 @@ impl ShellKernel<3> for Quad {
         let m = [amplitudes[0] - flown[0], amplitudes[1] - flown[1]];
         let b = [amplitudes[2] - flown[2], amplitudes[3] - flown[3]];
         let (w, u) = (times(&held.membrane, m), times(&held.bending, b));
+        // What the amplitude of the middle has of b.
+        let above = L::splat(facts.section.middle) * initial;
+        let on_bent = if facts.section.middle == 0.0 { u } else { [u[0] + above * w[0], u[1] + above * w[1]] };
         let (sheared, start) = (form.sheared(), loaded::<L, 2>(state, SHEARED, at));
         let change = minus(sheared, start);
         let a = [held.shear[0] * change[0], held.shear[1] * change[1]];
         let hourglass = half * (both(w, m) + both(u, b)) + L::load(&state[LOST], at);
-        pull(&form, &frame, &to, skew, [w, u, a], pulls, at);
+        pull(&form, &frame, &to, skew, [w, on_bent, a], pulls, at);
         let inverse = now.inverse();
-        let bounds = bounds(&form, &inverse, &held, skew, [initial, to.thickness], to.moduli, [inertia, to.volume]);
+        let reach = L::splat(facts.reach());
+        let thick = [reach * initial, reach * to.thickness];
+        let bounds = facts.coupled(bounds(&form, &inverse, &held, skew, thick, to.moduli, [inertia, to.volume]));
         let answer = surface::answer(&to, &frame, &form.g, &inverse, bounds, 1.0, inertia);
         Answer { hourglass, besides: [half * both(a, change), L::splat(0.0)], ..answer }
     }
@@ -331,6 +340,12 @@ impl ShellKernel<3> for Quad {
         let frame = Form::<f64>::load(state, lane).frame(loaded(state, TURN, lane));
         surface::turned(&frame.axes, stress)
     }
+}
+
+/// q − p₁ g₁ − p₂ g₂ of the middle, where that is beside the nodes.
+#[inline(always)]
+fn at_middle<L: Lane>(facts: &Facts, warp: Vector<L>, twist: Vector<L>, thickness: L) -> Vector<L> {
+    plus(warp, scaled(L::splat(facts.section.middle) * thickness, twist))
 }
 
 /// a + b + c.

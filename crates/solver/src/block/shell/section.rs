@@ -19,6 +19,8 @@ pub(super) struct Points {
     pub(super) weights: Vec<f64>,
     /// Points of each layer, and its upper side, where there are several.
     layers: Vec<(Range<usize>, f64)>,
+    /// Height of the middle over the surface of the nodes.
+    pub(super) middle: f64,
 }
 
 /// Legendre's polynomials P_n and P_{n−1} at x.
@@ -89,6 +91,15 @@ impl Points {
         points
     }
 
+    /// The same with the middle at a height over the surface of the nodes.
+    pub(super) fn moved(mut self, middle: f64) -> Self {
+        if middle != 0.0 {
+            self.heights.iter_mut().for_each(|height| *height += middle);
+            self.middle = middle;
+        }
+        self
+    }
+
     /// At places y and z, with weights by their sum.
     pub(super) fn at(places: impl IntoIterator<Item = ([f64; 2], f64)>) -> Self {
         let mut points = Self::default();
@@ -110,12 +121,12 @@ impl Points {
         Self::at((0..count * count).map(all))
     }
 
-    /// The two points of a layer between or beyond which a height is, with their shares in what varies
-    /// linearly: exact where a point is there. Where two layers meet it is the lower one.
+    /// The two points of a layer between or beyond which a height over the middle is, with their shares in
+    /// what varies linearly: exact where a point is there. Where two layers meet it is the lower one.
     pub(super) fn around(&self, height: f64) -> [(usize, f64); 2] {
         let own = self.layers.iter().find(|(_, upper)| height <= upper + 1e-12);
         let Range { start, end } = own.or(self.layers.last()).map_or(0..self.count(), |(points, _)| points.clone());
-        let (heights, last) = (&self.heights[start..end], end - start - 1);
+        let (heights, last, height) = (&self.heights[start..end], end - start - 1, height + self.middle);
         let upper = heights.partition_point(|own| *own < height).clamp(last.min(1), last);
         let lower = upper.saturating_sub(1);
         if lower == upper {

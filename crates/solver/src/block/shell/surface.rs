@@ -14,8 +14,10 @@
 //! N_iα = Σ V σ_ij (F⁻¹)_αj,   M_iα = Σ z V σ_ij (F⁻¹)_αj,   Q_α = √k Σ V σ_3i (G⁻¹)_αi
 //! ```
 //!
-//! V is the volume of a layer, s_α the covariant transverse shear of the kernel. Derived for this program;
-//! the lineage is Simo and Fox, Comput. Meth. Appl. Mech. Engng 72 (1989) 267-304.
+//! With the middle at o from the nodes z is o more; t²/12 becomes t²/12 + o² in what follows from it, and
+//! bounds in the plane and across it are added. V is the volume of a layer, s_α the covariant transverse
+//! shear of the kernel. Derived for this program; the lineage is Simo and Fox, Comput. Meth. Appl. Mech.
+//! Engng 72 (1989) 267-304.
 
 use super::bound;
 use super::{Answer, Corners, Facts, Layers, Strains, Tensor};

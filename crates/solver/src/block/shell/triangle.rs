@@ -167,8 +167,9 @@ impl ShellKernel<3> for Triangle {
         let area = Self::AREA * Dim::<2>::determinant(&measures.map);
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
-        let inertia = bound::inertia(thickness, area, INERTIA, |inertia| {
-            bounds(&form, &form.shear_rows(), &measures.inverse(), thickness, facts.moduli, factor, [inertia, volume])
+        let reach = thickness * facts.reach();
+        let inertia = bound::inertia(reach, area, INERTIA, |inertia| {
+            bounds(&form, &form.shear_rows(), &measures.inverse(), reach, facts.moduli, factor, [inertia, volume])
         });
         Start { state, areas: vec![area / 3.0; 3], volumes, inertia }
     }
@@ -217,7 +218,8 @@ impl ShellKernel<3> for Triangle {
             pulls.put(corner, scaled(L::splat(-1.0), force), moment, at);
         }
         let inverse = now.inverse();
-        let bounds = bounds(&form, &rows, &inverse, to.thickness, to.moduli, factor, [inertia, to.volume]);
+        let reach = L::splat(facts.reach()) * to.thickness;
+        let bounds = facts.coupled(bounds(&form, &rows, &inverse, reach, to.moduli, factor, [inertia, to.volume]));
         surface::answer(&to, &frame, &g, &inverse, bounds, SHARP, inertia)
     }
 

@@ -4,7 +4,7 @@ use super::Check;
 use crate::material;
 use crate::mesh::cell::CellKind;
 use crate::mesh::messages::SHELLS;
-use crate::model::{GAUSS, LOBATTO, Part, ShellSection};
+use crate::model::{GAUSS, LOBATTO, LOWER, MIDDLE, Part, ShellSection, UPPER};
 use crate::quantity::{Dimension, Range};
 use crate::vocabulary::excerpt;
 
@@ -42,6 +42,14 @@ impl Check<'_> {
         for (key, value) in [("thickness", section.thickness), ("failed_points", section.failed_points), ("fold_angle", section.fold_angle)]
         {
             self.number(&format!("{at}.{key}"), value);
+        }
+        self.known(&format!("{at}.reference"), "reference", &section.reference, &[MIDDLE, LOWER, UPPER]);
+        self.number(&format!("{at}.offset"), section.offset);
+        if section.middle().abs() > 0.5 * (1.0 + 1e-12) {
+            let message =
+                format!("`offset` is {} m, but the nodes of a shell lie within its thickness of {} m", section.offset, section.thickness);
+            let help = "take half of the thickness at most; `reference = \"lower\"` puts the nodes on the lower face";
+            self.fault(&SHELLS, format!("{at}.offset"), message, help);
         }
         self.known(&format!("{at}.rule"), "rule", &section.rule, &[GAUSS, LOBATTO]);
         let least = if section.rule == LOBATTO { 3 } else { 1 };

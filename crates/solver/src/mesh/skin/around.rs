@@ -24,8 +24,8 @@ const EQUAL: f64 = 1e-9;
 pub(super) struct Shell {
     pub(super) group: usize,
     pub(super) element: usize,
-    /// Half of its thickness, m.
-    pub(super) half: f64,
+    /// How far its lower and its upper face are from its nodes, m.
+    pub(super) faces: [f64; 2],
     /// Cosine of the angle from which it has folds.
     pub(super) fold: f64,
 }
@@ -232,12 +232,13 @@ impl<'a> Hub<'a> {
     fn piece(&self, sides: &[u32], side: u32) -> Piece {
         let outward = |side: u32| if side % 2 == 1 { self.normal(side / 2) } else { times(-1.0, self.normal(side / 2)) };
         let (mut sum, mut weight, mut excess) = ([0.0; 3], 0.0, 0.0);
-        let first = self.shell(side / 2).half;
+        let to = |side: u32| self.shell(side / 2).faces[side as usize % 2];
+        let first = to(side);
         for &one in sides {
             let angle = self.own[one as usize / 2 % self.own.len()].angle;
             sum = plus(sum, times(angle, outward(one)));
             weight += angle;
-            excess += angle * (self.shell(one / 2).half - first);
+            excess += angle * (to(one) - first);
         }
         let to_face = if let [one] = sides { Some(outward(*one)) } else { unit(self.on_planes(sum, sides)) };
         let half = if weight > 0.0 { first + excess / weight } else { first };

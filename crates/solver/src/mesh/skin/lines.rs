@@ -8,19 +8,19 @@ use super::{FACES, MITRE};
 use crate::mesh::cell::CellKind;
 use crate::mesh::surface::Corners;
 use crate::mesh::{ElementGroup, Mesh, sorted};
-use crate::model::Model;
+use crate::model::{Model, ShellSection};
 use crate::vector::{dot, minus, plus, times, unit};
 use std::collections::BTreeMap;
 
 /// An element at a node of the middle: group and element, which end of it, direction away from the node, and
-/// half of its thickness, m.
+/// how far its faces are on the right and on the left of that, m.
 #[derive(Clone, Copy)]
 struct Spoke {
     group: usize,
     element: usize,
     end: usize,
     away: [f64; 2],
-    half: f64,
+    faces: [f64; 2],
     /// The mirror image of another one, beyond a symmetry line.
     is_image: bool,
 }
@@ -50,12 +50,13 @@ impl Mesh<2> {
         let normals = self.symmetry_normals(model);
         let mut at: BTreeMap<u32, Vec<Spoke>> = BTreeMap::new();
         for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| is_shell(group)) {
-            let half = model.parts[group.part].section.as_ref().map_or(0.0, |section| 0.5 * section.thickness);
+            let [lower, upper] = model.parts[group.part].section.as_ref().map_or([0.0; 2], ShellSection::faces);
             for (element, nodes) in group.connectivity.as_chunks::<2>().0.iter().enumerate() {
                 for end in 0..2 {
                     let [own, other] = [nodes[end], nodes[1 - end]].map(|node| self.positions[node as usize]);
                     let away = unit(minus(other, own)).unwrap_or_default();
-                    at.entry(nodes[end]).or_default().push(Spoke { group: number, element, end, away, half, is_image: false });
+                    let faces = if end == 0 { [lower, upper] } else { [upper, lower] };
+                    at.entry(nodes[end]).or_default().push(Spoke { group: number, element, end, away, faces, is_image: false });
                 }
             }
         }
@@ -116,7 +117,7 @@ impl Mesh<2> {
             if alone {
                 // At a free end the faces end side by side, across the shell.
                 let across = left(self.tangent(&from));
-                let ends = [1.0, -1.0].map(|side| self.add_skin_node(node, times(side * from.half, across)));
+                let ends = [from.faces[1], -from.faces[0]].map(|height| self.add_skin_node(node, times(height, across)));
                 self.put(&from, true, ends[0]);
                 self.put(&from, false, ends[1]);
                 continue;
@@ -125,7 +126,7 @@ impl Mesh<2> {
             // A smooth shell has its thickness at the node, as the nodes of a round solid have; at a fold
             // its faces do.
             let sine = if self.is_smooth(model, &from, &to) { 1.0 } else { sine };
-            let own = self.add_skin_node(node, times(0.5 * (from.half + to.half) / sine, along));
+            let own = self.add_skin_node(node, times(0.5 * (from.faces[1] + to.faces[0]) / sine, along));
             self.put(&from, true, own);
             self.put(&to, false, own);
         }
@@ -172,7 +173,7 @@ impl Mesh<2> {
 /// The image of an element beyond a symmetry line.
 fn mirrored(spoke: &Spoke, normal: [f64; 2]) -> Spoke {
     let away = minus(spoke.away, times(2.0 * dot(spoke.away, normal), normal));
-    Spoke { away, is_image: true, ..*spoke }
+    Spoke { away, faces: [spoke.faces[1], spoke.faces[0]], is_image: true, ..*spoke }
 }
 
 #[cfg(test)]

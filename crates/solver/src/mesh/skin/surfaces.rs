@@ -10,7 +10,7 @@ use super::around::{Corner, Edge, Faces, Hub, Shell, Wing};
 use super::{SURFACE_FACES, meeting_places};
 use crate::mesh::surface::Corners;
 use crate::mesh::{ElementGroup, Mesh, sorted};
-use crate::model::{Model, Part};
+use crate::model::{Model, Part, ShellSection};
 use crate::rows::Rows;
 use crate::tensor::cross;
 use crate::vector::{dot, minus, plus, times, unit};
@@ -64,11 +64,11 @@ impl Mesh<3> {
         let (mut elements, mut wings, mut corners) = (Vec::new(), Vec::new(), Vec::new());
         for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| is_shell(group)) {
             let section = model.parts[group.part].section.as_ref();
-            let half = section.map_or(0.0, |section| 0.5 * section.thickness);
+            let faces = section.map_or([0.0; 2], ShellSection::faces);
             let fold = crate::angle::cos_sin(section.map_or(0.0, |section| section.fold_angle))[0];
             for (element, cell) in group.cells().enumerate() {
                 let shell = elements.len() as u32;
-                elements.push(Shell { group: number, element, half, fold });
+                elements.push(Shell { group: number, element, faces, fold });
                 let nodes = cell.corners();
                 (0..nodes.len()).for_each(|corner| corners.push((nodes[corner], self.corner(shell, nodes, corner))));
                 let centre = nodes.iter().fold([0.0; 3], |sum, &node| plus(sum, self.positions[node as usize]));

@@ -480,7 +480,8 @@ where
         let (laws, points) = Laws::of(input, section, law_of, K::PLANES)?;
         let facts = Facts { is_axisymmetric, ..Facts::new::<K, D>(points, &laws, is_plane_stress) };
         let facts = if section.layers.is_empty() { facts } else { facts.layered::<D>(&laws) };
-        Some(Self::of(input, laws, facts, section.failed_points, [section.thickness, section.fold_angle]))
+        let thickness = |place: [f64; D]| section.thickness_at(place);
+        Some(Self::of(input, laws, facts, section.failed_points, (&thickness, section.fold_angle)))
     }
 
     /// The same of beams, with the law of their fibres; `None` without a cross-section.
@@ -490,10 +491,16 @@ where
         let laws = Laws::one(input.material, law, points.count() * K::PLANES);
         // No stress in both directions across.
         let facts = Facts { profile, ..Facts::new::<K, D>(points, &laws, true) };
-        Some(Self::of(input, laws, facts, given.failed_points, [profile.area, 0.0]))
+        Some(Self::of(input, laws, facts, given.failed_points, (&|_| profile.area, 0.0)))
     }
 
-    fn of(input: &BlockInput<'_, D>, laws: Laws, facts: Facts, failed_share: f64, [thickness, fold_angle]: [f64; 2]) -> Self {
+    fn of(
+        input: &BlockInput<'_, D>,
+        laws: Laws,
+        facts: Facts,
+        failed_share: f64,
+        (thickness, fold_angle): (&dyn Fn([f64; D]) -> f64, f64),
+    ) -> Self {
         let density = laws.density(&facts.section);
         let (points, count, components) = (facts.section.count() * K::PLANES, input.connectivity.len() / K::NODES, facts.components);
         let batches = count.div_ceil(BATCH);
@@ -532,7 +539,7 @@ where
         shells
     }
 
-    fn begin_elements(&mut self, input: &BlockInput<'_, D>, thickness: f64, fold_angle: f64, density: f64) {
+    fn begin_elements(&mut self, input: &BlockInput<'_, D>, thickness_at: &dyn Fn([f64; D]) -> f64, fold_angle: f64, density: f64) {
         let own =
             input.directions.is_empty().then(|| K::directions(input.connectivity, input.positions, crate::angle::cos_sin(fold_angle)[0]));
         let directions = own.as_deref().unwrap_or(input.directions);
@@ -541,13 +548,20 @@ where
             let (batch, lane) = (element / BATCH, element % BATCH);
             let positions: Vec<[f64; D]> = nodes.iter().map(|&node| input.positions[node as usize]).collect();
             let own = &directions[element * K::NODES..][..K::NODES];
+            let corners: Vec<f64> = positions.iter().map(|&place| thickness_at(place)).collect();
+            let is_even = corners.iter().all(|own| *own == corners[0]);
+            let thickness = if is_even { corners[0] } else { corners.iter().sum::<f64>() / K::NODES as f64 };
             let start = K::start(&self.facts, &positions, own, thickness);
             let state = &mut self.state[batch * K::STATE..][..K::STATE];
             state.iter_mut().zip(&start.state).for_each(|(batch, &value)| batch.0[lane] = value);
             let volume: f64 = start.volumes.iter().sum();
             // What a middle beside the nodes has more of a bent shell.
             let more = if self.facts.section.middle == 0.0 { 1.0 } else { volume / (thickness * start.areas.iter().sum::<f64>()) };
-            let masses = start.areas.iter().map(|area| density * thickness * area * more);
+            // Integrals of a linear thickness with the shape functions: of triangles a quarter of what is
+            // more.
+            let part = if K::NODES == 3 { 0.25 } else { 1.0 / 3.0 };
+            let at = |own: f64| if is_even { thickness } else { thickness + part * (own - thickness) };
+            let masses = start.areas.iter().zip(&corners).map(|(area, &own)| density * at(own) * area * more);
             let least = masses.clone().fold(f64::INFINITY, f64::min);
             self.corner_mass.extend(masses);
             self.volume.push(volume);

@@ -256,6 +256,10 @@ where
         }
         mesh.imported = imported;
         mesh.reorder(|part| model.parts[part].has_rotations());
+        mesh.check_growth(model, &mut faults);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
         Dim::<D>::add_skins(&mut mesh, model);
         mesh.put_on_faces(&on_shells);
         mesh.check_thickness(&mut faults);

@@ -5,7 +5,7 @@ use crate::model::values::Field;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Between, Finite, Positive, UpTo};
 use crate::vocabulary::Choices;
-use crate::vocabulary::Kind::{Angle, Choice, Integer, Quantity, Reference, Tables};
+use crate::vocabulary::Kind::{Angle, Choice, Integer, Quantity, Reference, Spatial, Tables};
 use crate::vocabulary::{Rule, Section};
 
 /// Points inside.
@@ -27,7 +27,13 @@ section! {
         name: "section",
         doc: "The section of shells (`shell2`, in 3D `shell4` and `shell3`): thickness, and layers of points through it. Two Gauss points are exact while \
             the material is elastic; odd numbers of them are a little weak in plastic hinges, even ones a little stiff.",
-        rules: &[Rule::OneOf(&["thickness", "layers"]), Rule::NotBoth("points", "layers"), Rule::NotBoth("reference", "offset")],
+        rules: &[
+            Rule::OneOf(&["thickness", "layers"]),
+            Rule::NotBoth("points", "layers"),
+            Rule::NotBoth("reference", "offset"),
+            Rule::NotBoth("offset", "thickness_growth"),
+            Rule::Needs("thickness_point", "thickness_growth"),
+        ],
         ..Section::EMPTY
     };
     thickness: f64 = Quantity(Dimension::LENGTH, Positive), Optional("the sum of its layers"), "Thickness at the start; it follows the strain.",
@@ -37,6 +43,10 @@ section! {
     points: usize = Integer(1), Default("5"), "Points through the thickness, 1 to 10 (`lobatto`: 3 to 10); 1 is a membrane without bending.";
     rule: String = Choice(Choices::Words(&[GAUSS, LOBATTO])), Default("\"gauss\""),
         "Where points are: `gauss` inside, `lobatto` with one on each face.";
+    thickness_growth: [f64; 3] = Spatial(Dimension::NONE, Finite), Default("[0, 0]"),
+        "How much the thickness (with it that of each layer) grows along x, y and z, by length.";
+    thickness_point: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"),
+        "Where the thickness is just `thickness`.";
     reference: String = Choice(Choices::Words(&[MIDDLE, LOWER, UPPER])), Default("\"middle\""),
         "Which surface of the shell its nodes are: its middle, its lower (in 2D right) or its upper (left) face.";
     offset: f64 = Quantity(Dimension::LENGTH, Finite), Optional("as `reference` says"),
@@ -99,10 +109,19 @@ impl ShellSection {
         }
     }
 
-    /// How far its lower and its upper face are from the surface of the nodes, m.
+    /// Its thickness at a place at the start, m.
     #[must_use]
-    pub fn faces(&self) -> [f64; 2] {
-        [-1.0, 1.0].map(|side| (0.5 + side * self.middle()) * self.thickness)
+    pub fn thickness_at<const D: usize>(&self, place: [f64; D]) -> f64 {
+        if self.thickness_growth == [0.0; 3] {
+            return self.thickness;
+        }
+        (0..D).fold(self.thickness, |sum, k| sum + self.thickness_growth[k] * (place[k] - self.thickness_point[k]))
+    }
+
+    /// How far its lower and its upper face are from the surface of the nodes at a place, m.
+    #[must_use]
+    pub fn faces_at<const D: usize>(&self, place: [f64; D]) -> [f64; 2] {
+        [-1.0, 1.0].map(|side| (0.5 + side * self.middle()) * self.thickness_at(place))
     }
 
     /// The name of the material of one of its layers, given that of its part.

@@ -83,6 +83,7 @@ mod subcycling;
 mod symmetry_planes;
 mod swept;
 mod surface_ties;
+mod tapered;
 mod through;
 mod ties_in_3d;
 mod reported_obstacles;

@@ -151,11 +151,12 @@ impl ShellKernel<3> for Full {
         let state = of_points.chain(d.into_iter().flatten()).chain(form.all().into_iter().flatten()).collect();
         let volumes: Vec<f64> = measures.iter().flat_map(|own| surface::volumes(facts, 1.0, own, thickness)).collect();
         let area = measures.iter().map(|own| Dim::<2>::determinant(&own.map)).sum();
-        let inertia = bound::inertia(thickness, area, 0.0, |inertia| {
+        let reach = thickness * facts.reach();
+        let inertia = bound::inertia(reach, area, 0.0, |inertia| {
             let mut sum = [0.0, 0.0, cosine(&form)];
             for (k, point) in points.iter().enumerate() {
                 let volume = volumes.iter().skip(k * facts.section.count()).take(facts.section.count()).sum();
-                let own = point.bounds(&form, &measures[k].inverse(), thickness, facts.moduli, [inertia, volume]);
+                let own = point.bounds(&form, &measures[k].inverse(), reach, facts.moduli, [inertia, volume]);
                 (sum[0], sum[1]) = (sum[0] + own[0], sum[1] + own[1]);
             }
             sum
@@ -201,7 +202,7 @@ impl ShellKernel<3> for Full {
         }
         // On g₁ g₂ q d₀ d₁ d₂ r.
         let mut on = [[zero; 3]; 7];
-        let mut sum = [zero, zero, cosine(&form)];
+        let (mut sum, reach) = ([zero, zero, cosine(&form)], L::splat(facts.reach()) * thickness);
         let (mut tilted, mut taut, mut folded, mut determinant) = (zero, zero, zero, L::splat(f64::INFINITY));
         let mut resultants = [zero; SHELL_VALUES];
         for k in 0..Self::POINTS {
@@ -212,7 +213,7 @@ impl ShellKernel<3> for Full {
             let frame = point.frame(loaded(own, surface::TURN, at));
             folded += pull(&form, &point, &frame, &to, arc, &mut on);
             let inverse = now.inverse();
-            let [plane, plate] = point.bounds(&form, &inverse, thickness, to.moduli, [inertia, to.volume]);
+            let [plane, plate] = point.bounds(&form, &inverse, reach, to.moduli, [inertia, to.volume]);
             (sum[0], sum[1]) = (sum[0] + plane, sum[1] + plate);
             let sharp = point.sharpened(&inverse);
             tilted += bound::tilted(&frame, &point.g, &sharp, to.moduli[0] * to.volume, inertia);
@@ -225,7 +226,7 @@ impl ShellKernel<3> for Full {
         on[3] = plus(on[3], scaled(folded / size, mean));
         put(&form, &on, pulls, at);
         Answer {
-            stiffness: bound::joined(sum, tilted) + taut,
+            stiffness: bound::joined(facts.coupled(sum), tilted) + taut,
             determinant,
             thickness,
             hourglass: zero,

@@ -45,6 +45,8 @@ impl Check<'_> {
         }
         self.known(&format!("{at}.reference"), "reference", &section.reference, &[MIDDLE, LOWER, UPPER]);
         self.number(&format!("{at}.offset"), section.offset);
+        self.vector(&format!("{at}.thickness_growth"), section.thickness_growth);
+        self.vector(&format!("{at}.thickness_point"), section.thickness_point);
         if section.middle().abs() > 0.5 * (1.0 + 1e-12) {
             let message =
                 format!("`offset` is {} m, but the nodes of a shell lie within its thickness of {} m", section.offset, section.thickness);

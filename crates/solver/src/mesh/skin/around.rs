@@ -24,19 +24,19 @@ const EQUAL: f64 = 1e-9;
 pub(super) struct Shell {
     pub(super) group: usize,
     pub(super) element: usize,
-    /// How far its lower and its upper face are from its nodes, m.
-    pub(super) faces: [f64; 2],
     /// Cosine of the angle from which it has folds.
     pub(super) fold: f64,
 }
 
-/// A corner of an element: number of the element, which corner, unit normal and angle there.
+/// A corner of an element: number of the element, which corner, unit normal, angle and faces there.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Corner {
     pub(super) shell: u32,
     pub(super) corner: usize,
     pub(super) normal: [f64; 3],
     pub(super) angle: f64,
+    /// How far its lower and its upper face are from the node, m.
+    pub(super) faces: [f64; 2],
 }
 
 /// An element at an edge, which its corners run along or against, and its direction from there.
@@ -232,7 +232,7 @@ impl<'a> Hub<'a> {
     fn piece(&self, sides: &[u32], side: u32) -> Piece {
         let outward = |side: u32| if side % 2 == 1 { self.normal(side / 2) } else { times(-1.0, self.normal(side / 2)) };
         let (mut sum, mut weight, mut excess) = ([0.0; 3], 0.0, 0.0);
-        let to = |side: u32| self.shell(side / 2).faces[side as usize % 2];
+        let to = |side: u32| self.own[side as usize / 2 % self.own.len()].faces[side as usize % 2];
         let first = to(side);
         for &one in sides {
             let angle = self.own[one as usize / 2 % self.own.len()].angle;

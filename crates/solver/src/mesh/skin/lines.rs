@@ -8,7 +8,7 @@ use super::{FACES, MITRE};
 use crate::mesh::cell::CellKind;
 use crate::mesh::surface::Corners;
 use crate::mesh::{ElementGroup, Mesh, sorted};
-use crate::model::{Model, ShellSection};
+use crate::model::Model;
 use crate::vector::{dot, minus, plus, times, unit};
 use std::collections::BTreeMap;
 
@@ -50,11 +50,12 @@ impl Mesh<2> {
         let normals = self.symmetry_normals(model);
         let mut at: BTreeMap<u32, Vec<Spoke>> = BTreeMap::new();
         for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| is_shell(group)) {
-            let [lower, upper] = model.parts[group.part].section.as_ref().map_or([0.0; 2], ShellSection::faces);
+            let section = model.parts[group.part].section.as_ref();
             for (element, nodes) in group.connectivity.as_chunks::<2>().0.iter().enumerate() {
                 for end in 0..2 {
                     let [own, other] = [nodes[end], nodes[1 - end]].map(|node| self.positions[node as usize]);
                     let away = unit(minus(other, own)).unwrap_or_default();
+                    let [lower, upper] = section.map_or([0.0; 2], |section| section.faces_at(self.positions[nodes[end] as usize]));
                     let faces = if end == 0 { [lower, upper] } else { [upper, lower] };
                     at.entry(nodes[end]).or_default().push(Spoke { group: number, element, end, away, faces, is_image: false });
                 }

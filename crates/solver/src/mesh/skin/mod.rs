@@ -87,6 +87,19 @@ where
         }
     }
 
+    /// Shells whose thickness does not stay positive.
+    pub(super) fn check_growth(&self, model: &Model, faults: &mut Vec<Fault>) {
+        for (part, section) in model.parts.iter().enumerate().filter_map(|(part, it)| Some((part, it.section.as_ref()?))) {
+            let nodes = self.groups.iter().filter(|group| group.part == part).flat_map(|group| &group.connectivity);
+            let mut places = nodes.map(|&node| self.positions[node as usize]);
+            if let Some(at) = places.find(|&place| section.thickness_at(place) <= 0.0) {
+                let message = format!("the shell has a thickness of {:e} m at {} m", section.thickness_at(at), crate::vector::place(at));
+                let help = "let it grow less, or take a larger `thickness`";
+                faults.push(Fault::new(&SHELLS, format!("part[{part}].section.thickness_growth"), message, help));
+            }
+        }
+    }
+
     /// Shells that are too thick where they are bent: one face folds over.
     pub(super) fn check_thickness(&self, faults: &mut Vec<Fault>) {
         let shells = self.groups.iter().filter(|group| !group.outer.is_empty());

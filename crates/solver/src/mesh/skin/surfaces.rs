@@ -10,7 +10,7 @@ use super::around::{Corner, Edge, Faces, Hub, Shell, Wing};
 use super::{SURFACE_FACES, meeting_places};
 use crate::mesh::surface::Corners;
 use crate::mesh::{ElementGroup, Mesh, sorted};
-use crate::model::{Model, Part, ShellSection};
+use crate::model::{Model, Part};
 use crate::rows::Rows;
 use crate::tensor::cross;
 use crate::vector::{dot, minus, plus, times, unit};
@@ -64,13 +64,15 @@ impl Mesh<3> {
         let (mut elements, mut wings, mut corners) = (Vec::new(), Vec::new(), Vec::new());
         for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| is_shell(group)) {
             let section = model.parts[group.part].section.as_ref();
-            let faces = section.map_or([0.0; 2], ShellSection::faces);
+            let faces = |node: u32| section.map_or([0.0; 2], |section| section.faces_at(self.positions[node as usize]));
             let fold = crate::angle::cos_sin(section.map_or(0.0, |section| section.fold_angle))[0];
             for (element, cell) in group.cells().enumerate() {
                 let shell = elements.len() as u32;
-                elements.push(Shell { group: number, element, faces, fold });
+                elements.push(Shell { group: number, element, fold });
                 let nodes = cell.corners();
-                (0..nodes.len()).for_each(|corner| corners.push((nodes[corner], self.corner(shell, nodes, corner))));
+                (0..nodes.len()).for_each(|corner| {
+                    corners.push((nodes[corner], Corner { faces: faces(nodes[corner]), ..self.corner(shell, nodes, corner) }))
+                });
                 let centre = nodes.iter().fold([0.0; 3], |sum, &node| plus(sum, self.positions[node as usize]));
                 let centre = times(1.0 / nodes.len() as f64, centre);
                 for ([a, b], edge) in cell.edges().zip(meeting_places(cell)).filter(|([a, b], _)| a != b) {
@@ -90,7 +92,7 @@ impl Mesh<3> {
         let (a, b) = (minus(next, own), minus(before, own));
         let across = cross(a, b);
         let angle = crate::angle::angle_of([dot(a, b), dot(across, across).sqrt()]);
-        Corner { shell, corner, normal: unit(across).unwrap_or_default(), angle }
+        Corner { shell, corner, normal: unit(across).unwrap_or_default(), angle, faces: [0.0; 2] }
     }
 
     /// The faces around each node of shells, ascending; joints are noted.

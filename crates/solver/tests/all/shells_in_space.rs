@@ -258,6 +258,30 @@ fn results_do_not_depend_on_how_corners_are_numbered() {
     }
 }
 
+#[test]
+fn a_model_that_is_turned_has_turned_forces() {
+    let mut numbers = Spread::new(9);
+    for (element, corners) in ELEMENTS {
+        for law in ["j2", "neo_hookean", "viscoelastic"] {
+            for _ in 0..5 {
+                let (start, directors) = random(&mut numbers, corners, 0.25);
+                let by = motion(&mut numbers, corners, 0.1);
+                let turn = Attitude::exponential(numbers.in_3d(3.0));
+                let turned = |all: &[Vector]| -> Vec<Vector> { all.iter().map(|x| turn.turned(*x)).collect() };
+                let six = |all: &[f64]| -> Vec<f64> { turned(all.as_chunks::<3>().0).as_flattened().to_vec() };
+                let of = |start: &[Vector], directors: &[Vector], by: &[f64]| {
+                    led(element, &material(law, 0.3), &section(0.1), start, directors, by, 20).pulls()
+                };
+                let first = six(&of(&start, &directors, &by));
+                let other = of(&turned(&start), &turned(&directors), &six(&by));
+                let size = first.iter().fold(0.0, |size: f64, pull| size.max(pull.abs()));
+                let worst = first.iter().zip(&other).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs()));
+                assert!(worst < 1e-11 * size, "{element} {law}: {worst} of {size}");
+            }
+        }
+    }
+}
+
 /// Largest of M⁻¹K at the start of an element, by the response to small motions, and four over the square of
 /// the step.
 pub(crate) fn frequency_and_bound(make: impl Fn() -> Driven) -> [f64; 2] {

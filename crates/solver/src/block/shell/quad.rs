@@ -16,8 +16,9 @@
 //! K = [H_xx, −ν H_xy; −ν H_xy, H_yy],   g^αα = Σ_i (G₀⁻¹)_αi²
 //! ```
 //!
-//! that is the assumed strain of Belytschko and Bindeman (1991) in plane stress for the membrane and for
-//! bending, and what MITC4 has beside its mean. Where the layers flow, m and b flow as well: what leads
+//! with H, m and b along the natural axes of the element (K has this form in no others), of layers along ê₁
+//! and ê₂; that is the assumed strain of Belytschko and Bindeman (1991) in plane stress for the membrane and
+//! for bending, and what MITC4 has beside its mean. Where the layers flow, m and b flow as well: what leads
 //! beyond 0.4 of their stress (the quadratic mean over the element) is no longer held, by the part that flow
 //! took of the layers' last work (its mean for m, by the square of the height for b). Less would let patterns
 //! of hourglass grow in hinges, an elastic stabilisation makes these too stiff. What is held and what has
@@ -176,14 +177,22 @@ struct Held<L> {
 
 impl<L: Lane> Held<L> {
     #[inline(always)]
-    fn new(facts: &Facts, begin: &Measures<L>, thickness: L) -> Self {
+    fn new(facts: &Facts, begin: &Measures<L>, turn: [L; 2], thickness: L) -> Self {
         let crate::block::shell::Held { young, side, poisson, bending: bent, shear, shear_side } = facts.held;
         let third = L::splat(4.0 / 3.0) * Dim::<2>::determinant(&begin.map);
-        let g = begin.inverse();
+        // Layers have their own axes; else those of the element, to which alone this form of K belongs.
+        let [cos, sin] = if facts.is_layered { [L::splat(1.0), L::splat(0.0)] } else { turn };
+        let [one, two] = begin.inverse();
+        let g = [[cos * one[0] - sin * one[1], sin * one[0] + cos * one[1]], [cos * two[0] - sin * two[1], sin * two[0] + cos * two[1]]];
         let stiff = L::splat(young) * thickness * third;
         let mixed = -(L::splat(poisson) * stiff * (g[0][0] * g[0][1] + g[1][0] * g[1][1]));
         let along = stiff * (g[0][0] * g[0][0] + g[1][0] * g[1][0]);
-        let membrane = [[along, mixed], [mixed, stiff * (g[0][1] * g[0][1] + g[1][1] * g[1][1]) * L::splat(side)]];
+        let other = stiff * (g[0][1] * g[0][1] + g[1][1] * g[1][1]) * L::splat(side);
+        // As ê₁ and ê₂ see it.
+        let (square, both, rest) = (cos * cos, cos * sin, sin * sin);
+        let off = both * (other - along) + (square - rest) * mixed;
+        let twice = L::splat(2.0) * both * mixed;
+        let membrane = [[square * along + twice + rest * other, off], [off, rest * along - twice + square * other]];
         let shear = L::splat(SHEAR * shear) * thickness * third;
         let [[a, b], [_, d]] = crate::tensor::scaled(membrane, thickness * thickness * L::splat(1.0 / 12.0));
         let [first, both, second] = bent.map(L::splat);
@@ -261,7 +270,7 @@ impl ShellKernel<3> for Quad {
         let area = Dim::<2>::determinant(&measures.map);
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
-        let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, thickness));
+        let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, turn, thickness));
         let reach = thickness * facts.reach();
         let inertia = bound::inertia(reach, Self::AREA * area, 0.0, |inertia| {
             bounds(&form, &inverse, &held, skew, [reach; 2], facts.moduli, [inertia, volume])
@@ -281,7 +290,7 @@ impl ShellKernel<3> for Quad {
         replace(there, &now.all(), state, NOW, at);
         surface::strain(facts, Self::kind(), [&begin, &before, &now], strains, at);
         let thickness = L::load(strains.thickness[1], at);
-        let held = Held::new(facts, &begin, thickness);
+        let held = Held::new(facts, &begin, loaded(state, TURN, at), thickness);
         let [warp, twist] = form.warped(loaded(state, SKEW, at));
         let warp = if facts.section.middle == 0.0 { warp } else { at_middle(facts, warp, twist, thickness) };
         let [mean, bending, stress] = loaded::<L, 3>(strains.flow, 0, at);
@@ -309,7 +318,7 @@ impl ShellKernel<3> for Quad {
         let frame = form.frame(loaded(state, TURN, at));
         let skew = loaded::<L, 2>(state, SKEW, at);
         let initial = L::load(layers.thickness, at);
-        let held = Held::new(facts, &begin, initial);
+        let held = Held::new(facts, &begin, loaded(state, TURN, at), initial);
         let amplitudes = loaded::<L, 4>(state, AMPLITUDES, at);
         let flown = loaded::<L, 4>(state, FLOWN, at);
         let m = [amplitudes[0] - flown[0], amplitudes[1] - flown[1]];

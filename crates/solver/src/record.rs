@@ -245,7 +245,7 @@ where
     }
 }
 
-/// The cells of all parts, in the user's order and numbering.
+/// The cells of all parts, in the user's order and numbering: of a beam those of its cross-section.
 pub(crate) fn cells<const D: usize>(system: &System<D>) -> Cells
 where
     Dim<D>: Dimension<D> + BodyColumns<D>,
@@ -269,11 +269,12 @@ where
             (0..).zip(&group.user_elements).for_each(|(element, &user)| places[user as usize] = (of_part, element));
         }
         for (of_part, element) in places {
-            let cell = groups[usize::from(of_part)].outer_cell(element as usize);
-            cells.nodes.extend(cell.nodes.iter().map(|&node| system.mesh.user_nodes[node as usize]));
-            cells.offsets.push(cells.nodes.len() as u32);
-            cells.kinds.push(cell.kind);
-            cells.parts.push(index as u32);
+            for cell in groups[usize::from(of_part)].shown_cells_of(element as usize) {
+                cells.nodes.extend(cell.nodes.iter().map(|&node| system.mesh.user_nodes[node as usize]));
+                cells.offsets.push(cells.nodes.len() as u32);
+                cells.kinds.push(cell.kind);
+                cells.parts.push(index as u32);
+            }
         }
     }
     cells

@@ -33,7 +33,6 @@ pub use elastic::{Elastic, ElasticInput};
 pub use initial::{Initial, Wrong};
 pub use local::LocalNodes;
 pub use make::{BlockInput, Blocks, make};
-pub(crate) use shell::beam_axes;
 pub use store::CHUNK;
 pub use subcycles::{Begin, RATIO_MOST, Regions, Subcycled, largest_divisor};
 

@@ -28,7 +28,6 @@ mod surface;
 mod triangle;
 
 pub(super) use beam::Beam;
-pub(crate) use beam::axes as beam_axes;
 pub(super) use line::Line;
 pub(super) use quad::Quad;
 pub(super) use quad_full::Full;

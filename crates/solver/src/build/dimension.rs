@@ -136,7 +136,8 @@ impl Builds<3> for Dim<3> {
     type Outlines = ();
     fn outlines(_: &Builder<'_, 3>) {}
     fn target(builder: &Builder<'_, 3>, surface: SpaceSurface) -> SpaceSurface {
-        surface.with_mirrors(|edge| builder.constraints.common_mirrors(&edge).collect::<Vec<_>>(), &builder.mesh.positions)
+        let mirrors = |edge: [u32; 2]| builder.constraints.common_mirrors(&edge).collect::<Vec<_>>();
+        surface.with_mirrors(mirrors, &builder.mesh.positions).with_kin(&builder.mesh.kin)
     }
     fn share(builder: &Builder<'_, 3>, _: &SpaceSurface, node: u32) -> f64 {
         builder.constraints.share(node)

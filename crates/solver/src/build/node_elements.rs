@@ -3,6 +3,7 @@
 
 use super::{Builder, Builds};
 use crate::mesh::Mesh;
+use crate::mesh::cell::Cell;
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::{Corners, Facet};
 use crate::rows::Rows;
@@ -12,9 +13,20 @@ use crate::tensor::Dim;
 pub(super) struct Under {
     /// One over the height of the element, 1/m: L / A, in 3D A / V.
     pub(super) flatness: f64,
-    /// Index of the group of elements, and the element in it.
+    /// Index of the group of elements, the element in it, and which of its cells.
     pub(super) group: usize,
     pub(super) element: usize,
+    pub(super) piece: usize,
+}
+
+impl Under {
+    /// The cell.
+    pub(super) fn cell<'m, const D: usize>(&self, mesh: &'m Mesh<D>) -> Option<Cell<'m>>
+    where
+        Dim<D>: Builds<D>,
+    {
+        mesh.groups[self.group].outer_cells_of(self.element).nth(self.piece)
+    }
 }
 
 /// The elements at each node, counted through all groups.
@@ -33,12 +45,12 @@ impl NodeElements {
             Some(first)
         });
         let groups = mesh.groups.iter().zip(firsts).filter(|(group, _)| group.is_body(D));
-        let cells = groups.flat_map(|(group, first)| (first..).zip(group.outer_cells()));
+        let cells = groups.flat_map(|(group, first)| group.outer_cells().map(move |(element, cell)| (first + element as u32, cell)));
         Self(Rows::new(mesh.positions.len(), cells.flat_map(|(number, cell)| cell.nodes.iter().map(move |&node| (node, number)))))
     }
 
-    /// Group and element behind a piece of the outside.
-    fn behind<const D: usize>(&self, facet: Facet<D>, mesh: &Mesh<D>) -> Option<(usize, usize)>
+    /// Group, element and cell of it behind a piece of the outside.
+    fn behind<const D: usize>(&self, facet: Facet<D>, mesh: &Mesh<D>) -> Option<(usize, usize, usize)>
     where
         Dim<D>: Builds<D>,
     {
@@ -52,8 +64,8 @@ impl NodeElements {
                 element -= mesh.groups[group].elements();
                 group += 1;
             }
-            let is_own = <Dim<D>>::cell_facets(mesh.groups[group].outer_cell(element)).contains(&facet);
-            is_own.then_some((group, element))
+            let mut pieces = mesh.groups[group].outer_cells_of(element);
+            Some((group, element, pieces.position(|cell| <Dim<D>>::cell_facets(cell).contains(&facet))?))
         })
     }
 }
@@ -64,8 +76,9 @@ where
 {
     /// The element behind a piece of the outside.
     pub(super) fn under(&self, facet: Facet<D>) -> Option<Under> {
-        let (group, element) = self.node_elements.get_or_init(|| NodeElements::of(&self.mesh)).behind(facet, &self.mesh)?;
-        let (cell, positions) = (self.mesh.groups[group].outer_cell(element), &self.mesh.positions);
-        Some(Under { flatness: <Dim<D>>::inverse_height(facet, cell, positions), group, element })
+        let (group, element, piece) = self.node_elements.get_or_init(|| NodeElements::of(&self.mesh)).behind(facet, &self.mesh)?;
+        let under = Under { flatness: 0.0, group, element, piece };
+        let cell = under.cell(&self.mesh)?;
+        Some(Under { flatness: <Dim<D>>::inverse_height(facet, cell, &self.mesh.positions), ..under })
     }
 }

@@ -143,7 +143,7 @@ impl Builder<'_, 3> {
         let is_met = |body: u32| all.binary_search(&body).is_ok();
         let parts = self.mesh.parts.iter().filter(|part| part.nodes.iter().any(|&node| is_met(body_of(node))));
         let parts: Vec<String> = parts.map(|part| part.name.clone()).collect();
-        let outside = self.mesh.outside_without(&parts, |facet| !is_met(body_of(facet[0])))?;
+        let outside = self.mesh.outside_without(&parts, |facet| !is_met(body_of(facet[0])))?.with_kin(&self.mesh.kin);
         let is_mirror = |facet| self.constraints.is_mirror(facet);
         Ok(make(&Bodies { outside: &outside, is_mirror: &is_mirror, body_of: &body_of, side_of }))
     }

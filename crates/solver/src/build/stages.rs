@@ -12,7 +12,7 @@ use super::node_elements::NodeElements;
 use super::rebuild::RebuildSource;
 use super::{Builder, Builds, SERIAL, limits, source_of};
 use crate::assembly::Assembly;
-use crate::block::{Block, BlockInput, Initial, Report, Wrong, beam_axes, evaluate_at_rest, make};
+use crate::block::{Block, BlockInput, Initial, Report, Wrong, evaluate_at_rest, make};
 use crate::contact::Contact;
 use crate::contact::messages::NO_STEP;
 use crate::contact::springs::Springs;
@@ -401,7 +401,7 @@ fn lying<const D: usize>(part: &model::Part, index: usize, connectivity: &[u32],
     let up = part.profile.as_ref().filter(|_| part.is_of_beams())?.up?;
     let mut beams = connectivity.as_chunks::<2>().0.iter().map(|nodes| nodes.map(|node| positions[node as usize]));
     let [from, _] =
-        beams.find(|&[from, to]| unit(model::in_3d(minus(to, from))).is_some_and(|along| beam_axes(along, Some(up)).is_none()))?;
+        beams.find(|&[from, to]| unit(model::in_3d(minus(to, from))).is_some_and(|along| model::beam_axes(along, Some(up)).is_none()))?;
     let message = format!("the beam that begins at {} m goes along it", place(from));
     Some(Fault::new(&BEAMS, format!("part[{index}].profile.up"), message, "give a direction across all beams of the part"))
 }

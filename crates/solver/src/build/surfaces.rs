@@ -80,8 +80,7 @@ where
         let parts: Vec<usize> = under.iter().map(|under| under.as_ref().map_or(0, |under| self.mesh.groups[under.group].part)).collect();
         let softest = if D == 3 && is_by_step { stiffness.clone() } else { softest(&stiffness, &parts) };
         let shares = target.nodes().iter().map(|&node| <Dim<D>>::share(self, target, node)).collect();
-        let cell = |under: &Option<Under>| under.as_ref().map(|under| self.mesh.groups[under.group].outer_cell(under.element));
-        let cells = under.iter().map(cell).collect();
+        let cells = under.iter().map(|under| under.as_ref().and_then(|under| under.cell(&self.mesh))).collect();
         Side { stiffness, softest, of_mass, nodes, shares, cells, surface }
     }
 }

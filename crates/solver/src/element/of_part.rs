@@ -11,16 +11,17 @@ impl Part {
         BARS.iter().any(|kind| kind.name == self.element)
     }
 
-    /// Whether it consists of beams: lines without a surface, whose nodes rotate.
+    /// Whether it consists of beams: lines with a cross-section, whose nodes rotate.
     #[must_use]
     pub fn is_of_beams(&self) -> bool {
         BEAMS.iter().any(|kind| kind.name == self.element)
     }
 
-    /// Whether it consists of lines that nothing can touch but by their nodes.
+    /// Whether it consists of lines that nothing can touch but by their nodes: bars, and beams of whose
+    /// section only the integrals are known.
     #[must_use]
     pub fn has_no_surface(&self) -> bool {
-        self.is_of_bars() || self.is_of_beams()
+        self.is_of_bars() || (self.is_of_beams() && self.profile.as_ref().is_none_or(|profile| !profile.has_outline()))
     }
 
     /// Whether its nodes rotate.

@@ -29,7 +29,8 @@ where
     pub(crate) fields: &'a [&'static FieldKind],
     /// Node of each of the user's numbers.
     nodes: OnceLock<Vec<u32>>,
-    /// Where each element is stored, in all groups one after the other, part by part by the user's numbers.
+    /// Where the element of each cell is stored, in all groups one after the other, part by part by the
+    /// user's numbers: beams have several cells.
     elements: OnceLock<Vec<u32>>,
     /// Pressure and shear stress of the nodes, Pa; zero of those beyond.
     tractions: OnceLock<Vec<[f64; 2]>>,
@@ -68,6 +69,11 @@ where
                     next += mesh.elements_of(group.part);
                 }
                 group.user_elements.iter().zip(&mut places).for_each(|(&user, place)| stored[first + user as usize] = place);
+            }
+            if mesh.groups.iter().any(|group| (0..group.elements()).any(|element| group.shown(element) > 1)) {
+                let shown = |group: &ElementGroup| (0..group.elements()).map(|element| group.shown(element)).collect::<Vec<_>>();
+                let counts: Vec<usize> = mesh.groups.iter().flat_map(shown).collect();
+                stored = stored.into_iter().flat_map(|place| std::iter::repeat_n(place, counts[place as usize])).collect();
             }
             stored
         })

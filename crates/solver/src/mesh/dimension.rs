@@ -60,7 +60,7 @@ pub trait Meshed<const D: usize> {
     /// about it.
     fn wrong_form(kind: CellKind, places: &[[f64; D]]) -> Option<[&'static str; 2]>;
 
-    /// Gives shells their faces, and their nodes the directions of the middle.
+    /// Gives shells and beams their faces, and the nodes of shells the directions of the middle.
     fn add_skins(mesh: &mut Mesh<D>, model: &Model)
     where
         Dim<D>: Meshed<D>;
@@ -201,6 +201,7 @@ impl Meshed<3> for Dim<3> {
 
     fn add_skins(mesh: &mut Mesh<3>, model: &Model) {
         mesh.add_skins_of_surfaces(model, Part::is_of_shells);
+        mesh.add_skins_of_beams(model);
         mesh.add_hubs_of_beams(model);
     }
 

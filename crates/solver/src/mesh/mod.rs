@@ -64,12 +64,12 @@ pub struct PartMesh {
     pub name: String,
     /// All nodes of the part in the order of its mesh.
     pub nodes: Vec<u32>,
-    /// Of shells the nodes on their faces, ascending: these go with the others.
+    /// Of shells and beams the nodes on their faces, ascending: these go with the others.
     pub faces: Vec<u32>,
 }
 
 impl PartMesh {
-    /// Its nodes, those on the faces of shells too.
+    /// Its nodes, those on the faces of shells and beams too.
     pub fn with_faces(&self) -> impl Iterator<Item = u32> + Clone {
         self.nodes.iter().chain(&self.faces).copied()
     }
@@ -87,17 +87,27 @@ pub struct ElementGroup {
     /// The user's number of each element: its place in the part as it was made or read, whatever its kind.
     pub user_elements: Vec<u32>,
     /// Of shells the nodes of each element on its faces: those of the cell between them, which bounds the
-    /// body. Empty of others.
+    /// body; of beams those of the cells that its cross-section sweeps. Empty of others.
     pub outer: Vec<u32>,
+    /// Of beams the kind of these cells, and which of them come from each element: those from its number here
+    /// to the next one. Empty of others, which have one for each.
+    pub pieces: Pieces,
     /// Whether each element has been eroded: then it is no part of surfaces and bodies. Empty while all are
     /// there.
     pub eroded: Vec<bool>,
 }
 
+/// See [`ElementGroup::pieces`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pieces {
+    kind: CellKind,
+    firsts: Vec<u32>,
+}
+
 impl ElementGroup {
     /// No elements yet.
     fn new(part: usize, kind: CellKind) -> Self {
-        Self { part, kind, connectivity: Vec::new(), user_elements: Vec::new(), outer: Vec::new(), eroded: Vec::new() }
+        Self { part, kind, ..Self::default() }
     }
 
     /// Number of elements.
@@ -116,31 +126,56 @@ impl ElementGroup {
         self.cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
     }
 
-    /// Kind and nodes of its elements as bodies have them: those of shells with their thickness.
+    /// Kind and nodes of its elements as bodies have them: those of shells with their thickness, of beams
+    /// with their cross-section.
     fn outer_cell_nodes(&self) -> (CellKind, &[u32]) {
-        if self.outer.is_empty() { (self.kind, &self.connectivity) } else { (self.kind.thickened(), &self.outer) }
+        match (self.outer.is_empty(), self.pieces.firsts.is_empty()) {
+            (_, false) => (self.pieces.kind, &self.outer),
+            (true, _) => (self.kind, &self.connectivity),
+            (false, _) => (self.kind.thickened(), &self.outer),
+        }
     }
 
-    /// Each element as bodies have it: of shells the cell between both faces.
-    pub fn outer_cells(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
+    /// Which cells an element is as bodies have it.
+    fn pieces_of(&self, element: usize) -> std::ops::Range<usize> {
+        match self.pieces.firsts.get(element..element + 2) {
+            Some(&[first, next]) => first as usize..next as usize,
+            _ => element..element + 1,
+        }
+    }
+
+    /// An element as bodies have it: itself, of shells the cell between both faces, of beams those of its
+    /// cross-section, if it has any.
+    pub fn outer_cells_of(&self, element: usize) -> impl Iterator<Item = Cell<'_>> + Clone {
         let (kind, nodes) = self.outer_cell_nodes();
-        kind.cells(nodes)
+        let pieces = self.pieces_of(element);
+        kind.cells(&nodes[pieces.start * kind.nodes()..pieces.end * kind.nodes()])
+    }
+
+    /// Each element as bodies have it, with its number.
+    pub fn outer_cells(&self) -> impl Iterator<Item = (usize, Cell<'_>)> + Clone {
+        (0..self.elements()).flat_map(|element| self.outer_cells_of(element).map(move |cell| (element, cell)))
     }
 
     /// Each such cell that has not been eroded.
     pub fn live_outer_cells(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
-        self.outer_cells().enumerate().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
+        self.outer_cells().filter(|(element, _)| self.is_alive(*element)).map(|(_, cell)| cell)
     }
 
-    /// An element as bodies have it.
+    /// An element as it is shown: as bodies have it; of beams without an outline a line.
+    pub fn shown_cells_of(&self, element: usize) -> impl Iterator<Item = Cell<'_>> + Clone {
+        let is_line = self.pieces_of(element).is_empty();
+        self.outer_cells_of(element).chain(is_line.then(|| self.cell(element)))
+    }
+
+    /// How many cells an element is as it is shown.
     #[must_use]
-    pub fn outer_cell(&self, element: usize) -> Cell<'_> {
-        let (kind, nodes) = self.outer_cell_nodes();
-        kind.cell(&nodes[element * kind.nodes()..][..kind.nodes()])
+    pub fn shown(&self, element: usize) -> usize {
+        self.pieces_of(element).len().max(1)
     }
 
-    /// Whether its elements bound a body in so many dimensions: surfaces in 2D, volumes in 3D, and shells
-    /// with their thickness; no bars or beams.
+    /// Whether its elements bound a body in so many dimensions: surfaces in 2D, volumes in 3D, shells with
+    /// their thickness and beams with their cross-section; no bars.
     #[must_use]
     pub fn is_body(&self, dimension: usize) -> bool {
         self.outer_cell_nodes().0.dimension() == dimension
@@ -191,8 +226,11 @@ where
     pub imported: Vec<Vec<u32>>,
     /// How many times its cells have been replaced by others; 0: they are those of the model.
     pub revision: u32,
-    /// Nodes on the faces of shells: the last ones of all.
+    /// Nodes on the faces of shells and beams: the last ones of all.
     pub skins: Vec<SkinNode<D>>,
+    /// Label of each node as far as beams are near: what has the same label belongs to the same joint and
+    /// does not touch; [`surface::NONE`]: no label. Empty without beams.
+    pub(crate) kin: Vec<u32>,
     /// Joints: where three or more elements of shells meet, ascending, and how many. A node twice in 2D, the
     /// nodes of an edge in 3D.
     pub(super) joints: Vec<([u32; 2], u32)>,
@@ -262,7 +300,7 @@ where
         }
         Dim::<D>::add_skins(&mut mesh, model);
         mesh.put_on_faces(&on_shells);
-        mesh.check_thickness(&mut faults);
+        mesh.check_thickness(model, &mut faults);
         if faults.is_empty() { Ok(mesh) } else { Err(faults) }
     }
 
@@ -480,7 +518,7 @@ where
         faults
     }
 
-    /// Of a node on the face of a shell that of the middle which leads it; others lead themselves.
+    /// Of a node on the face of a shell or beam that of the middle which leads it; others lead themselves.
     #[must_use]
     pub fn leader_of(&self, node: u32) -> u32 {
         let own = (node as usize).checked_sub(self.first_skin_node());

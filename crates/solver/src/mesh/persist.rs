@@ -3,7 +3,7 @@
 
 use super::cell::CellKind;
 use super::surface::Corners;
-use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh, SkinNode};
+use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh, Pieces, SkinNode};
 use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, Section, persist_all, persist_each};
 
 /// The section of the state that has it.
@@ -19,12 +19,13 @@ impl Persist for CellKind {
 }
 
 persist_all!(PartMesh { name, nodes, faces });
+persist_all!(Pieces { kind, firsts });
 
 impl Persist for ElementGroup {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         // The state of erosion has the elements that are gone.
-        let Self { part, kind, connectivity, user_elements, outer, eroded: _ } = self;
-        persist_each!(archive; part, kind, connectivity, user_elements, outer);
+        let Self { part, kind, connectivity, user_elements, outer, pieces, eroded: _ } = self;
+        persist_each!(archive; part, kind, connectivity, user_elements, outer, pieces);
         Ok(())
     }
 }
@@ -42,7 +43,8 @@ where
     Dim<D>: Meshed<D>,
 {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { positions, parts, groups, user_nodes, imported, revision, skins, joints, directions, outlines, sides, points } = self;
+        let Self { positions, parts, groups, user_nodes, imported, revision, skins, kin, joints, directions, outlines, sides, points } =
+            self;
         persist_points(positions, archive)?;
         persist_each!(archive; parts, groups, user_nodes, imported, revision, outlines, sides, points);
         let mut owners: Vec<u32> = skins.iter().map(|skin| skin.owner).collect();
@@ -50,7 +52,7 @@ where
         owners.persist(archive)?;
         persist_points(&mut arms, archive)?;
         *skins = owners.into_iter().zip(arms).map(|(owner, arm)| SkinNode { owner, arm }).collect();
-        joints.persist(archive)?;
+        persist_each!(archive; kin, joints);
         let mut count = directions.len();
         count.persist(archive)?;
         archive.check(count <= groups.len(), "more groups of shells than groups")?;
@@ -96,11 +98,12 @@ where
             group.part < parts
                 && group.connectivity.len() == group.kind.nodes() * group.elements()
                 && are_nodes(&group.connectivity)
-                && [0, group.kind.thickened().nodes() * group.elements()].contains(&group.outer.len())
+                && group.outer_is_sound()
                 && are_nodes(&group.outer)
         };
         let is_numbered = |part: usize| is_permutation(self.groups_of(part).flat_map(|group| &group.user_elements), self.elements_of(part));
-        self.parts.iter().all(|part| are_nodes(&part.nodes) && are_nodes(&part.faces))
+        [0, nodes].contains(&self.kin.len())
+            && self.parts.iter().all(|part| are_nodes(&part.nodes) && are_nodes(&part.faces))
             && self.groups.iter().all(of_group)
             && (0..parts).all(is_numbered)
             && is_permutation(&self.user_nodes, nodes)
@@ -109,6 +112,20 @@ where
             && self.skins.iter().all(|skin| (skin.owner as usize) < self.outlines.len())
             && self.sides.values().flatten().all(|facet| are_nodes(facet.corners()))
             && self.points.values().all(|points| are_nodes(points))
+    }
+}
+
+impl ElementGroup {
+    /// Whether its cells as bodies have them are as many as they have to be.
+    fn outer_is_sound(&self) -> bool {
+        let Pieces { kind, firsts } = &self.pieces;
+        if firsts.is_empty() {
+            return [0, self.kind.thickened().nodes() * self.elements()].contains(&self.outer.len());
+        }
+        firsts.len() == self.elements() + 1
+            && firsts[0] == 0
+            && firsts.is_sorted()
+            && firsts.last().map(|&last| last as usize * kind.nodes()) == Some(self.outer.len())
     }
 }
 

@@ -3,6 +3,8 @@
 use super::section;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive, UpTo};
+use crate::tensor::cross;
+use crate::vector::{dot, minus, times};
 use crate::vocabulary::Choices;
 use crate::vocabulary::Kind::{Choice, Integer, Quantity, Spatial};
 use crate::vocabulary::Section;
@@ -36,7 +38,8 @@ section! {
     pub struct Profile in PROFILE = Section {
         name: "profile",
         doc: "The cross-section of beams (`beam2`). Its axes are x along the beam, z across it towards `up` (the height), and y (the width), such that z is \
-            x × y. Stress along the beam is found in fibres by the law, and integrates area and moments of inertia exactly; torsion and transverse shear are elastic.",
+            x × y. Stress along the beam is found in fibres by the law, and integrates area and moments of inertia exactly; torsion and transverse shear are elastic. \
+            Others touch its outline, and it is shown by it; a `given` section has none.",
         ..Section::EMPTY
     };
     shape: String = Choice(Choices::Words(&[ROUND, TUBE, RECTANGLE, BOX, I, GIVEN])), Required,
@@ -57,6 +60,8 @@ section! {
         "Direction of the height as far as it is across the beam.";
     points: Option<usize> = Integer(1), Optional("4, around 12"),
         "Fibres along each direction of a rectangle, along each wall of a box and an I (1 to 10); around a circle (4 to 64).";
+    corners: Option<usize> = Integer(4), Optional("12"),
+        "Corners of the polygon in the circle (4 to 64) by which a round or a tube touches others and is shown. Edges of more than 16 are too flat to meet those of others: then only nodes do.";
     failed_points: f64 = Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("1"),
         "Part of its fibres that have to fail until an element fails.";
 }
@@ -86,6 +91,18 @@ impl Profile {
         [ROUND, TUBE].contains(&self.shape.as_str())
     }
 
+    /// Whether it has an outline that others can touch.
+    #[must_use]
+    pub fn has_outline(&self) -> bool {
+        self.shape != GIVEN
+    }
+
+    /// Corners of the polygon that a circle is for others.
+    #[must_use]
+    pub fn corners(&self) -> usize {
+        self.corners.unwrap_or(12)
+    }
+
     /// Fibres as [`Self::points`] counts them.
     #[must_use]
     pub fn fibres(&self) -> usize {
@@ -108,4 +125,18 @@ impl Profile {
             _ => None,
         }
     }
+}
+
+/// Axes of a beam along a unit vector, whose height points `up` as far as it is across; `None`: it is not.
+pub(crate) fn beam_axes(along: [f64; 3], up: Option<[f64; 3]>) -> Option<[[f64; 3]; 3]> {
+    let across = |up: [f64; 3]| {
+        let part = minus(up, times(dot(up, along), along));
+        let length = dot(part, part).sqrt();
+        (length > 1e-6 * dot(up, up).sqrt()).then(|| times(1.0 / length, part))
+    };
+    let z = match up {
+        Some(up) => across(up)?,
+        None => across([0.0, 0.0, 1.0]).or_else(|| across([1.0, 0.0, 0.0]))?,
+    };
+    Some([along, cross(z, along), z])
 }

@@ -17,13 +17,13 @@ use std::f64::consts::{PI, TAU};
 fn plus(a: Vector, b: Vector) -> Vector {
     [0, 1, 2].map(|k| a[k] + b[k])
 }
-fn shape(name: &str) -> Profile {
+pub(crate) fn shape(name: &str) -> Profile {
     Profile { shape: name.into(), ..Profile::default() }
 }
-fn rectangle(width: f64, height: f64) -> Profile {
+pub(crate) fn rectangle(width: f64, height: f64) -> Profile {
     Profile { width: Some(width), height: Some(height), ..shape("rectangle") }
 }
-fn round(diameter: f64) -> Profile {
+pub(crate) fn round(diameter: f64) -> Profile {
     Profile { diameter: Some(diameter), ..shape("round") }
 }
 
@@ -287,7 +287,7 @@ fn fibres_that_flow_have_the_plastic_moment_of_the_section() {
 }
 
 /// A part of beams of the material `soft` along a line.
-fn beams(model: &mut Model, name: &str, line: Vec<Vector>, elements: usize, profile: Profile) {
+pub(crate) fn beams(model: &mut Model, name: &str, line: Vec<Vector>, elements: usize, profile: Profile) {
     let shape = Shape::SpaceTruss(SpaceTruss { lines: vec![line], elements });
     let part =
         Part { name: name.into(), material: "soft".into(), element: "beam2".into(), profile: Some(profile), shape, ..Part::default() };

@@ -13,6 +13,7 @@ mod adding;
 mod allocations;
 mod assembled_bound;
 mod bars;
+mod beam_models;
 mod beams;
 mod blocks;
 mod certificate;

@@ -45,6 +45,7 @@ use crate::angle::arc_of_tangent;
 use crate::block::SHELL_VALUES;
 use crate::material::Family;
 use crate::material::points::RESPONSE;
+use crate::model::beam_axes;
 use crate::tensor::{Plane, cross, dot};
 use crate::vector::{minus, plus};
 use embate_lanes::{Batch, Lane};
@@ -174,20 +175,6 @@ fn of_columns([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
     all.map(|part| half * part)
 }
 
-/// Axes of a beam along a unit vector, whose height points `up` as far as it is across; `None`: it is not.
-pub(crate) fn axes(along: [f64; 3], up: Option<[f64; 3]>) -> Option<[[f64; 3]; 3]> {
-    let across = |up: [f64; 3]| {
-        let part = minus(up, scaled(dot(up, along), along));
-        let length = dot(part, part).sqrt();
-        (length > 1e-6 * dot(up, up).sqrt()).then(|| scaled(1.0 / length, part))
-    };
-    let z = match up {
-        Some(up) => across(up)?,
-        None => across([0.0, 0.0, 1.0]).or_else(|| across([1.0, 0.0, 0.0]))?,
-    };
-    Some([along, cross(z, along), z])
-}
-
 /// Stiffness against s_y, s_z and ψ₁ by their change: k µ A/L and µ J/L.
 #[inline(always)]
 fn besides<L: Lane>(facts: &Facts, length: L) -> Vector<L> {
@@ -212,7 +199,7 @@ impl ShellKernel<3> for Beam {
         let length = dot(way, way).sqrt();
         let along = scaled(1.0 / length, way);
         // That its height is across is seen before.
-        let triad = of_columns(axes(along, profile.up).or_else(|| axes(along, None)).unwrap_or_default());
+        let triad = of_columns(beam_axes(along, profile.up).or_else(|| beam_axes(along, None)).unwrap_or_default());
         let shape = Shape::<f64>::new(way, [triad; 2]);
         let mut state: Vec<f64> = triad.into_iter().chain([length]).chain(shape.all()).collect();
         state.resize(STATE, 0.0);

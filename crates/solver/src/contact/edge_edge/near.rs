@@ -110,7 +110,8 @@ pub(super) fn near(
     let placed = |edge: [u32; 2]| edge.map(|node| sweep.new[node as usize]);
     let is_near = |edges: [u32; 2]| {
         let [a, b] = [0, 1].map(|of| surfaces[sides[of]].edges[edges[of] as usize].nodes);
-        !a.iter().any(|node| b.contains(node) || is_joined(node, 1))
+        !surfaces[sides[0]].are_kin(&a, &b)
+            && !a.iter().any(|node| is_joined(node, 1))
             && !b.iter().any(|node| is_joined(node, 0))
             && (distance(placed(a), placed(b)) <= radius || [a, b].iter().flatten().any(|&node| way(node) > skin))
     };

@@ -49,7 +49,7 @@ impl Meeting<'_> {
             near.sort_unstable();
             near.dedup();
             kept.clear();
-            let others = near.iter().filter(|&&(_, facet)| !target.facets[facet as usize].contains(&node));
+            let others = near.iter().filter(|&&(_, facet)| !target.are_kin(&[node], &target.facets[facet as usize]));
             kept.extend(others.filter_map(|&(body, facet)| counts(node, facet).map(|known| (body, facet, known))));
             for of_body in kept.chunk_by(|a, b| a.0 == b.0) {
                 take([slave, node, of_body[0].0], &mut of_body.iter().map(|&(_, facet, known)| (facet, known)));

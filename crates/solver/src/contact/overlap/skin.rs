@@ -85,6 +85,8 @@ pub(super) struct Skin {
     pub(super) around: Rows<u32>,
     /// Triangles at each vertex.
     pub(super) at_vertex: Rows<u32>,
+    /// Label of each of the nodes' vertices: what has the same does not touch. Empty where there are none.
+    kin: Vec<u32>,
     /// How many bodies there are, and whether facets of one body may meet each other.
     pub(super) bodies: u32,
     pub(super) meets_itself: bool,
@@ -100,7 +102,8 @@ impl Skin {
         known.sort_unstable();
         known.dedup();
         let nodes = outside.nodes.clone();
-        let mut skin = Self { bodies: known.len() as u32, meets_itself: side_of.is_none(), nodes, ..Self::default() };
+        let kin = outside.labels();
+        let mut skin = Self { bodies: known.len() as u32, meets_itself: side_of.is_none(), nodes, kin, ..Self::default() };
         skin.add(bodies, &known);
         let vertices = skin.nodes.len() + skin.middles.len();
         let ends = skin.edges.iter().zip(0..).flat_map(|(edge, number)| edge.ends.map(|vertex| (vertex, number)));
@@ -204,10 +207,21 @@ impl Skin {
         around(facet.all().iter().map(|&vertex| self.x[vertex as usize]))
     }
 
+    /// Whether a facet has a label: it is one of a beam, or near one.
+    pub(super) fn is_labelled(&self, facet: &Facet) -> bool {
+        facet.all().iter().any(|&vertex| self.kin.get(vertex as usize).is_some_and(|label| *label != NONE))
+    }
+
     /// Whether facets may meet each other: they are of different sides where there are two, and no
     /// neighbours.
     pub(super) fn may_meet(&self, a: &Facet, b: &Facet) -> bool {
-        (self.meets_itself || a.side != b.side) && !a.all().iter().any(|vertex| b.all().contains(vertex))
+        let has_same_label = |vertex: &u32| {
+            let label = self.kin.get(*vertex as usize).filter(|label| **label != NONE);
+            label.is_some_and(|label| b.all().iter().any(|other| self.kin.get(*other as usize) == Some(label)))
+        };
+        (self.meets_itself || a.side != b.side)
+            && !a.all().iter().any(|vertex| b.all().contains(vertex))
+            && (self.kin.is_empty() || !a.all().iter().any(has_same_label))
     }
 
     /// Nodes (vertices) that carry a vertex, with their shares: itself, or the corners around a middle.

@@ -55,6 +55,9 @@ impl Thickness {
     /// Of the facets of a skin in its places.
     pub(super) fn new(skin: &Skin, tree: &Tree) -> Self {
         let of = |facet: &Facet| {
+            if skin.is_labelled(facet) {
+                return opposite_of_beam(skin, tree, facet);
+            }
             let (from, normal) = middle(skin, facet.first);
             let mut nearest = (f64::INFINITY, (NONE, [0.0; 3]));
             let inward = normal.map(|n| -n);
@@ -166,6 +169,34 @@ impl Thick<3> for Walls {
     }
 }
 
+/// What is opposite of the facet of a beam: around a joint others are within it, and the ray leaves all of
+/// them where it has come out of as many as it was in.
+fn opposite_of_beam(skin: &Skin, tree: &Tree, facet: &Facet) -> Opposite {
+    let (from, normal) = middle(skin, facet.first);
+    let inward = normal.map(|n| -n);
+    let mut crossed: Vec<(f64, bool, u32)> = Vec::new();
+    tree.along(skin, facet.body, from, inward, |triangle| {
+        if let Some((away, _)) = crosses(from, inward, skin.corners(triangle))
+            && !facet.triangles().contains(&triangle)
+        {
+            crossed.push((away, dot(skin.double(triangle), inward) > 0.0, triangle));
+        }
+    });
+    crossed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+    // Along an edge or through a corner the ray meets several triangles at once.
+    crossed.dedup_by(|next, last| next.1 == last.1 && next.0 - last.0 <= BESIDE * next.0);
+    let mut depth: i64 = crossed.iter().map(|&(_, comes_out, _)| if comes_out { 1 } else { -1 }).sum();
+    for (_, comes_out, triangle) in crossed {
+        depth -= if comes_out { 1 } else { -1 };
+        if depth == 0 {
+            let met = meets(from, inward, skin.corners(triangle));
+            let (triangle, shares) = met.map_or((NONE, [0.0; 3]), |(_, shares)| (triangle, shares));
+            return Opposite { triangle, shares, most: f64::INFINITY };
+        }
+    }
+    Opposite { triangle: NONE, shares: [0.0; 3], most: f64::INFINITY }
+}
+
 /// Middle and unit normal of the facet of a first triangle.
 fn middle(skin: &Skin, first: u32) -> (Vector, Vector) {
     let facet = &skin.facets[skin.facet_of[first as usize] as usize];
@@ -189,10 +220,14 @@ fn centre(skin: &Skin, facet: &Facet) -> Vector {
 /// there.
 fn meets(from: Vector, direction: Vector, [a, b, c]: [Vector; 3]) -> Option<(f64, [f64; 3])> {
     let double = cross(minus(b, a), minus(c, a));
+    let is_opposite = dot(double, direction) > -OPPOSITE * length(double);
+    if is_opposite { crosses(from, direction, [a, b, c]) } else { None }
+}
+
+/// The same of a triangle that it comes to from either side.
+fn crosses(from: Vector, direction: Vector, [a, b, c]: [Vector; 3]) -> Option<(f64, [f64; 3])> {
+    let double = cross(minus(b, a), minus(c, a));
     let (square, falls) = (dot(double, double), dot(double, direction));
-    if !(falls > -OPPOSITE * square.sqrt()) {
-        return None;
-    }
     let away = dot(minus(a, from), double) / falls;
     let foot = [0, 1, 2].map(|d| from[d] + away * direction[d]);
     let second = dot(double, cross(minus(foot, a), minus(c, a))) / square;

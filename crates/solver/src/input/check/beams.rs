@@ -93,6 +93,13 @@ impl Check<'_> {
             self.direction(&format!("{at}.up"), up);
         }
         self.number(&format!("{at}.failed_points"), profile.failed_points);
+        if let Some(corners) = profile.corners.filter(|_| profile.is_circular()).filter(|corners| !(4..=64).contains(corners)) {
+            let message = format!("the polygon of a circle has 4 to 64 corners, not {corners}");
+            self.fault(&BEAMS, format!("{at}.corners"), message, "leave it out: 12 corners do in most cases");
+        } else if profile.corners.is_some() && !profile.is_circular() {
+            let help = "leave it out: only `round` and `tube` are touched by a polygon";
+            self.fault(&BEAMS, format!("{at}.corners"), format!("the shape `{shape}` has no `corners` to choose"), help);
+        }
         let range = if profile.is_circular() { 4..=64 } else { 2..=10 };
         if profile.shape != GIVEN && !range.contains(&profile.fibres()) {
             let message = format!("`{shape}` has {} to {} points, not {}", range.start(), range.end(), profile.fibres());

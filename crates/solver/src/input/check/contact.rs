@@ -199,9 +199,9 @@ impl Check<'_> {
         self.window(path, ["birth", "death"], interface.active);
     }
 
-    /// Shells among these parts (none: all) can't be pushed out.
+    /// Shells and beams among these parts (none: all) can't be pushed out.
     pub(super) fn pushes_no_shells(&mut self, path: &str, interface: &Interface, parts: &[String]) {
-        let meets = |part: &&Part| part.is_of_shells() && (parts.is_empty() || parts.contains(&part.name));
+        let meets = |part: &&Part| part.has_rotations() && !part.has_no_surface() && (parts.is_empty() || parts.contains(&part.name));
         if interface.initial_penetration == InitialPenetration::PushOut
             && let Some(part) = self.model.parts.iter().find(meets)
         {

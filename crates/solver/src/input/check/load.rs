@@ -110,8 +110,9 @@ impl Check<'_> {
                 if part.rigid.is_some() {
                     let message = format!("part `{}` is rigid, so no waves meet this boundary", excerpt(&part.name));
                     self.fault(&RIGID, path.as_str(), message, "name a surface of a part that deforms");
-                } else if part.is_of_shells() {
-                    let message = format!("part `{}` is a shell: no waves come through its faces", excerpt(&part.name));
+                } else if part.has_rotations() {
+                    let what = if part.is_of_shells() { "a shell" } else { "made of beams" };
+                    let message = format!("part `{}` is {what}: no waves come through its faces", excerpt(&part.name));
                     self.fault(&SHELLS, path.as_str(), message, "name a surface of solids");
                 }
             }

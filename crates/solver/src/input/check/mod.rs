@@ -40,12 +40,11 @@ const FRAMES_MAX: f64 = 1e6;
 const ROWS_MAX: f64 = 1e8;
 
 /// What to do about bars where a surface is meant.
-const NO_SURFACE: &str =
-    "contact, obstacles and pressure see elements with an area only: name another part, or a strip of thin elements beside the bars";
+const NO_SURFACE: &str = "name another part; give beams the shape and the sizes of their section, or take beams in the place of bars";
 
 /// What a part without a surface is made of.
 fn lines_of(part: &Part) -> &'static str {
-    if part.is_of_beams() { "beams" } else { "bars" }
+    if part.is_of_beams() { "beams with a `given` section" } else { "bars" }
 }
 
 impl Model {

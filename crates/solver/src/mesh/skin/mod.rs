@@ -1,5 +1,5 @@
-//! The surfaces of shells: nodes on both faces, which go with the nodes of the middle, and the cells between
-//! them, which bound a body as those of solids do.
+//! The surfaces of shells and beams: nodes on both faces, or around the cross-section, which go with the
+//! nodes of the middle, and the cells between them, which bound a body as those of solids do.
 //!
 //! Around a node of the middle its elements divide the plane, in 3D space, into sectors. Each sector has a
 //! node where the faces around it meet. So contact, pressure and pictures see a body of the shell's
@@ -7,18 +7,22 @@
 
 mod arm;
 mod around;
+mod beams;
 mod hubs;
 mod lines;
+mod outline;
 mod surfaces;
+#[cfg(test)]
+mod beam_tests;
 #[cfg(test)]
 mod tests;
 
 use super::cell::Cell;
-use super::messages::SHELLS;
+use super::messages::{BEAMS, SHELLS};
 use super::surface::{Corners, Facet};
 use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh};
 use crate::error::Fault;
-use crate::model::{Model, Symmetry};
+use crate::model::{Model, Part, Symmetry};
 use crate::vector::{dot, first, minus, plus, unit};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -69,9 +73,8 @@ where
         }
         let solids: BTreeSet<Facet<D>> = self.outside_of_solids().into_iter().map(Corners::canonical).collect();
         let mut faces: BTreeMap<Facet<D>, Facet<D>> = BTreeMap::new();
-        for (cell, outer) in
-            self.groups.iter().filter(|group| !group.outer.is_empty()).flat_map(|group| group.cells().zip(group.outer_cells()))
-        {
+        let shells = self.groups.iter().filter(|group| !group.outer.is_empty());
+        for (cell, outer) in shells.flat_map(|group| group.outer_cells().map(|(element, outer)| (group.cell(element), outer))) {
             let (below, above) = outer.nodes.split_at(cell.nodes.len());
             // In 2D the cell goes back along the left.
             let above: Vec<u32> = if D == 2 { above.iter().rev().copied().collect() } else { above.to_vec() };
@@ -100,13 +103,26 @@ where
         }
     }
 
-    /// Shells that are too thick where they are bent: one face folds over.
-    pub(super) fn check_thickness(&self, faults: &mut Vec<Fault>) {
+    /// Shells that are too thick where they are bent: one face folds over. Beams that are count where
+    /// something may touch them.
+    pub(super) fn check_thickness(&self, model: &Model, faults: &mut Vec<Fault>) {
         let shells = self.groups.iter().filter(|group| !group.outer.is_empty());
         for (part, group) in shells.map(|group| (group.part, group)) {
-            let folded = group.outer_cells().position(|cell| self.what_is_wrong_with(cell).is_some());
-            if let Some(element) = folded.filter(|_| faults.iter().all(|fault| fault.path != format!("part[{part}].section.thickness"))) {
-                let at = crate::vector::place(self.positions[group.nodes_of(element)[0] as usize]);
+            let folded = group.outer_cells().find(|(_, cell)| self.what_is_wrong_with(*cell).is_some()).map(|(element, _)| element);
+            let Some(element) = folded else { continue };
+            if model.parts.get(part).is_some_and(Part::is_of_beams) {
+                let (at, path) = (self.place_of(group.nodes_of(element)[0]), format!("part[{part}].profile"));
+                if !(model.contacts.is_empty() && model.obstacles.is_empty()) && faults.iter().all(|fault| fault.path != path) {
+                    let message = format!("the beam is too thick for its bend at {at} m: its outline folds over there");
+                    let help = "take a smaller section, a larger radius, or longer elements";
+                    faults.push(Fault::new(&BEAMS, path, message, help));
+                }
+                continue;
+            }
+            if let Some(element) =
+                Some(element).filter(|_| faults.iter().all(|fault| fault.path != format!("part[{part}].section.thickness")))
+            {
+                let at = self.place_of(group.nodes_of(element)[0]);
                 let message = format!("the shell is too thick for its bend or fold at {at} m: one of its faces folds over there");
                 let help = "take a smaller thickness, a larger radius, or elements longer than half of the thickness at folds";
                 faults.push(Fault::new(&SHELLS, format!("part[{part}].section.thickness"), message, help));
@@ -157,6 +173,11 @@ where
             at_axis.for_each(|(node, _)| normals.entry(node).or_default().push(first([1.0, 0.0, 0.0])));
         }
         normals
+    }
+
+    /// Where a node is, in words.
+    fn place_of(&self, node: u32) -> String {
+        crate::vector::place(self.positions[node as usize])
     }
 
     /// Adds a node of a face.

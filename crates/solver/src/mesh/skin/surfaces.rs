@@ -211,7 +211,7 @@ impl Mesh<3> {
     fn name_surface_faces(&mut self) {
         for index in 0..self.parts.len() {
             let groups = || self.groups.iter().filter(move |group| group.part == index && !group.outer.is_empty());
-            let cells = || groups().flat_map(|group| group.outer_cells().map(|cell| cell.nodes.split_at(group.kind.nodes())));
+            let cells = || groups().flat_map(|group| group.outer_cells().map(|(_, cell)| cell.nodes.split_at(group.kind.nodes())));
             let lower: Vec<[u32; 4]> =
                 cells().filter_map(|(nodes, _)| <[u32; 4]>::of_cell(nodes)).map(|it| it.reversed().canonical()).collect();
             let upper: Vec<[u32; 4]> = cells().filter_map(|(_, nodes)| <[u32; 4]>::of_cell(nodes)).map(Corners::canonical).collect();

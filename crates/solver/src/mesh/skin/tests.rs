@@ -131,7 +131,8 @@ fn check(mesh: &Mesh<3>) {
     }
     for (group, directions) in mesh.groups.iter().zip(&mesh.directions) {
         assert_eq!(directions.len(), group.connectivity.len());
-        for (element, (cell, outer)) in group.cells().zip(group.outer_cells()).enumerate() {
+        for (element, outer) in group.outer_cells() {
+            let cell = group.cell(element);
             let (count, middle) = (cell.nodes.len(), |node: u32| mesh.leader_of(node));
             assert!(!outer.is_collapsed());
             assert!((0..2 * count).all(|k| middle(outer.nodes[k]) == cell.nodes[k % count] && outer.nodes[k] >= nodes));
@@ -152,7 +153,7 @@ fn check(mesh: &Mesh<3>) {
 
 fn faults(mesh: &Mesh<3>) -> Vec<Fault> {
     let mut faults = Vec::new();
-    mesh.check_thickness(&mut faults);
+    mesh.check_thickness(&Model::default(), &mut faults);
     faults
 }
 
@@ -163,6 +164,11 @@ fn outside(mesh: &Mesh<3>) -> SpaceSurface {
 /// Number of edges at which a surface ends.
 fn open_edges(surface: &SpaceSurface) -> usize {
     surface.edges.iter().filter(|edge| edge.facets.contains(&NONE)).count()
+}
+
+/// Kind of the first of its cells as bodies have them.
+fn first_kind(group: &ElementGroup) -> CellKind {
+    group.outer_cells().next().unwrap().1.kind
 }
 
 /// The outside of a mesh that closes: each edge has two facets. The volume is that within it.
@@ -210,12 +216,12 @@ fn a_plate_has_its_faces_at_half_of_the_thickness() {
         assert_eq!((facets, mesh.skins.len(), mesh.joints.len()), (2 * count + 10, 24, 0));
         assert!((volume - 6.0 * THICKNESS).abs() < 1e-14);
         let of = |group: &ElementGroup| {
-            let kind = group.outer_cell(0).kind;
+            let kind = first_kind(group);
             let places = |cell: Cell<'_>| cell.nodes.iter().map(|&node| mesh.positions[node as usize]).collect::<Vec<_>>();
-            group.outer_cells().map(|cell| signed_volume(kind, &places(cell))).sum::<f64>()
+            group.outer_cells().map(|(_, cell)| signed_volume(kind, &places(cell))).sum::<f64>()
         };
         assert!((mesh.groups.iter().map(of).sum::<f64>() - 6.0 * THICKNESS).abs() < 1e-14);
-        let kinds: Vec<CellKind> = mesh.groups.iter().map(|group| group.outer_cell(0).kind).collect();
+        let kinds: Vec<CellKind> = mesh.groups.iter().map(first_kind).collect();
         assert_eq!(kinds.contains(&CellKind::Wedge), triangular > 0);
         for (name, z) in [("part.upper", HALF), ("part.lower", -HALF)] {
             let face = mesh.surface(name, |_| false).unwrap();

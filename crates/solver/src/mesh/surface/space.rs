@@ -13,6 +13,7 @@ use crate::model::TriangleSurface;
 use crate::rows::Rows;
 use crate::tensor::{cross, dot};
 use crate::vector::minus;
+use std::sync::Arc;
 
 /// An edge of a surface in 3D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +41,9 @@ pub struct SpaceSurface {
     pub mirrors: Vec<(u32, [f64; 3])>,
     /// Facets at each of `nodes`, ascending.
     around: Rows<u32>,
+    /// Label of each node of the model, as far as it has one: what has the same label does not touch. Empty
+    /// where nothing has.
+    kin: Arc<[u32]>,
 }
 
 impl SpaceSurface {
@@ -67,6 +71,38 @@ impl SpaceSurface {
         };
         let mirrors = self.edges.iter().zip(0..).filter_map(mirror).collect();
         Self { mirrors, ..self }
+    }
+
+    /// The same where what has the same label does not touch: those of nodes by their numbers, [`NONE`] for
+    /// none; none at all where there is none.
+    #[must_use]
+    pub fn with_kin(self, labels: &[u32]) -> Self {
+        Self { kin: labels.into(), ..self }
+    }
+
+    /// Label of each of its nodes; empty where none has any.
+    #[must_use]
+    pub fn labels(&self) -> Vec<u32> {
+        if self.kin.is_empty() {
+            return Vec::new();
+        }
+        self.nodes.iter().map(|&node| self.label(node)).collect()
+    }
+
+    fn label(&self, node: u32) -> u32 {
+        self.kin.get(node as usize).copied().unwrap_or(NONE)
+    }
+
+    /// Whether two nodes have the same label.
+    fn have_same_label(&self, a: u32, b: u32) -> bool {
+        self.label(a) != NONE && self.label(a) == self.label(b)
+    }
+
+    /// Whether some nodes do not touch others: they are the same, or have the same label.
+    #[must_use]
+    pub fn are_kin(&self, some: &[u32], others: &[u32]) -> bool {
+        some.iter().any(|node| others.contains(node))
+            || !self.kin.is_empty() && some.iter().any(|&a| others.iter().any(|&b| self.have_same_label(a, b)))
     }
 
     /// Normal of the symmetry plane on which the surface ends at an edge, if it does; it points to the body.
@@ -152,7 +188,7 @@ impl SpaceSurface {
         nodes.sort_unstable();
         nodes.dedup();
         let around = Self::around_nodes(&facets, &nodes);
-        Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around }
+        Self { facets, nodes, edges, edges_of, around, ..Self::default() }
     }
 
     /// Both surfaces as one; the nodes of the other come after those of this one. Symmetry planes are
@@ -168,7 +204,7 @@ impl SpaceSurface {
         let edges_of = other.edges_of.iter().map(|edges| edges.map(|edge| later(edge, edges_before)));
         let edges_of = self.edges_of.iter().copied().chain(edges_of).collect();
         let around = Self::around_nodes(&facets, &nodes);
-        Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around }
+        Self { facets, nodes, edges, edges_of, around, ..Self::default() }
     }
 
     /// Facets at each node.
@@ -251,7 +287,7 @@ impl SpaceSurface {
         nodes.sort_unstable();
         nodes.dedup();
         let around = Self::around_nodes(&facets, &nodes);
-        Ok(Self { facets, nodes, edges, edges_of, mirrors: Vec::new(), around })
+        Ok(Self { facets, nodes, edges, edges_of, around, ..Self::default() })
     }
 }
 

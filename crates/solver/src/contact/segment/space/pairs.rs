@@ -135,7 +135,7 @@ impl Pairs {
             let beside = (0..target.facets[b as usize].corners().len()).map(|k| target.across(b, k));
             for b in std::iter::once(b).chain(beside).filter(|&b| b != NONE) {
                 for &a in surfaces[slave].around(touch.slave as usize) {
-                    let meets = !is_one || !shares_a_node(target.facets[a as usize], target.facets[b as usize]);
+                    let meets = !is_one || !target.are_kin(&target.facets[a as usize], &target.facets[b as usize]);
                     if meets {
                         let forward = if is_one { a < b } else { slave == 0 };
                         let [first, second] = if forward { [a, b] } else { [b, a] };
@@ -265,10 +265,6 @@ impl Pairs {
 /// Two bodies, the lower first, and whether they were the other way round.
 fn ascending([first, second]: [u32; 2]) -> ([u32; 2], bool) {
     ([first.min(second), first.max(second)], second < first)
-}
-
-fn shares_a_node(one: [u32; 4], other: [u32; 4]) -> bool {
-    one.corners().iter().any(|node| other.corners().contains(node))
 }
 
 #[cfg(test)]

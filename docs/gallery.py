@@ -30,6 +30,7 @@ MOMENTS_OF = {
     "crossing-pipes": (0.0, 1.0),
     "crossing-tubes": (0.0, 1.0),
     "squeezed-can": (0.0, 1.0),
+    "roll-over-frame": (0.35, 1.0),
     "rubber-disk": (0.0, 0.1, 0.2, 1.0),
     "thin-plates": (0.0, 0.33, 0.52, 1.0),
     "tube-plate": (0.0, 0.1, 0.25, 0.5, 0.75, 1.0),

@@ -112,6 +112,7 @@ fn every_example_is_listed_here() {
         "heap",
         "ironing",
         "pole-bumper",
+        "roll-over-frame",
         "rolling-ring",
         "rubber-disk",
         "rubber-seal",
@@ -389,6 +390,28 @@ fn tubes_that_cross_dent_each_other_alike() {
         assert!((0.8..=1.0).contains(&plastic), "{plastic}");
         results.keeps_momenta();
     }
+}
+
+#[test]
+fn a_frame_of_tubes_rolls_over_as_gravity_and_friction_let_it() {
+    let results = run("roll-over-frame", "example-roll-over-frame");
+    results.is_sound(1e-3);
+    // Mass of 18.737 m of tube, and what it carries.
+    let mass = 100.0 + 7800.0 * 18.736_931_687_685 * 0.25 * PI * (0.06f64.powi(2) - 0.057f64.powi(2));
+    is_near(results.column("energy.kinetic")[0], 50.0 * mass, 1e-6);
+    let [vx, vy, vz] = ["x", "y", "z"].map(|axis| results.column(&format!("frame.v{axis}")));
+    let times = results.column("time");
+    let row = |time: f64| times.iter().position(|own| *own >= time).unwrap();
+    // It falls freely after its roof has hit the ground.
+    let (from, to) = (row(0.16), row(0.4));
+    assert!(results.column("obstacle.force_z[ground]")[from..=to].iter().all(|force| *force == 0.0));
+    is_near(vz[to] - vz[from], -9.81 * (times[to] - times[from]), 1e-9);
+    is_near(vy[to], vy[from], 1e-9);
+    // Friction brings no more than its coefficient of what the ground pushes.
+    let (pushed, braked) = (vz[from] + 8.0 + 9.81 * times[from], (vx[from].powi(2) + (6.0 - vy[from]).powi(2)).sqrt());
+    assert!(braked < 0.5 * pushed * (1.0 + 1e-9) && braked > 0.1 * pushed, "{braked} {pushed}");
+    let plastic = *results.column("energy.plastic").last().unwrap();
+    is_near(plastic, 3245.0, 60.0);
 }
 
 #[test]

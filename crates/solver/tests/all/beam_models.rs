@@ -79,7 +79,8 @@ fn a_rod_that_falls_flat_on_a_plane_touches_with_its_radius_and_rebounds() {
         let (times, energies) = (steps.column("time"), steps.column("obstacle.energy[floor]"));
         let first = energies.iter().position(|energy| *energy > 0.0).unwrap();
         let at = gap / speed;
-        assert!(times[first - 1] <= at * (1.0 + 1e-9) && times[first] > at * (1.0 - 1e-9), "{}: {}", profile.shape, times[first]);
+        // Springs of obstacles act in the step in which they close.
+        assert!(times[first] <= at * (1.0 + 1e-9) && times[first + 1] > at * (1.0 - 1e-9), "{}: {}", profile.shape, times[first]);
         let change = steps.masses[0] * steps.change("rod.vz");
         let impulse = steps.impulse("obstacle.force_z[floor]").abs();
         let simulation = to_end(&model);
@@ -232,7 +233,8 @@ fn turns_of_a_coil_meet_each_other() {
     println!("least {least} diameters, energy {}", history.largest("contact.energy[all]"));
     // They come on each other, no nearer than the polygons let them, and are held there.
     assert!((0.93..1.1).contains(&least), "{least}");
-    is_sound(&simulation, "coil");
+    let summary = simulation.summary();
+    assert!(summary.ledger_residual < 1e-12 && summary.penetration_max < diameter / 10.0, "{summary:?}");
 }
 
 /// A block, a sheet and three beams that hit each other.
@@ -272,7 +274,7 @@ fn solids_shells_and_beams_hit_each_other_with_equal_bits_and_continue_where_the
 #[test]
 fn beams_that_break_leave_contact() {
     let mut model = crash(2e-4);
-    model.materials.get_mut("soft").unwrap().failure.insert("plastic_strain".into(), 0.02);
+    model.materials.get_mut("soft").unwrap().failure.insert("plastic_strain".into(), 0.004);
     let (simulation, _) = run(&model);
     let summary = simulation.summary();
     assert!(summary.erosion.is_some(), "nothing broke");
@@ -286,16 +288,16 @@ fn beams_that_break_leave_contact() {
     let mut weak = model.materials["soft"].clone();
     weak.failure.insert("plastic_strain".into(), 1e-3);
     model.materials.insert("weak".into(), weak);
-    rod(&mut model, "between", vec![[0.0, -0.02, 0.0], [0.0, 0.02, 0.0]], 2, round(0.004), [0.0; 3]);
+    rod(&mut model, "between", vec![[0.0, -0.03, 0.0], [0.0, 0.03, 0.0]], 6, round(0.004), [0.0; 3]);
     model.parts[0].material = "weak".into();
-    for (name, z, v) in [("below", -0.03, 40.0), ("above", 0.03, -40.0)] {
-        rod(&mut model, name, vec![[-0.05, 0.0, z], [0.05, 0.0, z]], 8, round(0.02), [0.0, 0.0, v]);
+    for (name, y, z, v) in [("below", -0.02, -0.03, 40.0), ("above", 0.02, 0.03, -40.0)] {
+        rod(&mut model, name, vec![[-0.05, y, z], [0.05, y, z]], 8, round(0.02), [0.0, 0.0, v]);
     }
     all_touch(&mut model, 0.0);
     let (simulation, history) = run(&model);
     let [below, above] = ["below", "above"].map(|name| place(&simulation, name)[2]);
     println!("{below} {above} at {:?}", simulation.summary().erosion);
-    assert!(simulation.summary().erosion.is_some() && history.largest("contact.energy[all]") > 0.0);
+    assert!(simulation.summary().erosion.is_some() && history.largest("contact.energy[all]") > 0.0 && below > above + 0.04);
     assert!(simulation.summary().ledger_residual < 1e-12);
 }
 

@@ -485,8 +485,11 @@ fn what_makes_no_sense_of_beams_is_told() {
         &["`shell2`, which in plane stress is a beam"],
     );
     told(
-        &|model| model.contacts.push(embate_solver::model::Contact::between("self", "helix", "helix")),
-        &["made of beams, which have no surface"],
+        &|model| {
+            model.parts[0].profile = profiles(0.1).pop();
+            model.contacts.push(embate_solver::model::Contact::between("self", "helix", "helix"));
+        },
+        &["made of beams with a `given` section, which have no surface"],
     );
     told(
         &|model| {

@@ -350,8 +350,9 @@ fn half_of_a_rod_at_a_symmetry_plane_moves_as_the_whole() {
 
 #[test]
 fn a_rod_rolls_down_a_slope_as_its_inertia_says() {
-    // A polygon of 64 corners rolls from corner to corner, by 5.6 degrees. The node rotates with α m about its
-    // axis, α = max(I/A, µ J/(E A), l²/(4 (E/(k µ) − 1))): a solid cylinder's R²/2 for one length of elements.
+    // A polygon of 64 corners rolls from corner to corner, by 5.6 degrees. The node rotates with α m about
+    // its axis, α = max(I/A, µ J/(E A), l²/(4 (E/(k µ) − 1))): a solid cylinder's R²/2 for one length of
+    // elements.
     let (radius, g, slope, poisson) = (0.01_f64, 10.0, 0.3_f64, 0.3);
     let shear = 6.0 / 7.0;
     let length = (2.0 * radius * radius * (2.0 * (1.0 + poisson) / shear - 1.0)).sqrt();

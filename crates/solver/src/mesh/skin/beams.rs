@@ -69,8 +69,8 @@ struct Beams {
 
 /// What a node of the middle has around it.
 enum Around {
-    /// One outline for both elements: arms, and number of each corner of the second element among those of the
-    /// first.
+    /// One outline for both elements: arms, and number of each corner of the second element among those of
+    /// the first.
     Shared(Vec<Vector>, Vec<usize>),
     /// The end of one element on a symmetry plane.
     Mirrored(Vec<Vector>),
@@ -209,8 +209,8 @@ impl Mesh<3> {
         }
     }
 
-    /// Labels what must not touch; `held`: which nodes are those of shells or solids, too; numbers of the first
-    /// node of a face, and of the first one of a face of beams.
+    /// Labels what must not touch; `held`: which nodes are those of shells or solids, too; numbers of the
+    /// first node of a face, and of the first one of a face of beams.
     fn label(&mut self, model: &Model, beams: &Beams, joints: &[u32], held: &[bool], [middles, first]: [usize; 2]) {
         let mut sets: Vec<u32> = (0..middles as u32).collect();
         let mut is_near = vec![false; middles];

@@ -377,7 +377,8 @@ fn welds_and_joints_that_can_not_be_are_refused() {
         faults(&model)
     };
     assert_eq!(found(&|_| {}), Vec::<String>::new());
-    let cases: [(&dyn Fn(&mut Model), &str); 12] = [
+    type Case<'a> = (&'a dyn Fn(&mut Model), &'a str);
+    let cases: [Case; 12] = [
         (&|model| model.welds[0].at = vec![], "weld[0].at"),
         (&|model| model.welds[0].at = vec![[0.4, 0.2, 0.1]], "weld[0].at[0]"),
         (&|model| model.welds[0].at = vec![[4.0, 0.2, 0.0]], "weld[0].at[0]"),

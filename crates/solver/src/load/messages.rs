@@ -162,7 +162,9 @@ pub(crate) static HINGE: Message = Message {
     code: "W0501",
     title: "a join of a shell or beam with a solid that is a hinge",
     example: Example::Model(
-        "[[part]]\nname = \"strip\"\nmaterial = \"steel\"\nelement = \"shell2\"\nsection = { thickness = \"1 mm\" }\nline = { points = [[\"-9 mm\", 0], [0, 0]], elements = 4 }\n\n\
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [\"10 m/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[part]]\nname = \"wall\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10.01 mm\", \"-5 mm\"], size = [\"10 mm\", \"20 mm\"], elements = [2, 4] }\n\n\
+         [[part]]\nname = \"strip\"\nmaterial = \"steel\"\nelement = \"shell2\"\nsection = { thickness = \"1 mm\" }\nline = { points = [[\"-9 mm\", 0], [0, 0]], elements = 4 }\n\n\
          [[join]]\nbetween = [\"strip.end\", \"block.left\"]\n",
     ),
     cause: "Nodes of solids have no rotation, so what is joined to one of them turns freely about it.",

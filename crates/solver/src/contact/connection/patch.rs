@@ -122,8 +122,8 @@ impl Patch {
             self.inverse = self.yielding(&places);
             let off = self.arms_now.iter().zip(&places).fold([0.0; 3], |sum, (arm, place)| plus(sum, times(share, cross(*arm, *place))));
             let mut turn = applied(&self.inverse, off);
-            // Far away Newton's method may find another stationary rotation; with the moment of inertia of the
-            // patch the way is sin θ of the angle θ that is left.
+            // Far away Newton's method may find another stationary rotation; with the moment of inertia of
+            // the patch the way is sin θ of the angle θ that is left.
             let rough = applied(&self.yielding(&self.arms_now), off);
             if dot(rough, rough) > FAR * FAR {
                 turn = rough;

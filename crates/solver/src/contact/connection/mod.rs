@@ -1,7 +1,7 @@
 //! Connections at a point: spot welds and joints.
 //!
 //! Each of the two sets of nodes (or the ground in place of the first) moves as a rigid body in the mean
-//! ([`patch`]) and leads the point. Axes e_i go with the first. What is locked is d·e_i = 0 of the way d
+//! (`patch`) and leads the point. Axes e_i go with the first. What is locked is d·e_i = 0 of the way d
 //! between both points, and the rotation of one against the other about e_i: multipliers, solved with the
 //! springs of contacts, hold them. Their forces act at the point of the second set on both, so that they are
 //! opposite and collinear and both momenta are kept; with rates of the axes the rows are the gradients of

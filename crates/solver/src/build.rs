@@ -233,7 +233,7 @@ fn terms_of(interface: &Interface) -> Terms {
 /// What acts in the ties of an interface.
 fn terms_of_ties(interface: &Interface) -> Terms {
     let rigid = matches!(interface.law, ContactLaw::Multiplier);
-    Terms { law: Box::new(law::tie::Tie { rigid }), tangential: Tangential::Tied, damping: 0.0 }
+    Terms { law: Box::new(law::tie::Tie { rigid, joins_ends: false }), tangential: Tangential::Tied, damping: 0.0 }
 }
 
 /// Stiffness of a slave node.

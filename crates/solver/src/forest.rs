@@ -1,7 +1,7 @@
 //! Disjoint sets as a forest: each has a parent, the root of a tree is its own.
 
 /// The root of a tree; the way there becomes half as long.
-pub(crate) fn root(parents: &mut [u32], mut at: u32) -> u32 {
+pub fn root(parents: &mut [u32], mut at: u32) -> u32 {
     while parents[at as usize] != at {
         parents[at as usize] = parents[parents[at as usize] as usize];
         at = parents[at as usize];
@@ -10,7 +10,7 @@ pub(crate) fn root(parents: &mut [u32], mut at: u32) -> u32 {
 }
 
 /// Joins the trees of two: the lower of their roots is that of both.
-pub(crate) fn join(parents: &mut [u32], a: u32, b: u32) -> u32 {
+pub fn join(parents: &mut [u32], a: u32, b: u32) -> u32 {
     let (a, b) = (root(parents, a), root(parents, b));
     parents[a.max(b) as usize] = a.min(b);
     a.min(b)

@@ -15,7 +15,7 @@ mod angle;
 mod vector;
 pub mod rotation;
 pub mod rows;
-mod forest;
+pub mod forest;
 pub mod reductions;
 pub mod random;
 pub mod lanczos;

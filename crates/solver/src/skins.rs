@@ -6,7 +6,6 @@
 
 use crate::angle::cos_sin_of;
 use crate::mesh::{Mesh, Meshed, SkinNode};
-use crate::rigid::space::Attitude;
 use crate::rotation::Rotate;
 use crate::rotations::Rotations;
 use crate::tensor::{Dim, Matrix};
@@ -14,7 +13,7 @@ use crate::vector::{minus, plus, times};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 
 /// The nodes on the faces of the shells of a model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Skins<const D: usize> {
     /// Number of the first of them; they follow each other.
     first: usize,
@@ -34,24 +33,6 @@ struct Owner {
     /// The first of those that it leads, among all of them, and the one after the last.
     from: u32,
     to: u32,
-}
-
-/// Rotations after the coming step.
-pub struct Next<'a> {
-    /// Of now in 2D, rad.
-    pub angles: &'a [f64],
-    /// Spins in the coming step, rad/s.
-    pub spins: &'a [[f64; 3]],
-    /// After it in 3D.
-    pub attitudes: &'a [Attitude],
-    /// s; without a step it is the motion of now that is asked for.
-    pub time_step: f64,
-}
-
-impl<const D: usize> Default for Skins<D> {
-    fn default() -> Self {
-        Self { first: 0, nodes: Vec::new(), places: Vec::new(), owners: Vec::new() }
-    }
 }
 
 impl<const D: usize> Skins<D>
@@ -83,18 +64,18 @@ where
         all.filter(|(_, place)| **place != u32::MAX).map(|((node, skin), place)| (node, skin, *place as usize))
     }
 
-    /// Velocities that lead them over the coming step to where the middle will have them: what was off by
-    /// rounding comes back. Without a step those that they have now.
-    pub(crate) fn lead(&self, next: &Next<'_>, positions: &[[f64; D]], velocities: &mut [[f64; D]], level: Level) {
-        if next.time_step > 0.0 {
-            level.run(Lead { skins: self, next, positions, velocities });
-            return;
-        }
+    /// Velocities that they have now, with spins of the places (rad/s).
+    pub(crate) fn spin(&self, spins: &[[f64; 3]], positions: &[[f64; D]], velocities: &mut [[f64; D]]) {
         for (node, skin, place) in self.led() {
             let owner = skin.owner as usize;
-            velocities[node] =
-                plus(velocities[owner], Dim::<D>::spin_velocity(next.spins[place], minus(positions[node], positions[owner])));
+            velocities[node] = plus(velocities[owner], Dim::<D>::spin_velocity(spins[place], minus(positions[node], positions[owner])));
         }
+    }
+
+    /// Velocities that lead them over the coming step (s) to where the middle will have them: what was off by
+    /// rounding comes back. `next` are the rotations after it, as [`Rotations::numbers_at`] gives them.
+    pub(crate) fn lead(&self, next: &[[f64; 4]], time_step: f64, positions: &[[f64; D]], velocities: &mut [[f64; D]], level: Level) {
+        level.run(Lead { skins: self, next, time_step, positions, velocities });
     }
 
     /// Hands the forces on them over: to the middle, and their moments to the place there.
@@ -133,10 +114,11 @@ impl<const D: usize> Skins<D> {
     }
 }
 
-/// [`Skins::lead`] over a step, eight owners at a time.
+/// [`Skins::lead`], eight owners at a time.
 struct Lead<'a, const D: usize> {
     skins: &'a Skins<D>,
-    next: &'a Next<'a>,
+    next: &'a [[f64; 4]],
+    time_step: f64,
     positions: &'a [[f64; D]],
     velocities: &'a mut [[f64; D]],
 }
@@ -149,12 +131,12 @@ where
 
     #[inline(always)]
     fn run<L: Lane>(self) {
-        let Self { skins, next, positions, velocities } = self;
-        let rate = 1.0 / next.time_step;
+        let Self { skins, next, time_step, positions, velocities } = self;
+        let rate = 1.0 / time_step;
         for owners in skins.owners.chunks(BATCH) {
             let mut numbers = [[0.0; 4]; BATCH];
             for (lane, owner) in owners.iter().enumerate() {
-                numbers[lane] = Dim::<D>::numbers(next, owner.place as usize);
+                numbers[lane] = next[owner.place as usize];
             }
             let mut turns = [[Batch::default(); D]; D];
             for at in (0..BATCH).step_by(L::WIDTH) {
@@ -184,17 +166,11 @@ where
 
 /// How arms rotate with nodes.
 pub trait RotatedArm<const D: usize> {
-    /// What says how the node at a place will be rotated.
-    fn numbers(next: &Next<'_>, place: usize) -> [f64; 4];
-    /// The matrix of that rotation.
+    /// The matrix of a rotation: in 3D of a unit quaternion, in 2D of the first number, an angle.
     fn turn<L: Lane>(numbers: [L; 4]) -> Matrix<L, D>;
 }
 
 impl RotatedArm<2> for Dim<2> {
-    #[inline(always)]
-    fn numbers(next: &Next<'_>, place: usize) -> [f64; 4] {
-        [next.angles[place] + next.time_step * next.spins[place][2], 0.0, 0.0, 0.0]
-    }
     #[inline(always)]
     fn turn<L: Lane>([angle, ..]: [L; 4]) -> Matrix<L, 2> {
         let [cos, sin] = cos_sin_of(angle);
@@ -203,10 +179,6 @@ impl RotatedArm<2> for Dim<2> {
 }
 
 impl RotatedArm<3> for Dim<3> {
-    #[inline(always)]
-    fn numbers(next: &Next<'_>, place: usize) -> [f64; 4] {
-        next.attitudes[place].0
-    }
     #[inline(always)]
     fn turn<L: Lane>([w, x, y, z]: [L; 4]) -> Matrix<L, 3> {
         let (one, two) = (L::splat(1.0), L::splat(2.0));

@@ -258,7 +258,7 @@ where
         let nodes = reductions::sum((0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic));
         self.rotations.prepare(&self.curves, [0.0; 2], [0.0; 2]);
         let rotations = self.rotations.start(&self.bodies);
-        self.skins.lead(&self.rotations.next(0.0), &self.positions, &mut self.velocities, self.level);
+        self.skins.spin(&self.rotations.now.spins, &self.positions, &mut self.velocities);
         self.ledger = Ledger::new(nodes + self.bodies.kinetic() + rotations, self.energy_of_round_off());
         let nodes = reductions::max(self.velocities.iter().map(|&v| dot(v, v)));
         self.positions_old.clone_from(&self.positions);
@@ -284,7 +284,7 @@ where
         }
         std::mem::swap(&mut self.positions, &mut self.positions_old);
         self.bodies.advance(dt, &mut self.positions);
-        self.rotations.advance(dt, &self.bodies);
+        self.rotations.advance(&self.bodies);
         self.time_step_old = dt;
         self.travel += dt * self.speed;
         self.time += dt;
@@ -411,7 +411,7 @@ where
         self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
         self.of_bodies += &self.rotations.accelerate(steps, &self.damping, &self.bodies, self.level);
-        self.skins.lead(&self.rotations.next(time_step), &self.positions, &mut self.velocities, self.level);
+        self.skins.lead(self.rotations.next(), time_step, &self.positions, &mut self.velocities, self.level);
         self.time_step = time_step;
         self.speed = self.largest_speed();
     }

@@ -5,6 +5,7 @@
 
 use super::messages::SHEET;
 use embate_solver::error::Fault;
+use embate_solver::forest;
 use embate_solver::model::{ImportedMesh, MeshGroup};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -67,13 +68,6 @@ fn welded(places: &[[f64; 3]], distance: f64) -> (Vec<u32>, Vec<[f64; 3]>) {
     let cell = |x: &[f64; 3]| if distance > 0.0 { x.map(|c| ((c / side).floor() + 0.0).to_bits()) } else { x.map(|c| (c + 0.0).to_bits()) };
     let mut cells: BTreeMap<[u64; 3], Vec<u32>> = BTreeMap::new();
     let mut leader: Vec<u32> = (0..places.len() as u32).collect();
-    fn top(leader: &mut [u32], mut node: u32) -> u32 {
-        while leader[node as usize] != node {
-            leader[node as usize] = leader[leader[node as usize] as usize];
-            node = leader[node as usize];
-        }
-        node
-    }
     let is_near = |a: u32, b: u32| {
         let [a, b] = [a, b].map(|place| places[place as usize]);
         (0..3).map(|d| (a[d] - b[d]).powi(2)).sum::<f64>() <= distance * distance
@@ -84,8 +78,7 @@ fn welded(places: &[[f64; 3]], distance: f64) -> (Vec<u32>, Vec<[f64; 3]>) {
             let key = if distance > 0.0 { cell(&beside) } else { cell(x) };
             for &other in cells.get(&key).into_iter().flatten() {
                 if is_near(place, other) {
-                    let (a, b) = (top(&mut leader, place), top(&mut leader, other));
-                    leader[a.max(b) as usize] = a.min(b);
+                    forest::join(&mut leader, place, other);
                 }
             }
         }
@@ -97,7 +90,7 @@ fn welded(places: &[[f64; 3]], distance: f64) -> (Vec<u32>, Vec<[f64; 3]>) {
     }
     let (mut numbers, mut positions, mut number) = (Vec::with_capacity(places.len()), Vec::new(), vec![u32::MAX; places.len()]);
     for place in 0..places.len() as u32 {
-        let first = top(&mut leader, place) as usize;
+        let first = forest::root(&mut leader, place) as usize;
         if number[first] == u32::MAX {
             number[first] = positions.len() as u32;
             positions.push(places[first].map(|c| c + 0.0));

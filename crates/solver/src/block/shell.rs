@@ -422,7 +422,7 @@ impl Persist for ShellBatch {
 }
 
 /// Room of a thread.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Room<const D: usize> {
     positions: Vec<[[f64; D]; BATCH]>,
     rotations: Vec<[[f64; 4]; BATCH]>,

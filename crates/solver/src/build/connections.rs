@@ -4,12 +4,12 @@ use super::contacts::below;
 use super::{Builder, Builds};
 use crate::contact::connection::strength::Strength;
 use crate::contact::connection::{Connection, Setup, axes_of};
-use crate::contact::law::lock::Lock;
+use crate::contact::law::tie::Tie;
+use crate::contact::projection::node_facet::place_on_triangle;
 use crate::contact::springs::{Tangential, Terms};
 use crate::contact::{Contact, ContactKind};
 use crate::error::Fault;
 use crate::load::messages::{CONNECTION, TO_ITSELF};
-use crate::mesh::cell::Cell;
 use crate::mesh::surface::{Corners, Sided};
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{EXPONENT, Joint, Weld, in_3d};
@@ -47,7 +47,8 @@ where
         if model.welds.is_empty() && model.joints.is_empty() {
             return Vec::new();
         }
-        let terms = self.add_terms(Terms { law: Box::new(Lock), tangential: Tangential::Free, damping: 0.0 });
+        let terms =
+            self.add_terms(Terms { law: Box::new(Tie { rigid: true, joins_ends: true }), tangential: Tangential::Free, damping: 0.0 });
         let mut sets = BTreeMap::new();
         let mut made = Vec::new();
         for (i, weld) in model.welds.iter().enumerate() {
@@ -75,9 +76,7 @@ where
         if !contacts.iter().any(|contact| contact.kind.is_connection()) {
             return;
         }
-        let mut has_elements = vec![false; self.mesh.positions.len()];
-        let cells = self.mesh.groups.iter().flat_map(|group| group.live_cells());
-        cells.flat_map(|cell: Cell<'_>| cell.nodes).for_each(|&node| has_elements[node as usize] = true);
+        let has_elements = self.mesh.has_elements();
         let has = |node: u32| has_elements[self.mesh.leader_of(node) as usize];
         contacts.iter_mut().for_each(|contact| contact.lose(&has));
     }
@@ -219,59 +218,9 @@ fn closest<const D: usize>(facet: &[u32], positions: &[[f64; D]], x: [f64; 3]) -
     }
     let triangles = (2..facet.len()).map(|k| [corner(0), corner(k - 1), corner(k)]);
     let of = |triangle: [[f64; 3]; 3]| {
-        let point = on_triangle(triangle, x);
+        let point = place_on_triangle(x, triangle);
         let [a, b, c] = triangle;
         (length(minus(x, point)), point, unit(cross(minus(b, a), minus(c, a))))
     };
     triangles.map(of).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, x, None))
-}
-
-/// The point of a triangle that is nearest to another one. Source: Ericson, Real-Time Collision Detection,
-/// 5.1.5.
-fn on_triangle([a, b, c]: [[f64; 3]; 3], x: [f64; 3]) -> [f64; 3] {
-    let (ab, ac) = (minus(b, a), minus(c, a));
-    let [[d1, d2], [d3, d4], [d5, d6]] = [a, b, c].map(|from| [dot(ab, minus(x, from)), dot(ac, minus(x, from))]);
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return a;
-    }
-    if d3 >= 0.0 && d4 <= d3 {
-        return b;
-    }
-    if d6 >= 0.0 && d5 <= d6 {
-        return c;
-    }
-    let (va, vb, vc) = (d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2);
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-        return plus(a, times(d1 / (d1 - d3), ab));
-    }
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-        return plus(a, times(d2 / (d2 - d6), ac));
-    }
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
-        return plus(b, times((d4 - d3) / ((d4 - d3) + (d5 - d6)), minus(c, b)));
-    }
-    let sum = va + vb + vc;
-    plus(a, plus(times(vb / sum, ab), times(vc / sum, ac)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_nearest_point_of_a_triangle_is_found_over_faces_edges_and_corners() {
-        let triangle = [[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [0.0, 2.0, 1.0]];
-        let cases = [
-            ([0.5, 0.5, 3.0], [0.5, 0.5, 1.0]),
-            ([-1.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
-            ([5.0, -1.0, 1.0], [2.0, 0.0, 1.0]),
-            ([-1.0, 5.0, 1.0], [0.0, 2.0, 1.0]),
-            ([1.0, -2.0, 1.0], [1.0, 0.0, 1.0]),
-            ([-2.0, 1.0, 1.0], [0.0, 1.0, 1.0]),
-            ([2.0, 2.0, 0.0], [1.0, 1.0, 1.0]),
-        ];
-        for (x, expected) in cases {
-            assert_eq!(on_triangle(triangle, x), expected, "{x:?}");
-        }
-    }
 }

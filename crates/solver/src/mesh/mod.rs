@@ -18,6 +18,7 @@ pub use dimension::{Meshed, signed_volume};
 pub use skin::SkinNode;
 
 use crate::error::Fault;
+use crate::forest;
 use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY};
 use crate::model::messages::{NOTHING, UNKNOWN_NAME};
 use crate::model::{ImportedMesh, MeshGroup, Model, Part, Shape, Sweep};
@@ -544,29 +545,29 @@ where
         self.points.get(name).cloned()
     }
 
+    /// Whether each node has an element that has not been eroded.
+    pub(crate) fn has_elements(&self) -> Vec<bool> {
+        let mut has_elements = vec![false; self.positions.len()];
+        let cells = self.groups.iter().flat_map(|group| group.live_cells().chain(group.live_outer_cells()));
+        cells.flat_map(|cell| cell.nodes).for_each(|&node| has_elements[node as usize] = true);
+        has_elements
+    }
+
     /// Body of each node, from 0: what is joined by elements, of whatever parts, is one body. Bodies are
     /// numbered by their lowest nodes.
     #[must_use]
     pub fn bodies(&self) -> Vec<u32> {
         let mut root: Vec<u32> = (0..self.positions.len() as u32).collect();
-        fn top(root: &mut [u32], mut node: u32) -> u32 {
-            while root[node as usize] != node {
-                root[node as usize] = root[root[node as usize] as usize];
-                node = root[node as usize];
-            }
-            node
-        }
         let first = self.first_skin_node() as u32;
         let faces: Vec<[u32; 2]> = (first..).zip(&self.skins).map(|(node, skin)| [node, skin.owner]).collect();
         let cells = self.groups.iter().flat_map(ElementGroup::live_cells).flat_map(|cell| cell.nodes.windows(2));
         for pair in cells.chain(faces.iter().map(|pair| &pair[..])) {
-            let (a, b) = (top(&mut root, pair[0]), top(&mut root, pair[1]));
-            root[a.max(b) as usize] = a.min(b);
+            forest::join(&mut root, pair[0], pair[1]);
         }
         let mut count = 0;
         let mut numbers = vec![0; root.len()];
         for node in 0..root.len() as u32 {
-            let first = top(&mut root, node);
+            let first = forest::root(&mut root, node);
             numbers[node as usize] = if first == node { count } else { numbers[first as usize] };
             count += u32::from(first == node);
         }

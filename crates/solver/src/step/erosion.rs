@@ -223,11 +223,11 @@ where
     /// Lets contacts, traces and loads see the surfaces that are left.
     fn rebuild_surfaces(&mut self, erosion: &mut Erosion<D>) {
         if self.rotations.has_loads() {
-            let has_elements = self.has_elements();
+            let has_elements = self.mesh.has_elements();
             self.rotations.renew_loads(|node| has_elements[node as usize]);
         }
         if !self.forces.is_empty() {
-            let has_elements = self.has_elements();
+            let has_elements = self.mesh.has_elements();
             let cells = self.mesh.groups.iter().filter(|group| group.is_body(D)).flat_map(|group| group.live_outer_cells());
             let mut backed: Vec<Facet<D>> = cells.flat_map(<Dim<D>>::cell_facets).collect();
             backed.sort_unstable();
@@ -253,20 +253,8 @@ where
 
     /// Mass of nodes without elements, kg/m.
     pub(crate) fn mass_loose(&self) -> f64 {
-        let has_elements = self.has_elements();
+        let has_elements = self.mesh.has_elements();
         let count = self.mesh.positions.len();
         reductions::sum(self.mass[..count].iter().zip(&has_elements).filter(|(_, has)| !**has).map(|(mass, _)| *mass))
-    }
-
-    /// Whether each node has an element.
-    fn has_elements(&self) -> Vec<bool> {
-        let mut has_elements = vec![false; self.positions.len()];
-        self.mesh
-            .groups
-            .iter()
-            .flat_map(|group| group.live_cells().chain(group.live_outer_cells()))
-            .flat_map(|cell| cell.nodes)
-            .for_each(|&node| has_elements[node as usize] = true);
-        has_elements
     }
 }

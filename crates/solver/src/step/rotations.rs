@@ -27,7 +27,6 @@ use crate::rigid::space::Attitude;
 use crate::rigid::{Bodies, RigidMotion};
 use crate::rotation::{Square, transposed, unit_matrix};
 use crate::rotations::Rotations;
-use crate::skins::Next;
 use crate::tensor::{Dim, cross, product};
 use crate::vector::{any_tangent, dot, plus, times};
 use embate_lanes::{BATCH, Level};
@@ -37,8 +36,8 @@ use embate_lanes::{BATCH, Level};
 pub(crate) struct NodalRotations {
     /// Rotations R^n, and spins ω^{n+½} from the update on, ω^{n−½} before.
     pub(crate) now: Rotations,
-    /// In 3D R^{n+1}, from the update on; of rigid bodies anything.
-    next: Vec<Attitude>,
+    /// R^{n+1} as [`Rotations::numbers_at`] gives it, from the update on; of rigid bodies anything.
+    next: Vec<[f64; 4]>,
     /// ω^{n−½}, rad/s.
     pub(crate) spins_old: Vec<[f64; 3]>,
     /// Moment of inertia about any axis, kg m (kg m²).
@@ -197,7 +196,7 @@ impl NodalRotations {
         Self {
             others: (0..groups.len() as u32).filter(is_other).collect(),
             free,
-            next: now.attitudes.clone(),
+            next: vec![[0.0; 4]; count],
             spins_old: now.spins.clone(),
             slots: vec![[0.0; 3]; assembly.count],
             now,
@@ -321,15 +320,12 @@ impl NodalRotations {
     }
 
     /// R^{n+1}.
-    pub(super) fn advance<const D: usize>(&mut self, time_step: f64, bodies: &Bodies<D>)
+    pub(super) fn advance<const D: usize>(&mut self, bodies: &Bodies<D>)
     where
         Dim<D>: Dimension<D>,
     {
-        std::mem::swap(&mut self.now.attitudes, &mut self.next);
-        // In 2D the angle is an exact sum.
-        for (angle, spin) in self.now.angles.iter_mut().zip(&self.now.spins) {
-            *angle += time_step * spin[2];
-        }
+        self.now.angles.iter_mut().zip(&self.next).for_each(|(angle, next)| *angle = next[0]);
+        self.now.attitudes.iter_mut().zip(&self.next).for_each(|(attitude, next)| *attitude = Attitude(*next));
         for (place, &body) in self.bodies.iter().enumerate().filter(|(_, body)| **body != u32::MAX) {
             let (angle, attitude) = <Dim<D>>::orientation(&bodies.state(body as usize).angle);
             self.now.angles.get_mut(place).into_iter().for_each(|own| *own = angle);
@@ -365,13 +361,17 @@ impl NodalRotations {
 
     /// R^{n+1} after a step (s), of known spins.
     pub(super) fn foresee(&mut self, time_step: f64, level: Level) {
-        let Rotations { attitudes, spins, .. } = &self.now;
+        let Rotations { angles, attitudes, spins, .. } = &self.now;
+        // In 2D the angle is an exact sum.
+        for ((next, angle), spin) in self.next.iter_mut().zip(angles).zip(spins) {
+            next[0] = angle + time_step * spin[2];
+        }
         level.run(lanes::Rotate { attitudes, spins, time_step, next: &mut self.next });
     }
 
-    /// What [`Skins::lead`](crate::skins::Skins::lead) takes: rotations after the coming step (s).
-    pub(super) fn next(&self, time_step: f64) -> Next<'_> {
-        Next { angles: &self.now.angles, spins: &self.now.spins, attitudes: &self.next, time_step }
+    /// See the field.
+    pub(super) fn next(&self) -> &[[f64; 4]] {
+        &self.next
     }
 
     /// Nodes of rigid bodies spin as these.

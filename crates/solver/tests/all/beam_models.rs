@@ -3,7 +3,7 @@
 
 use crate::beams::{beams, rectangle, round, shape};
 use crate::bodies::*;
-use crate::patches::material;
+use crate::sheet_models::steel;
 use crate::shells::section;
 use crate::solids::Vector;
 use embate_solver::model::{
@@ -27,17 +27,6 @@ fn all_touch(model: &mut Model, friction: f64) {
         interface: if friction > 0.0 { rough(friction) } else { Interface::default() },
         ..Contact::default()
     });
-}
-
-/// A model of steel that flows.
-fn steel(end: f64, yields: f64) -> Model {
-    let mut model = model(end);
-    let mut flows = material("j2", 0.3);
-    for (name, value) in [("young", 200e9), ("density", 7800.0), ("yield", yields), ("hardening", 1e9)] {
-        flows.parameters.insert(name.into(), value);
-    }
-    model.materials.insert("soft".into(), flows);
-    model
 }
 
 fn block(model: &mut Model, name: &str, corner: Vector, size: Vector, elements: [usize; 3], velocity: Vector) {

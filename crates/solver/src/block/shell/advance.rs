@@ -6,7 +6,7 @@ use super::{BATCH, Batch, CHUNK, Corners, Facts, Layers, Pulls, Room, ShellBatch
 use crate::block::strip::{ForEachBatch, Parts, STRIP};
 use crate::block::{Motion, NodalForces, Report, damping};
 use crate::material::Family;
-use crate::material::points::{Points, RESPONSE, Scratch};
+use crate::material::points::{Points, RESPONSE};
 use crate::tensor::{Dim, Space};
 use embate_lanes::{Chunks, Lane, Level, Team};
 use std::marker::PhantomData;
@@ -383,23 +383,6 @@ fn summed(elements: &[ShellBatch], marks: &[Batch]) -> Report {
         }
     }
     report
-}
-
-impl<const D: usize> Default for Room<D> {
-    fn default() -> Self {
-        Self {
-            positions: Vec::new(),
-            rotations: Vec::new(),
-            strain: Vec::new(),
-            ratio: Vec::new(),
-            rotation: Vec::new(),
-            volume: Vec::new(),
-            response: Vec::new(),
-            forces: Vec::new(),
-            moments: Vec::new(),
-            law: Scratch::default(),
-        }
-    }
 }
 
 impl<const D: usize> Room<D> {

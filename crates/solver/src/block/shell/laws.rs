@@ -9,6 +9,7 @@
 //! transverse shear the largest eigenvalue; A = Σ w C and D = 12 Σ w ζ² C of the section (ζ from −½ to ½)
 //! give the moduli along and across, 1/(A⁻¹)₁₁ and 1/(A⁻¹)₂₂, and the like of D.
 
+use super::bound;
 use super::section::Points as Section;
 use crate::block::BlockInput;
 use crate::block::initial::{self, Wrong};
@@ -269,7 +270,7 @@ impl Laws {
             // By engineering shear: C of xx yy xy.
             let flat: Matrix<f64, 3> = FLAT.map(|i| FLAT.map(|j| if j == 3 { 0.5 * c[i][j] } else { c[i][j] }));
             let shear = ACROSS.map(|i| ACROSS.map(|j| 0.5 * c[i][j]));
-            transverse = transverse.max(largest(shear));
+            transverse = transverse.max(bound::steepest(&shear));
             if layer.law.is_stiffest_at_rest() {
                 (mixed, doubled) = (mixed.max(flat[0][1]), doubled.max(2.0 * flat[2][2]));
             } else {
@@ -303,12 +304,6 @@ impl Laws {
         let moduli = [mixed + doubled, 0.5 * doubled, transverse];
         Stiffness { held, moduli, is_limited: self.all(|law| law.family() == Family::Rate) }
     }
-}
-
-/// Larger eigenvalue of a symmetric matrix.
-fn largest(m: [[f64; 2]; 2]) -> f64 {
-    let (mean, half) = (0.5 * (m[0][0] + m[1][1]), 0.5 * (m[0][0] - m[1][1]));
-    mean + (half * half + m[0][1] * m[1][0]).max(0.0).sqrt()
 }
 
 /// E₁ and E₂ of a stiffness by xx yy xy, and ν₁₂ E₂; `None` where it has no inverse.

@@ -52,7 +52,7 @@ use embate_lanes::{Batch, Lane};
 /// Patterns of the corners.
 pub(super) const XI: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
 pub(super) const ETA: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
-pub(super) const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
+const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
 /// Stress that the stabilisation may have where the layers flow, in the quadratic mean over the element, over
 /// theirs.
@@ -111,8 +111,8 @@ impl<L: Lane> Form<L> {
     }
 
     #[inline(always)]
-    fn load(state: &[Batch], at: usize) -> Self {
-        let [g1, g2, q, mean, d1, d2, r] = vectors(state, FORM, at);
+    pub(super) fn load(state: &[Batch], first: usize, at: usize) -> Self {
+        let [g1, g2, q, mean, d1, d2, r] = vectors(state, first, at);
         Self { g: [g1, g2], q, mean, d: [d1, d2], r }
     }
 
@@ -314,7 +314,7 @@ impl ShellKernel<3> for Quad {
         let half = L::splat(0.5);
         let (begin, now) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
         let to = flux(facts, Self::kind(), [&begin, &now], layers, layers.thickness_now(facts, at), at);
-        let form = Form::<L>::load(state, at);
+        let form = Form::<L>::load(state, FORM, at);
         let frame = form.frame(loaded(state, TURN, at));
         let skew = loaded::<L, 2>(state, SKEW, at);
         let initial = L::load(layers.thickness, at);
@@ -346,7 +346,7 @@ impl ShellKernel<3> for Quad {
     }
 
     fn turned(state: &[Batch], stress: [f64; 6], _: usize, lane: usize) -> [f64; 6] {
-        let frame = Form::<f64>::load(state, lane).frame(loaded(state, TURN, lane));
+        let frame = Form::<f64>::load(state, FORM, lane).frame(loaded(state, TURN, lane));
         surface::turned(&frame.axes, stress)
     }
 }
@@ -408,13 +408,20 @@ fn pull<L: Lane>(
     let d_xi = scaled(quarter, minus(on_d1, scaled(skew[0], bend)));
     let d_eta = scaled(quarter, minus(on_d2, scaled(skew[1], bend)));
     let (d_h, d_mean) = (scaled(quarter, bend), scaled(quarter, on_mean));
+    put(form, &[x_xi, x_eta, x_h, d_mean, d_xi, d_eta, d_h], pulls, at);
+}
+
+/// Forces and moments of what is on a quarter of Σ x_a by each pattern, of Σ d_a, and of Σ d_a by each
+/// pattern.
+#[inline(always)]
+pub(super) fn put<L: Lane>(form: &Form<L>, on: &[Vector<L>; 7], pulls: &mut Pulls<'_, L, 3>, at: usize) {
+    let [x_xi, x_eta, x_h, d_mean, d_xi, d_eta, d_h] = *on;
     for corner in 0..4 {
         let (xi, eta, h) = (L::splat(XI[corner]), L::splat(ETA[corner]), L::splat(HOURGLASS[corner]));
         let force = join(scaled(xi, x_xi), scaled(eta, x_eta), scaled(h, x_h));
         let couple = plus(d_mean, join(scaled(xi, d_xi), scaled(eta, d_eta), scaled(h, d_h)));
         let director = plus(form.mean, join(scaled(xi, form.d[0]), scaled(eta, form.d[1]), scaled(h, form.r)));
-        let moment = cross(couple, director);
-        pulls.put(corner, scaled(L::splat(-1.0), force), moment, at);
+        pulls.put(corner, scaled(L::splat(-1.0), force), cross(couple, director), at);
     }
 }
 

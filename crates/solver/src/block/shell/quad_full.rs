@@ -18,13 +18,11 @@
 //! transverse shear have the Gram matrix of the s above. Bending and shear are added.
 
 use super::bound;
-use super::quad::{ARC, ETA, Form, HOURGLASS, XI};
-use super::surface::{
-    self, Frame, Kind, Measures, SHEAR, Vector, flux, loaded, moved, replace, replace_vectors, scaled, turn_at_start, vectors,
-};
+use super::quad::{ARC, ETA, Form, XI, put};
+use super::surface::{self, Frame, Kind, Measures, SHEAR, Vector, flux, loaded, moved, replace, replace_vectors, scaled, turn_at_start};
 use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains, Tensor};
 use crate::block::SHELL_VALUES;
-use crate::tensor::{Dim, Matrix, Space, cross, dot};
+use crate::tensor::{Dim, Matrix, Space, dot};
 use crate::vector::{minus, plus};
 use embate_lanes::{Batch, Lane};
 
@@ -192,9 +190,8 @@ impl ShellKernel<3> for Full {
         at: usize,
     ) -> Answer<L> {
         let (zero, quarter) = (L::splat(0.0), L::splat(0.25));
-        let [g1, g2, q, mean, d1, d2, r] = vectors::<L, 7>(state, FORM, at);
-        let form = Form { g: [g1, g2], q, mean, d: [d1, d2], r };
-        let size = dot(mean, mean).sqrt();
+        let form = Form::<L>::load(state, FORM, at);
+        let size = dot(form.mean, form.mean).sqrt();
         let arc = surface::arc(size, ARC);
         let mut thickness = zero;
         for k in 0..Self::POINTS {
@@ -223,7 +220,10 @@ impl ShellKernel<3> for Full {
                 *sum += quarter * own;
             }
         }
-        on[3] = plus(on[3], scaled(folded / size, mean));
+        on[3] = plus(on[3], scaled(folded / size, form.mean));
+        for own in &mut on {
+            *own = scaled(quarter, *own);
+        }
         put(&form, &on, pulls, at);
         Answer {
             stiffness: bound::joined(facts.coupled(sum), tilted) + taut,
@@ -242,8 +242,7 @@ impl ShellKernel<3> for Full {
     }
 
     fn turned(state: &[Batch], stress: [f64; 6], point: usize, lane: usize) -> [f64; 6] {
-        let [g1, g2, q, mean, d1, d2, r] = vectors(state, FORM, lane);
-        let form = Form::<f64> { g: [g1, g2], q, mean, d: [d1, d2], r };
+        let form = Form::<f64>::load(state, FORM, lane);
         let turn = loaded(&state[point * EACH..][..EACH], surface::TURN, lane);
         surface::turned(&Point::new(&form, point).frame(turn).axes, stress)
     }
@@ -277,17 +276,4 @@ fn pull<L: Lane>(form: &Form<L>, point: &Point<L>, frame: &Frame<L>, to: &surfac
         *sum = plus(*sum, more);
     }
     folded
-}
-
-/// Forces and moments of what is `on` g₁ g₂ q d₀ d₁ d₂ r.
-#[inline(always)]
-fn put<L: Lane>(form: &Form<L>, on: &[Vector<L>; 7], pulls: &mut Pulls<'_, L, 3>, at: usize) {
-    let quarter = L::splat(0.25);
-    for corner in 0..4 {
-        let (xi, eta, h) = (L::splat(XI[corner]), L::splat(ETA[corner]), L::splat(HOURGLASS[corner]));
-        let force = plus(scaled(xi, on[0]), plus(scaled(eta, on[1]), scaled(h, on[2])));
-        let couple = plus(plus(on[3], scaled(xi, on[4])), plus(scaled(eta, on[5]), scaled(h, on[6])));
-        let director = plus(plus(form.mean, scaled(xi, form.d[0])), plus(scaled(eta, form.d[1]), scaled(h, form.r)));
-        pulls.put(corner, scaled(-quarter, force), scaled(quarter, cross(couple, director)), at);
-    }
 }

@@ -124,9 +124,8 @@ impl Patch {
             let mut turn = applied(&self.inverse, off);
             // Far away Newton's method may find another stationary rotation; with the moment of inertia of
             // the patch the way is sin θ of the angle θ that is left.
-            let rough = applied(&self.yielding(&self.arms_now), off);
-            if dot(rough, rough) > FAR * FAR {
-                turn = rough;
+            if dot(turn, turn) > FAR * FAR {
+                turn = applied(&self.yielding(&self.arms_now), off);
             }
             // Nothing that is not finite: what is wrong is reported with the nodes.
             if !(dot(turn, turn) > ROUND_OFF * ROUND_OFF) || !turn.iter().all(|angle| angle.is_finite()) {

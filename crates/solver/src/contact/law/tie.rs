@@ -1,7 +1,8 @@
 //! Tie: a spring that pulls as well as it pushes, F = −k g, or with a multiplier the force that brings the
 //! gap to zero at the end of the step.
 //!
-//! No law that a contact names: tied contacts use it, with the stiffness of their penalty.
+//! No law that a contact names: tied contacts use it, with the stiffness of their penalty, and welds and
+//! joints with a multiplier.
 
 use super::Law;
 use crate::contact::springs::{Closing, Patch};
@@ -11,6 +12,9 @@ use crate::contact::springs::{Closing, Patch};
 pub struct Tie {
     /// Whether the gap is a constraint instead of a spring's length.
     pub rigid: bool,
+    /// Whether the ends at one rigid body, or at the middle of one shell, are one arm: welds and joints have
+    /// many there, and the spring has to know at once what it does to itself.
+    pub joins_ends: bool,
 }
 
 impl Law for Tie {
@@ -38,5 +42,8 @@ impl Law for Tie {
     }
     fn is_elastic(&self) -> bool {
         !self.rigid
+    }
+    fn joins_ends(&self) -> bool {
+        self.joins_ends
     }
 }

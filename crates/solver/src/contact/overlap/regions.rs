@@ -16,6 +16,7 @@
 use super::piercing::{Piece, Piercing, contours, runs_with};
 use super::skin::Skin;
 use crate::contact::projection::node_facet::Vector;
+use crate::forest;
 use crate::mesh::surface::NONE;
 use crate::tensor::{cross, dot};
 use crate::vector::{length, minus};
@@ -99,19 +100,12 @@ impl Sets {
         self.0.push(self.0.len() as u32);
     }
 
-    fn find(&mut self, mut at: u32) -> u32 {
-        while self.0[at as usize] != at {
-            let next = self.0[self.0[at as usize] as usize];
-            self.0[at as usize] = next;
-            at = next;
-        }
-        at
+    fn find(&mut self, at: u32) -> u32 {
+        forest::root(&mut self.0, at)
     }
 
-    /// The lower root stays.
     fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b) as usize] = a.min(b);
+        forest::join(&mut self.0, a, b);
     }
 }
 

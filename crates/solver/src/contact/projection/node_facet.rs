@@ -31,7 +31,8 @@ use crate::tensor::{cross, dot};
 use crate::vector::minus;
 use eight::Plane;
 use triangle::nearest_of_triangle;
-pub(in crate::contact) use triangle::{Nearest, corners_below, place_on_triangle, square_to_triangle};
+pub(crate) use triangle::place_on_triangle;
+pub(in crate::contact) use triangle::{Nearest, corners_below, square_to_triangle};
 
 /// A vector in 3D.
 pub type Vector = [f64; 3];

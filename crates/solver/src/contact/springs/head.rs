@@ -159,7 +159,8 @@ mod tests {
 
     #[test]
     fn forces_between_the_bounds_are_those_of_the_law_and_those_below_vanish() {
-        let laws: [fn() -> Box<dyn Law>; 3] = [|| Box::new(Penalty), || Box::new(Tie { rigid: false }), || Box::new(Multiplier)];
+        let laws: [fn() -> Box<dyn Law>; 3] =
+            [|| Box::new(Penalty), || Box::new(Tie { rigid: false, joins_ends: false }), || Box::new(Multiplier)];
         let (mut random, mut counts) = (Random::new(3), [[0; 3]; 3]);
         for trial in 0..30_000 {
             let law = trial % 3;

@@ -18,11 +18,8 @@ impl Mesh<3> {
         if !model.parts.iter().any(Part::is_of_beams) {
             return;
         }
-        let beams = |mesh: &Self| -> BTreeSet<u32> {
-            let groups = mesh.groups.iter().filter(|group| model.parts[group.part].is_of_beams());
-            groups.flat_map(|group| &group.connectivity).copied().collect()
-        };
-        let beams = beams(self);
+        let groups = self.groups.iter().filter(|group| model.parts[group.part].is_of_beams());
+        let beams: BTreeSet<u32> = groups.flat_map(|group| &group.connectivity).copied().collect();
         let welds = model.welds.iter().flat_map(|weld| weld.between.iter().flat_map(|name| weld.at.iter().map(move |&at| (name, at))));
         let joints = model.joints.iter().flat_map(|joint| joint.between.iter().map(|name| (name, joint.at)));
         let mut hubs = BTreeSet::new();

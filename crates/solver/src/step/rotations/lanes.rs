@@ -60,7 +60,7 @@ pub(super) struct Rotate<'a> {
     pub(super) attitudes: &'a [Attitude],
     pub(super) spins: &'a [[f64; 3]],
     pub(super) time_step: f64,
-    pub(super) next: &'a mut [Attitude],
+    pub(super) next: &'a mut [[f64; 4]],
 }
 
 impl Kernel for Rotate<'_> {
@@ -80,9 +80,7 @@ impl Kernel for Rotate<'_> {
                 let theta = times(dt, L::load_points(&spin, at));
                 L::store_points(rotated(theta, L::load_points(&old, at)), &mut new, at);
             }
-            for lane in 0..next.len() {
-                next[lane] = Attitude(new[lane]);
-            }
+            next.copy_from_slice(&new[..next.len()]);
         }
     }
 }

@@ -15,7 +15,7 @@ pub(in crate::contact) struct Nearest {
 }
 
 /// The place of a triangle that is nearest to another place, m.
-pub(in crate::contact) fn place_on_triangle(x: Vector, triangle: [Vector; 3]) -> Vector {
+pub(crate) fn place_on_triangle(x: Vector, triangle: [Vector; 3]) -> Vector {
     nearest_of_triangle(x, triangle).foot
 }
 
@@ -71,4 +71,26 @@ pub(super) fn nearest_of_triangle(x: Vector, [a, b, c]: [Vector; 3]) -> Nearest 
     let sum = va + vb + vc;
     let (v, w) = (vb / sum, vc / sum);
     at([1.0 - v - w, v, w])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_point_of_a_triangle_is_found_over_faces_edges_and_corners() {
+        let triangle = [[0.0, 0.0, 1.0], [2.0, 0.0, 1.0], [0.0, 2.0, 1.0]];
+        let cases = [
+            ([0.5, 0.5, 3.0], [0.5, 0.5, 1.0]),
+            ([-1.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
+            ([5.0, -1.0, 1.0], [2.0, 0.0, 1.0]),
+            ([-1.0, 5.0, 1.0], [0.0, 2.0, 1.0]),
+            ([1.0, -2.0, 1.0], [1.0, 0.0, 1.0]),
+            ([-2.0, 1.0, 1.0], [0.0, 1.0, 1.0]),
+            ([2.0, 2.0, 0.0], [1.0, 1.0, 1.0]),
+        ];
+        for (x, expected) in cases {
+            assert_eq!(place_on_triangle(x, triangle), expected, "{x:?}");
+        }
+    }
 }

@@ -23,6 +23,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &MASS_ADDED,
     &ERODED,
     &RELAXED,
+    &SQUEEZED,
+    &OPENED,
 ];
 
 static INVERTED: Message = Message {
@@ -171,6 +173,24 @@ pub(crate) static RELAXED: Message = Message {
     example: Example::Model("[run]\nrelaxation = {}\n"),
     cause: "A run with `relaxation` ends at rest, or at its end time without having come to rest.",
     remedy: "Give a later `end`, or a larger `tolerance`, where it is not at rest.",
+};
+
+static SQUEEZED: Message = Message {
+    code: "E0610",
+    title: "a cavity without volume",
+    example: Example::Words("Two faces of an airbag go through each other, without a contact that holds them apart."),
+    cause: "The surface of the gas turned inside out within a step: as its volume goes to zero its pressure has no limit, \
+        so the walls were too fast for the step, or there was nothing in the way of walls of little mass.",
+    remedy: "Give the surface a contact with itself, and `run.time_step` a smaller value where walls are fast; look at units of pressure and mass.",
+};
+
+pub(crate) static OPENED: Message = Message {
+    code: "W0604",
+    title: "a cavity that opened",
+    example: Example::Words("An element of the wall of a tank under pressure is eroded."),
+    cause: "A piece of the surface that encloses the gas was eroded. From then on the gas has the pressure outside: it pushes \
+        no more, and its values in the history stay as they were.",
+    remedy: "Nothing, where the wall is meant to burst; the gas that would blow out through the hole for a while is not modelled.",
 };
 
 /// One fault of a model: where in the input, what is wrong, and what to do.
@@ -363,6 +383,21 @@ pub enum Error {
         #[doc = "Step number."]
         step: u64,
     },
+    /// The volume of a cavity is gone.
+    #[error(
+        "cavity \"{cavity}\" has a volume of {volume:.3e} m³ (in 2D m³/m) at time {time:.6e} s, step {step}: its surface turned inside out; \
+         give it a contact with itself, or a smaller run.time_step"
+    )]
+    Squeezed {
+        #[doc = "Its name."]
+        cavity: Box<str>,
+        #[doc = "Volume, m³ (in 2D m³/m)."]
+        volume: f64,
+        #[doc = "Time, s."]
+        time: f64,
+        #[doc = "Step number."]
+        step: u64,
+    },
     /// A kept state is not one of the model.
     #[error("the kept state does not fit the model: {0}; it was written by another version of embate, or it is damaged")]
     State(String),
@@ -383,6 +418,7 @@ impl Error {
             Self::NotFinite { .. } => Some(&NOT_FINITE),
             Self::TooDeep { .. } => Some(&TOO_DEEP),
             Self::Runaway { .. } => Some(&RUNAWAY),
+            Self::Squeezed { .. } => Some(&SQUEEZED),
             Self::State(_) => Some(&STATE),
             Self::Output(_) => Some(&OUTPUT),
         }

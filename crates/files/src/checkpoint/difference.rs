@@ -38,6 +38,7 @@ const NAMES: &[(&str, &str)] = &[
     ("symmetries[", "symmetry["),
     ("constraints[", "constraint["),
     ("loads[", "load["),
+    ("cavities[", "cavity["),
     ("joins[", "join["),
     ("welds[", "weld["),
     ("joints[", "joint["),

@@ -187,6 +187,7 @@ fn words(key: &Key) -> String {
         }
         Kind::Motion => MOTION.to_string(),
         Kind::Rigid => format!("true, false, or {MOTION}"),
+        Kind::MassFlow(_, range) => format!("mass per time, kg/s, in 2D kg/s/m{}", within(range)),
         Kind::Integer(least) => format!("whole number from {least}"),
         Kind::Integers(count, least) => format!("{count} whole numbers from {least}"),
         Kind::Choice(known) if known.names().len() <= 4 => {

@@ -152,7 +152,7 @@ since they are no part of the summary that it leaves out; `summary.json` lists t
 | the flow stress falls | a material with `hardening` below 0, `saturation` below `yield`, a falling table, or an `isotropic_stress` below 0 for which backstresses do not make up | strain gathers in one row of elements; results after the peak depend on their size |
 | a Poisson's ratio above 0.49 in `tri3` or `quad4_full` | parts not in plane stress; rubbers by their bulk and shear modulus | the elements lock: several times too stiff |
 | a fluid without viscosity in `quad4` or `quad4_full` | parts of law `null`, but for a `rectangle` of one row | nothing holds shapes that keep the volume: elements fold where the fluid does not flow along the mesh |
-| nothing acts on a part | no contact, obstacle, join, spring, load or motion has to do with it, nor with what shares its nodes | it stays as it is, and others go through it |
+| nothing acts on a part | no contact, obstacle, join, spring, load, cavity or motion has to do with it, nor with what shares its nodes | it stays as it is, and others go through it |
 
 ";
 

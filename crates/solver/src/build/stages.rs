@@ -331,6 +331,7 @@ where
                 layers: &layers,
                 profile: part.profile.as_ref(),
                 directions: self.mesh.directions.get(index).map_or(&[], |own| &own[..]),
+                thicknesses: self.mesh.thicknesses.get(index).map_or(&[], |own| &own[..]),
                 damping: self.model.stiffness_damping(part),
                 options: ElementOptions { hourglass: part.hourglass },
                 stress_state: if D == 2 { &part.stress_state } else { "" },

@@ -166,7 +166,7 @@ where
         self.list.iter()
     }
 
-    /// Goes on to these positions, from one time to another, s.
+    /// Follows the surfaces to these positions, from one time to another, s.
     ///
     /// # Errors
     /// The number of one whose volume is gone.

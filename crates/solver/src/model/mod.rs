@@ -213,6 +213,26 @@ pub struct ImportedMesh {
     pub positions: Vec<[f64; 3]>,
     /// Groups by name.
     pub groups: Vec<MeshGroup>,
+    /// Lengths by place that the file has besides, such as the thickness of shells.
+    pub fields: Vec<MeshField>,
+}
+
+/// A named length by place, as a mesh file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshField {
+    /// Unique name.
+    pub name: String,
+    /// m; what is not a number is not there.
+    pub values: FieldValues,
+}
+
+/// Where the values of a field are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FieldValues {
+    /// One for each node of the mesh.
+    Nodes(Vec<f64>),
+    /// By group, cell of it and node of that; of cells without values nothing.
+    Corners(Vec<Vec<Vec<f64>>>),
 }
 
 /// A named group of cells of one dimension.

@@ -416,3 +416,20 @@ fn every_side_of_a_shell_has_its_name() {
         [vec![1, 3, 2, 0], vec![0, 2, 3, 1], vec![0, 2], vec![1, 0]]
     );
 }
+
+#[test]
+fn a_thickness_at_nodes_is_that_of_the_shells_there() {
+    // mm: 2 at one end, 4 at the other, by node and by set.
+    let nodal = "*NODAL THICKNESS\nX0-S, 2.0\nX1-S, 4.0\n";
+    let section = "*SHELL SECTION, ELSET=S, MATERIAL=STEEL, NODAL THICKNESS\n99.0, 3\n";
+    let deck = |section: &str, nodal: &str| grid("S", "S4R", [1, 2], [10.0, 6.0, 0.0], 1) + nodal + section + STEEL + &step("");
+    let (made, model) = imported(&deck(section, nodal));
+    assert!(made.model.contains("section = { thickness_field = \"nodal_thickness\", points = 3 }"), "{}", made.model);
+    assert!(made.report.text().contains("NODAL THICKNESS"), "{}", made.report.text());
+    let mass = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap().overview().parts[0].mass;
+    assert!((mass / (7850.0 * 10e-3 * 6e-3 * 3e-3) - 1.0).abs() < 1e-12, "{mass}");
+    let lacking = made_faults(&deck(section, ""));
+    assert!(lacking.len() == 1 && lacking[0].message.contains("no *NODAL THICKNESS"), "{lacking:?}");
+    let unknown = made_faults(&deck(section, "*NODAL THICKNESS\nX7-S, 2.0\n"));
+    assert!(unknown.len() == 1 && unknown[0].message.contains("no node set X7-S"), "{unknown:?}");
+}

@@ -7,11 +7,11 @@
 //! ṁ = ṁ_in − ṁ_out,   (p V^γ)˙ = V^(γ−1) γ R (ṁ_in T_in − ṁ_out T)
 //! ```
 //!
-//! which is the energy balance (p V/(γ − 1))˙ = Σ ṁ c_p T − p V̇. What changes the volume alone is exact: p V^γ
-//! stays as it is to the last digit. Flows are integrated over a step by the Runge-Kutta method of fourth
-//! order, with the volume linear in time, in pieces short enough for what flows; a piece in which the pressure
-//! would fall below that outside by what flows out is cut where it is met. With γ = 1 the gas keeps its
-//! temperature T, T_in = T.
+//! which is the energy balance (p V/(γ − 1))˙ = Σ ṁ c_p T − p V̇. What changes the volume alone is exact: p
+//! V^γ stays as it is to the last digit. Flows are integrated over a step by the Runge-Kutta method of fourth
+//! order, with the volume linear in time, in pieces short enough for what flows; a piece in which the
+//! pressure would fall below that outside by what flows out is cut where it is met. With γ = 1 the gas keeps
+//! its temperature T, T_in = T.
 //!
 //! An orifice of the area A with the discharge coefficient C (isentropic, from rest, choked below the
 //! critical ratio):
@@ -145,7 +145,7 @@ impl Gas {
         self.exponent * self.pressure / self.volume
     }
 
-    /// Goes on to another volume, from one time to another, s.
+    /// Takes another volume, from one time to another, s.
     pub(crate) fn advance(&mut self, curves: &Curves, times: [f64; 2], volume: f64) {
         if times[1] > times[0] {
             for vent in &mut self.vents {
@@ -268,8 +268,8 @@ mod tests {
 
     #[test]
     fn a_rigid_vessel_blows_down_as_its_closed_form_says() {
-        // Choked, adiabatic: p = p₀ (1 + (γ−1)/2 Ψ C A √(R T₀)/V t)^(−2γ/(γ−1)), T = T₀ (…)^−2; the same of the
-        // mass with −2/(γ−1).
+        // Choked, adiabatic: p = p₀ (1 + (γ−1)/2 Ψ C A √(R T₀)/V t)^(−2γ/(γ−1)), T = T₀ (…)^−2; the same of
+        // the mass with −2/(γ−1).
         let vents = vec![model::Vent { orifice: 2e-3, discharge: 0.6, opens_at: None }];
         let cavity = Cavity { ambient: 0.0, pressure: Some(8e5), exponent: 1.3, temperature: 350.0, vents, ..Cavity::default() };
         let mut errors = Vec::new();

@@ -10,7 +10,7 @@
 //! volume of revolution): what pushes at a node is the pressure times the gradient of the volume. Planes of
 //! symmetry close the rims that lie on them. There F is chosen so that F·n = 0 on these planes: they
 //! contribute nothing, wherever the rims are. Of F = B x + c with a symmetric B, n is then an eigenvector of
-//! B; of those that are possible the one is taken that is nearest to zero (x/3 in space without planes).
+//! B; of those that are possible the one is taken that is nearest to zero (x/3 in 3D without planes).
 //! Around an axis F = (r/2, 0), which planes across the axis close.
 
 use crate::forest;
@@ -221,10 +221,10 @@ where
     }
 }
 
-/// Bound of the norm of ∂(∫ N_a n dA)/∂x of one piece: 1 of a segment per metre of depth, 2π (r + l) of a cone,
-/// half of the longest edge of a triangle, of a facet of four nodes the longest distance l of two corners: with
-/// w = ∂δx/∂ξ × ∂x/∂η + ∂x/∂ξ × ∂δx/∂η the norm of all ∫ N_a w is at most that of w over the facet, |∂x/∂ξ| is
-/// at most l/2, and the norm of ∂δx/∂ξ at most that of δx.
+/// Bound of the norm of ∂(∫ N_a n dA)/∂x of one piece: 1 of a segment per metre of depth, 2π (r + l) of a
+/// cone, half of the longest edge of a triangle, of a facet of four nodes the longest distance l of two
+/// corners: with w = ∂δx/∂ξ × ∂x/∂η + ∂x/∂ξ × ∂δx/∂η the norm of all ∫ N_a w is at most that of w over the
+/// facet, |∂x/∂ξ| is at most l/2, and the norm of ∂δx/∂ξ at most that of δx.
 fn sway<const D: usize>(depth: Depth, corners: &[u32], positions: &[[f64; D]]) -> f64 {
     let places = || corners.iter().map(|&node| positions[node as usize]);
     let longest = places().flat_map(|a| places().map(move |b| length(minus(a, b)))).fold(0.0, f64::max);

@@ -84,8 +84,8 @@ fn a_closed_box_of_warped_facets_has_its_volume_and_gradient() {
 
 #[test]
 fn planes_of_symmetry_close_a_part_of_a_box() {
-    // One, two and three planes through a corner, in any place and direction; two that are parallel; all but one
-    // wall.
+    // One, two and three planes through a corner, in any place and direction; two that are parallel; all but
+    // one wall.
     type Wall = fn([f64; 3]) -> bool;
     let cases: [(Wall, &[usize], &[usize]); 6] = [
         (|x| x[0] < 1e-9, &[0], &[]),
@@ -93,7 +93,8 @@ fn planes_of_symmetry_close_a_part_of_a_box() {
         (|x| x.iter().any(|x| *x < 1e-9), &[0, 1, 2], &[]),
         (|x| x[0] < 1e-9 || x[0] > 2.0 - 1e-9, &[0], &[0]),
         (|x| x[0] < 1e-9 || x[0] > 2.0 - 1e-9 || x[1] < 1e-9, &[0, 1], &[0]),
-        // Without the wall at the bottom there is no rim at all there: the plane that the top faces closes it.
+        // Without the wall at the bottom there is no rim at all there: the plane that the top faces closes
+        // it.
         (|x| x[2] < 2.0 - 1e-9, &[0, 1, 2], &[0, 1]),
     ];
     let ([c, s], [d, e]) = ([0.8, 0.6], [5.0 / 13.0, 12.0 / 13.0]);
@@ -126,7 +127,8 @@ fn planes_of_symmetry_close_a_part_of_a_box() {
 }
 
 /// Volume of a box 2 × 2 × 2 whose walls are these, closed by caps on the faces of the box: by z of all
-/// pieces (caps below at z = 0 give nothing, those at the sides are upright, and above there is always a wall).
+/// pieces (caps below at z = 0 give nothing, those at the sides are upright, and above there is always a
+/// wall).
 fn whole_volume(facets: &[[u32; 4]], positions: &[[f64; 3]]) -> f64 {
     let mut volume = 0.0;
     for &facet in facets {

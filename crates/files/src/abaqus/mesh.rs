@@ -144,7 +144,7 @@ pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh,
         let cells = deck.node_sets.get(key).map(|set| points(&set.members)).unwrap_or_default();
         groups.push(MeshGroup { name: name.clone(), dimension: 0, cells });
     }
-    let values = || (0..deck.nodes.len()).filter(|&node| used[node]).map(|node| scale * deck.thicknesses[node]).collect();
+    let values = || (0..deck.nodes.len()).filter(|&node| used[node]).map(|node| Some(scale * deck.thicknesses[node]?)).collect();
     let thickness = || MeshField { name: NODAL_THICKNESS.into(), values: FieldValues::Nodes(values()) };
     let fields = (!deck.thicknesses.is_empty()).then(thickness).into_iter().collect();
     Ok(ImportedMesh { source: source.into(), positions, groups, fields })

@@ -88,12 +88,12 @@ impl Deck {
 
     /// Reads *NODAL THICKNESS: nodes or node sets, each with the thickness there.
     fn read_thicknesses(&mut self, text: &Text, block: &Block, instance: usize) -> Result<(), Fault> {
-        self.thicknesses.resize(self.nodes.len(), f64::NAN);
+        self.thicknesses.resize(self.nodes.len(), None);
         for &line in &block.data {
             let fields = text.fields(line);
             let thickness = text.number(line, fields.get(1).copied().unwrap_or_default(), "the thickness at a node")?;
             for node in self.nodes_named(text, line, instance, fields[0])? {
-                self.thicknesses[node as usize] = thickness;
+                self.thicknesses[node as usize] = Some(thickness);
             }
         }
         Ok(())

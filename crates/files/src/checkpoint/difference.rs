@@ -165,11 +165,11 @@ fn summed(mesh: &ImportedMesh) -> String {
     }
     for field in &mesh.fields {
         crc.update(field.name.as_bytes());
-        let values: Box<dyn Iterator<Item = &f64>> = match &field.values {
-            FieldValues::Nodes(values) => Box::new(values.iter()),
-            FieldValues::Corners(groups) => Box::new(groups.iter().flatten().flatten()),
-        };
-        values.for_each(|value| crc.update(&value.to_le_bytes()));
+        let mut add = |value: f64| crc.update(&value.to_le_bytes());
+        match &field.values {
+            FieldValues::Nodes(values) => values.iter().for_each(|value| add(value.unwrap_or(f64::NAN))),
+            FieldValues::Corners(groups) => groups.iter().flatten().flatten().for_each(|value| add(*value)),
+        }
     }
     let cells: usize = mesh.groups.iter().map(|group| group.cells.len()).sum();
     format!("{} nodes and {cells} cells, check sum {:08x}", mesh.positions.len(), crc.sum())

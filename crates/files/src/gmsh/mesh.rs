@@ -260,10 +260,10 @@ impl<'a> Nodes<'a> {
     /// A view as a field of the mesh of the used nodes.
     fn field(&self, view: &View, index: &NodeIndex, cells: &[Vec<Cell>], scale: f64) -> MeshField {
         let values = if view.place == Place::Nodes {
-            let mut all = vec![f64::NAN; self.used.len()];
+            let mut all = vec![None; self.used.len()];
             for (tag, own) in &view.values {
                 if let (Some(node), Some(value)) = (index.of(*tag), own.first()) {
-                    all[node as usize] = scale * value;
+                    all[node as usize] = Some(scale * value);
                 }
             }
             FieldValues::Nodes(all.into_iter().zip(self.used).filter(|(_, used)| **used).map(|(value, _)| value).collect())

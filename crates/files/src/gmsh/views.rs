@@ -1,9 +1,10 @@
-//! Views of a .msh file: `$NodeData`, `$ElementData` and `$ElementNodeData`, the same in versions 2.2 and 4.1.
+//! Views of a .msh file: `$NodeData`, `$ElementData` and `$ElementNodeData`, the same in versions 2.2 and
+//! 4.1.
 //!
 //! Texts (the name first), numbers and whole numbers (step, components, how many values) come first, each on
-//! a line of its own, in every kind of file; then a value for each node, element, or node of an element. Those
-//! of one component are kept, of several steps the first. Source: "MSH file format" of the Gmsh reference
-//! manual.
+//! a line of its own, in every kind of file; then a value for each node, element, or node of an element.
+//! Those of one component are kept, of several steps the first. Source: "MSH file format" of the Gmsh
+//! reference manual.
 
 use super::contents::Contents;
 use super::reader::{Least, Reader};

@@ -18,7 +18,6 @@ where
         if !self.groups.iter().any(|group| named(group.part).is_some()) {
             return;
         }
-        // The user's number of each node.
         let mut all = vec![Vec::new(); self.groups.len()];
         for (corners, group) in all.iter_mut().zip(&self.groups) {
             let (Some(section), Shape::Group { mesh, group: name }) = (named(group.part), &model.parts[group.part].shape) else { continue };
@@ -32,7 +31,7 @@ where
                 let user = group.user_elements[element] as usize;
                 for &node in nodes {
                     let value = match &field.values {
-                        FieldValues::Nodes(values) => values.get(file_node(node) as usize).copied(),
+                        FieldValues::Nodes(values) => values.get(file_node(node) as usize).copied().flatten(),
                         FieldValues::Corners(groups) => own.and_then(|own| {
                             let at = source.groups[own].cells.get(user)?.iter().position(|other| *other == file_node(node))?;
                             groups.get(own)?.get(user)?.get(at).copied()

@@ -222,15 +222,15 @@ pub struct ImportedMesh {
 pub struct MeshField {
     /// Unique name.
     pub name: String,
-    /// m; what is not a number is not there.
+    /// m.
     pub values: FieldValues,
 }
 
 /// Where the values of a field are.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FieldValues {
-    /// One for each node of the mesh.
-    Nodes(Vec<f64>),
+    /// One for each node of the mesh, where it is there.
+    Nodes(Vec<Option<f64>>),
     /// By group, cell of it and node of that; of cells without values nothing.
     Corners(Vec<Vec<Vec<f64>>>),
 }

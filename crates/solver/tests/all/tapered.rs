@@ -133,7 +133,7 @@ fn a_thickness_from_a_file_is_that_of_the_same_growth_to_the_last_bit() {
     let fields = |file: &ImportedMesh| {
         assert_eq!(file.positions.len(), by_node.len());
         vec![
-            MeshField { name: "nodes".into(), values: FieldValues::Nodes(by_node.clone()) },
+            MeshField { name: "nodes".into(), values: FieldValues::Nodes(by_node.iter().copied().map(Some).collect()) },
             MeshField { name: "corners".into(), values: FieldValues::Corners(corners.clone()) },
         ]
     };
@@ -154,10 +154,10 @@ fn a_thickness_from_a_file_is_that_of_the_same_growth_to_the_last_bit() {
     assert!((mass / exact - 1.0).abs() < 1e-12, "{mass} {exact}");
     // What is not there, is not positive, or is not of a file.
     let mut lacking = fields(file);
-    for (field, value) in lacking.iter_mut().zip([f64::NAN, 0.0]) {
+    for field in &mut lacking {
         match &mut field.values {
-            FieldValues::Nodes(values) => values[7] = value,
-            FieldValues::Corners(groups) => groups[0][5][1] = value,
+            FieldValues::Nodes(values) => values[7] = None,
+            FieldValues::Corners(groups) => groups[0][5][1] = 0.0,
         }
     }
     for (name, words) in [("nodes", "has no value at"), ("corners", "is 0e0 m at")] {

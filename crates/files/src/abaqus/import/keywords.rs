@@ -88,7 +88,7 @@ pub(super) static KEYWORDS: &[Keyword] = &[
     key("MEMBRANE SECTION", Used, &["ELSET", "MATERIAL"], "a part in plane stress; in 3D a shell of one point, without \
         bending", section::membrane),
     key("MPC", Ignored, ANY, "refused: constraints between nodes have no counterpart but ties", step::refused),
-    key("NODAL THICKNESS", Used, &[], "`thickness_field` of sections of shells that take it: a thickness at each node", done),
+    key("NODAL THICKNESS", Used, &[], "`thickness_field` of sections of shells that take it: a thickness at each node", section::nodal_thickness),
     key("NODE", Used, &["NSET", "SYSTEM"], "the mesh", done),
     key("NODE FILE", Approximated, ANY, PRINTS, done),
     key("NODE OUTPUT", Approximated, ANY, PRINTS, done),

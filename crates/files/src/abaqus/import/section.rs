@@ -13,7 +13,7 @@ use crate::abaqus::deck::Element;
 use crate::abaqus::element_kind::Family;
 use crate::abaqus::mesh::NODAL_THICKNESS;
 use crate::abaqus::messages::{INCOMPLETE, NO_COUNTERPART, SYNTAX, UNKNOWN};
-use crate::abaqus::text::{Line, folded, shown};
+use crate::abaqus::text::{Block, Line, folded, shown};
 use embate_solver::error::Fault;
 use embate_solver::quantity::Dimension;
 
@@ -259,6 +259,15 @@ pub(super) fn shell(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault>
     }
     add(importer, at, &material, 1.0, Body::Shell { thickness, points })?;
     lines_left_out(importer, at, 1);
+    Ok(())
+}
+
+/// *NODAL THICKNESS is read with the mesh; a section must take it.
+pub(super) fn nodal_thickness(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
+    let takes = |block: &Block| block.keyword.starts_with("SHELL") && block.has("NODAL THICKNESS");
+    if !importer.text.blocks.iter().any(takes) {
+        importer.ignored(at, importer.block(at).line, "no section of shells takes the thickness of the nodes (NODAL THICKNESS)");
+    }
     Ok(())
 }
 

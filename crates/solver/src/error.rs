@@ -23,6 +23,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &MASS_ADDED,
     &ERODED,
     &RELAXED,
+    &SQUEEZED,
+    &OPENED,
 ];
 
 static INVERTED: Message = Message {
@@ -171,6 +173,35 @@ pub(crate) static RELAXED: Message = Message {
     example: Example::Model("[run]\nrelaxation = {}\n"),
     cause: "A run with `relaxation` ends at rest, or at its end time without having come to rest.",
     remedy: "Give a later `end`, or a larger `tolerance`, where it is not at rest.",
+};
+
+static SQUEEZED: Message = Message {
+    code: "E0610",
+    title: "a cavity without volume",
+    example: Example::File(
+        "[run]\nend = \"1 ms\"\n\n[material.steel]\nlaw = \"elastic\"\ndensity = \"7800 kg/m^3\"\nyoung = \"200 GPa\"\npoisson = 0.3\n\n\
+         [[part]]\nname = \"piston\"\nmaterial = \"steel\"\nvelocity = [0, \"-500 m/s\"]\nrectangle = { corner = [0, \"20 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [1, 1] }\n\n\
+         [[part]]\nname = \"floor\"\nmaterial = \"steel\"\nrectangle = { corner = [0, \"-10 mm\"], size = [\"10 mm\", \"10 mm\"], elements = [1, 1] }\n\n\
+         [[symmetry]]\nnormal = [1, 0]\n\n[[symmetry]]\npoint = [\"10 mm\", 0]\nnormal = [1, 0]\n\n[[constraint]]\non = \"floor\"\nfixed = [\"x\", \"y\"]\n\n\
+         [[cavity]]\nname = \"gas\"\non = [\"piston.bottom\", \"floor.top\"]\nambient = \"1 kPa\"\n\n[output]\npictures = false\n",
+    ),
+    cause: "The surface of the gas turned inside out within a step: as its volume goes to zero its pressure has no limit, \
+        so the walls were too fast for the step, or there was nothing in the way of walls of little mass.",
+    remedy: "Give the surface a contact with itself, and `run.time_step` a smaller value where walls are fast; look at units of pressure and mass.",
+};
+
+pub(crate) static OPENED: Message = Message {
+    code: "W0604",
+    title: "a cavity that opened",
+    example: Example::File(
+        "[run]\nend = \"200 us\"\n\n[material.steel]\nlaw = \"j2\"\ndensity = \"7800 kg/m^3\"\nyoung = \"200 GPa\"\npoisson = 0.3\nyield = \"300 MPa\"\nhardening = \"1 GPa\"\n\
+         failure = { plastic_strain = 0.05 }\n\n\
+         [[part]]\nname = \"tank\"\nmaterial = \"steel\"\nring = { centre = [0, 0], inner = \"99 mm\", outer = \"101 mm\", elements = [1, 24] }\n\n\
+         [[cavity]]\nname = \"gas\"\non = \"tank.inner\"\npressure = \"20 MPa\"\nambient = \"100 kPa\"\n\n[output]\npictures = false\n",
+    ),
+    cause: "A piece of the surface that encloses the gas was eroded. From then on the gas has the pressure outside: it pushes \
+        no more, and its values in the history stay as they were.",
+    remedy: "Nothing, where the wall is meant to burst; the gas that would blow out through the hole for a while is not modelled.",
 };
 
 /// One fault of a model: where in the input, what is wrong, and what to do.
@@ -363,6 +394,21 @@ pub enum Error {
         #[doc = "Step number."]
         step: u64,
     },
+    /// The volume of a cavity is gone.
+    #[error(
+        "cavity \"{cavity}\" has a volume of {volume:.3e} m³ (in 2D m³/m) at time {time:.6e} s, step {step}: its surface turned inside out; \
+         give it a contact with itself, or a smaller run.time_step"
+    )]
+    Squeezed {
+        #[doc = "Its name."]
+        cavity: Box<str>,
+        #[doc = "Volume, m³ (in 2D m³/m)."]
+        volume: f64,
+        #[doc = "Time, s."]
+        time: f64,
+        #[doc = "Step number."]
+        step: u64,
+    },
     /// A kept state is not one of the model.
     #[error("the kept state does not fit the model: {0}; it was written by another version of embate, or it is damaged")]
     State(String),
@@ -383,6 +429,7 @@ impl Error {
             Self::NotFinite { .. } => Some(&NOT_FINITE),
             Self::TooDeep { .. } => Some(&TOO_DEEP),
             Self::Runaway { .. } => Some(&RUNAWAY),
+            Self::Squeezed { .. } => Some(&SQUEEZED),
             Self::State(_) => Some(&STATE),
             Self::Output(_) => Some(&OUTPUT),
         }

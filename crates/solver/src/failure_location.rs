@@ -21,6 +21,10 @@ where
             Governor::Element(squared) => self.element_with_step(squared),
             Governor::Node(node) => format!("the elements at {}", self.node_place(node as usize)),
             Governor::Assembled(node) => format!("the assembled mesh, fastest at {}", self.node_place(node as usize)),
+            Governor::Cavity(number) => {
+                let name = self.cavities.iter().nth(number as usize).map_or("", |cavity| &cavity.name);
+                format!("the gas of cavity \"{name}\"")
+            }
             Governor::Given => "`run.time_step`".into(),
             Governor::Contact => "bodies that come at each other fast".into(),
             Governor::Schedule => "growth limit or end of the run".into(),

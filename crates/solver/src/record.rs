@@ -11,6 +11,7 @@ use crate::error::Fault;
 use crate::field::snapshot::LiveSnapshot;
 use crate::field::{ALIVE, VON_MISES};
 use crate::hash::Fnv;
+use crate::load::cavity::{self, Cavity};
 use crate::material::variable::PLASTIC_STRAIN;
 use crate::mesh::ElementGroup;
 use crate::model::messages::UNKNOWN_NAME;
@@ -131,6 +132,9 @@ impl Recorded {
         for &(part, _) in &system.body_parts {
             columns.extend(<Dim<D>>::MOTION.iter().map(|value| format!("rigid.{value}[{}]", system.mesh.parts[part].name)));
         }
+        for cavity in system.cavities.iter() {
+            columns.extend(cavity::VALUES.iter().map(|value| format!("cavity.{value}[{}]", cavity.name)));
+        }
         for probe in &self.probes {
             columns.extend(AXES[..D].iter().map(|axis| format!("{}.{axis}", probe.name)));
             columns.extend(AXES[..D].iter().map(|axis| format!("{}.v{axis}", probe.name)));
@@ -184,6 +188,7 @@ impl Recorded {
         for &(_, body) in &system.body_parts {
             row.extend(<Dim<D>>::motion(system.bodies.state(body), system.before()));
         }
+        row.extend(system.cavities.iter().flat_map(Cavity::values));
         for probe in &self.probes {
             let mean = |value: &dyn Fn(usize) -> [f64; D]| {
                 probe.nodes.iter().fold([0.0; D], |sum, &(node, weight)| plus(sum, times(weight, value(node as usize))))

@@ -8,6 +8,7 @@ pub(crate) mod erosion;
 pub(crate) mod free;
 mod assembled_bound;
 mod assembled_stiffness;
+mod cavities;
 mod limits;
 pub(crate) mod mass_scaling;
 mod nodal_bound;
@@ -29,6 +30,7 @@ use crate::dimension::Dimension;
 use crate::energy::{Entry, Ledger, Lost, Stores, Sums, Works};
 use crate::error::Error;
 use crate::load::body_force::BodyForces;
+use crate::load::cavity::Cavities;
 use crate::load::constraint::Constraints;
 use crate::load::curve::Curves;
 use crate::load::damping::Damping;
@@ -96,6 +98,8 @@ where
     pub(crate) body_forces: BodyForces<D>,
     /// Forces and pressures on nodes.
     pub(crate) forces: Forces<D>,
+    /// Gas in closed surfaces.
+    pub(crate) cavities: Cavities<D>,
     /// Boundaries that reflect nothing.
     pub(crate) boundary: NonReflecting<D>,
     /// Nodes that move as one.
@@ -219,6 +223,7 @@ where
         let elements = self.strain_and_detect();
         let elements = self.scale_mass(elements);
         let elements = self.choose_ratios(elements);
+        self.advance_cavities()?;
         let time_step = self.stable_step(&elements);
         if time_step.is_err() {
             // The last output shows contacts where the bodies are.
@@ -359,6 +364,7 @@ where
             self.bodies.weigh(&self.body_forces, &self.mass);
         }
         self.forces.prepare(&self.curves, update, &self.positions);
+        self.press_cavities();
         self.rotations.prepare(&self.curves, update, [from, to]);
         if !self.skins.is_empty() {
             let Self { forces, skins, positions, rotations, .. } = self;

@@ -146,6 +146,8 @@ pub enum Kind {
     /// A contact stiffness: per node in this dimension (with depth Pa = N/m/m, of solids N/m), or a pressure
     /// per depth (Pa/m).
     Stiffness(Dimension, Range),
+    /// A mass per time, in this dimension (with depth kg/s/m, of whole bodies kg/s).
+    MassFlow(Dimension, Range),
     /// A whole number that is not less than the minimum.
     Integer(u64),
     /// So many whole numbers that are not less than the minimum.
@@ -244,6 +246,7 @@ impl Key {
         match self.kind {
             Kind::Quantity(dimension, range)
             | Kind::Angle(dimension, range)
+            | Kind::MassFlow(dimension, range)
             | Kind::Vector(dimension, range)
             | Kind::Spatial(dimension, range)
             | Kind::Quantities(dimension, range, _) => Some((dimension, range)),

@@ -160,6 +160,8 @@ pub(super) struct Deck {
     /// Element numbers of masses, springs, rigid lines and the like, by instance and set: how many, and the
     /// first line.
     pub(super) beside: BTreeMap<String, (String, usize, Line)>,
+    /// Of each node the thickness of shells there, in the deck's unit, where it is given; empty without any.
+    pub(super) thicknesses: Vec<Option<f64>>,
     /// Where each block stands.
     pub(super) scopes: Vec<Scope>,
 }

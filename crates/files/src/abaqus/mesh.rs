@@ -11,11 +11,14 @@ use crate::gmsh::form;
 use crate::gmsh::messages::{CELL, NODE};
 use embate_solver::error::Fault;
 use embate_solver::mesh::signed_volume;
-use embate_solver::model::{ImportedMesh, MeshGroup};
+use embate_solver::model::{FieldValues, ImportedMesh, MeshField, MeshGroup};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Distance from the plane z = 0, as a fraction of the mesh's size, that still counts as on it.
 const OFF_PLANE: f64 = 1e-9;
+
+/// What the field of *NODAL THICKNESS is called.
+pub(super) const NODAL_THICKNESS: &str = "nodal_thickness";
 
 /// What the group of the members of a set is called that are of a lower dimension than others.
 const LOWER: [&str; 3] = ["elements", "lines", "surfaces"];
@@ -141,7 +144,10 @@ pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh,
         let cells = deck.node_sets.get(key).map(|set| points(&set.members)).unwrap_or_default();
         groups.push(MeshGroup { name: name.clone(), dimension: 0, cells });
     }
-    Ok(ImportedMesh { source: source.into(), positions, groups })
+    let values = || (0..deck.nodes.len()).filter(|&node| used[node]).map(|node| Some(scale * deck.thicknesses[node]?)).collect();
+    let thickness = || MeshField { name: NODAL_THICKNESS.into(), values: FieldValues::Nodes(values()) };
+    let fields = (!deck.thicknesses.is_empty()).then(thickness).into_iter().collect();
+    Ok(ImportedMesh { source: source.into(), positions, groups, fields })
 }
 
 /// Corners of an element, in the deck's unit.

@@ -48,6 +48,7 @@ pub(crate) fn read_within(bodies: Bodies, path: &Path, scale: f64, bounds: &Boun
 ///   the set of an instance is called `INSTANCE.SET`. Names keep their first spelling. A surface or node set
 ///   whose name is taken is called `NAME-surface` or `NAME-nodes`. If the deck has no element sets, its
 ///   elements are the group `all`.
+/// - *NODAL THICKNESS becomes the field `nodal_thickness`.
 /// - Nodes keep the file's order; those of no body are left out, also of sets.
 /// - Clockwise elements and those of negative volume are turned, their first node kept.
 /// - Masses, springs, rigid lines, in 2D beams of 3D and the like are skipped, and so is every keyword that

@@ -1,4 +1,5 @@
-//! Sets and surfaces of a deck, in the order of the file: *NSET, *ELSET, *SURFACE.
+//! Sets and surfaces of a deck, in the order of the file: *NSET, *ELSET, *SURFACE, and the
+//! thicknesses at nodes.
 //!
 //! Part of [`Deck`]; what they name must stand above them. Members are indices into the deck's nodes and
 //! elements.
@@ -20,6 +21,11 @@ impl Deck {
                     let of_nodes = block.keyword == "NSET";
                     for (named_in, looked_in) in self.homes(text, at, block)? {
                         self.read_set(text, block, of_nodes, named_in, looked_in)?;
+                    }
+                }
+                "NODAL THICKNESS" => {
+                    for instance in self.instances_of(at) {
+                        self.read_thicknesses(text, block, instance)?;
                     }
                 }
                 "SURFACE" => {
@@ -77,6 +83,19 @@ impl Deck {
         }
         let name = self.full_shown(named_in, name);
         extend(if of_nodes { &mut self.node_sets } else { &mut self.element_sets }, &name, members);
+        Ok(())
+    }
+
+    /// Reads *NODAL THICKNESS: nodes or node sets, each with the thickness there.
+    fn read_thicknesses(&mut self, text: &Text, block: &Block, instance: usize) -> Result<(), Fault> {
+        self.thicknesses.resize(self.nodes.len(), None);
+        for &line in &block.data {
+            let fields = text.fields(line);
+            let thickness = text.number(line, fields.get(1).copied().unwrap_or_default(), "the thickness at a node")?;
+            for node in self.nodes_named(text, line, instance, fields[0])? {
+                self.thicknesses[node as usize] = Some(thickness);
+            }
+        }
         Ok(())
     }
 

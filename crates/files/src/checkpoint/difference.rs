@@ -6,7 +6,7 @@
 //! mean nothing.
 
 use embate_solver::hash::Fnv;
-use embate_solver::model::{ImportedMesh, Model};
+use embate_solver::model::{FieldValues, ImportedMesh, Model};
 use flate2::Crc;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -38,6 +38,7 @@ const NAMES: &[(&str, &str)] = &[
     ("symmetries[", "symmetry["),
     ("constraints[", "constraint["),
     ("loads[", "load["),
+    ("cavities[", "cavity["),
     ("joins[", "join["),
     ("welds[", "weld["),
     ("joints[", "joint["),
@@ -162,6 +163,14 @@ fn summed(mesh: &ImportedMesh) -> String {
             cell.iter().for_each(|node| crc.update(&node.to_le_bytes()));
         });
     }
+    for field in &mesh.fields {
+        crc.update(field.name.as_bytes());
+        let mut add = |value: f64| crc.update(&value.to_le_bytes());
+        match &field.values {
+            FieldValues::Nodes(values) => values.iter().for_each(|value| add(value.unwrap_or(f64::NAN))),
+            FieldValues::Corners(groups) => groups.iter().flatten().flatten().for_each(|value| add(*value)),
+        }
+    }
     let cells: usize = mesh.groups.iter().map(|group| group.cells.len()).sum();
     format!("{} nodes and {cells} cells, check sum {:08x}", mesh.positions.len(), crc.sum())
 }
@@ -280,7 +289,12 @@ mod tests {
     fn a_mesh_counts_by_its_numbers_and_text_reads_back() {
         let with = |x: f64| {
             let mut model = model();
-            model.meshes.push(Arc::new(ImportedMesh { source: "a.msh".into(), positions: vec![[x, 0.0, 0.0]], groups: vec![] }));
+            model.meshes.push(Arc::new(ImportedMesh {
+                source: "a.msh".into(),
+                positions: vec![[x, 0.0, 0.0]],
+                groups: vec![],
+                ..ImportedMesh::default()
+            }));
             Identity::of(&model)
         };
         assert_eq!(with(1.0), with(1.0));

@@ -5,6 +5,7 @@
 
 use super::element_kind::ElementKind;
 use super::reader::{Least, Reader};
+use super::views::View;
 use crate::gmsh::messages::{DAMAGED, ELEMENT_TYPE};
 use embate_solver::error::Fault;
 use embate_solver::mesh::cell::{CellKind, MOST_NODES};
@@ -56,6 +57,8 @@ pub(super) struct Contents {
     pub(super) groups: BTreeMap<GroupKey, Vec<FileCell>>,
     /// Surfaces and volumes that belong to no group.
     pub(super) ungrouped: Vec<FileCell>,
+    /// Views of one component.
+    pub(super) views: Vec<View>,
     /// Element types that can't be computed, by group (`None`: no group) and number of the type.
     pub(super) foreign: BTreeMap<(Option<GroupKey>, i64), Occurrence>,
 }

@@ -9,10 +9,11 @@ use super::contents::{Contents, FileCell, FileNode, GroupKey, Occurrence};
 use super::faults::Faults;
 use super::form;
 use super::reader::Reader;
+use super::views::{Place, View};
 use crate::gmsh::messages::{ELEMENT_TYPE, NODE, PHYSICAL_GROUP};
 use embate_solver::error::Fault;
 use embate_solver::mesh::cell::MOST_NODES;
-use embate_solver::model::{ImportedMesh, MeshGroup};
+use embate_solver::model::{FieldValues, ImportedMesh, MeshField, MeshGroup};
 use std::collections::BTreeMap;
 
 /// Distance from the plane z = 0, as a fraction of the mesh's size, that still counts as on it.
@@ -46,7 +47,9 @@ pub(super) fn mesh(bodies: Bodies, contents: &Contents, reader: &Reader, scale: 
     if !faults.is_empty() {
         return Err(faults.into_list(source));
     }
-    Ok(nodes.mesh(source, &groups, &resolved))
+    let mut mesh = nodes.mesh(source, &groups, &resolved);
+    mesh.fields = contents.views.iter().map(|view| nodes.field(view, &index, &resolved, scale)).collect();
+    Ok(mesh)
 }
 
 /// A physical group with the name that the model knows it by.
@@ -254,6 +257,42 @@ impl<'a> Nodes<'a> {
         cell.nodes().iter().map(|&node| self.place(node)).collect()
     }
 
+    /// A view as a field of the mesh of the used nodes.
+    fn field(&self, view: &View, index: &NodeIndex, cells: &[Vec<Cell>], scale: f64) -> MeshField {
+        let values = if view.place == Place::Nodes {
+            let mut all = vec![None; self.used.len()];
+            for (tag, own) in &view.values {
+                if let (Some(node), Some(value)) = (index.of(*tag), own.first()) {
+                    all[node as usize] = Some(scale * value);
+                }
+            }
+            FieldValues::Nodes(all.into_iter().zip(self.used).filter(|(_, used)| **used).map(|(value, _)| value).collect())
+        } else {
+            let of_elements: BTreeMap<u64, &[f64]> = view.values.iter().map(|(tag, own)| (*tag, &own[..])).collect();
+            let of_cell = |cell: &Cell| {
+                let count = cell.nodes().len();
+                let mut own: Vec<f64> = match of_elements.get(&cell.file.tag) {
+                    Some([value]) => vec![scale * value; count],
+                    Some(values) if values.len() == count => values.iter().map(|value| scale * value).collect(),
+                    _ => Vec::new(),
+                };
+                if own.len() == count && self.is_turned(cell) {
+                    let mut order: Vec<u32> = (0..count as u32).collect();
+                    cell.file.shape.reflect(&mut order);
+                    own = order.iter().map(|&at| own[at as usize]).collect();
+                }
+                own
+            };
+            FieldValues::Corners(cells.iter().map(|cells| cells.iter().map(of_cell).collect()).collect())
+        };
+        MeshField { name: view.name.clone(), values }
+    }
+
+    /// Whether a cell of the file is turned round in the mesh.
+    fn is_turned(&self, cell: &Cell) -> bool {
+        cell.file.kind.dimension == self.dimension && form::is_turned(cell.file.shape, &self.corners(cell))
+    }
+
     /// The mesh of the used nodes; nothing is wrong with it any more.
     fn mesh(&self, source: &str, groups: &[Group], cells: &[Vec<Cell>]) -> ImportedMesh {
         let mut dense = vec![0_u32; self.used.len()];
@@ -264,7 +303,7 @@ impl<'a> Nodes<'a> {
         }
         let oriented = |cell: &Cell| {
             let mut nodes: Vec<u32> = cell.nodes().iter().map(|&node| dense[node as usize]).collect();
-            if cell.file.kind.dimension == self.dimension && form::is_turned(cell.file.shape, &self.corners(cell)) {
+            if self.is_turned(cell) {
                 cell.file.shape.reflect(&mut nodes);
             }
             nodes
@@ -274,6 +313,6 @@ impl<'a> Nodes<'a> {
             dimension: group.dimension,
             cells: cells.iter().map(oriented).collect(),
         });
-        ImportedMesh { source: source.into(), groups: groups.collect(), positions }
+        ImportedMesh { source: source.into(), groups: groups.collect(), positions, ..ImportedMesh::default() }
     }
 }

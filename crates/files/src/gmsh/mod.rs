@@ -2,10 +2,10 @@
 //! [`ImportedMesh`].
 //!
 //! The walk of the data: `reader.rs` (numbers and section marks) → `version2.rs` or `version4.rs` (what
-//! stands in which section) → `contents.rs` (nodes, elements by physical group, as in the file) → `mesh.rs`
-//! (dense node numbers, groups of cells) with `check.rs` (the forms of cells, `form.rs`). `element_kind.rs`
-//! is the format's table of element types, `faults.rs` the list of what is wrong. Parts, contacts and
-//! constraints of a model name the groups.
+//! stands in which section; `views.rs` for both) → `contents.rs` (nodes, elements by physical group, as in
+//! the file) → `mesh.rs` (dense node numbers, groups of cells) with `check.rs` (the forms of cells,
+//! `form.rs`). `element_kind.rs` is the format's table of element types, `faults.rs` the list of what is
+//! wrong. Parts, contacts and constraints of a model name the groups.
 
 mod check;
 mod contents;
@@ -17,6 +17,7 @@ mod mesh;
 mod reader;
 mod version2;
 mod version4;
+mod views;
 
 use crate::gmsh::messages::{DAMAGED, FORMAT, MESH_FILE};
 use crate::plain;
@@ -76,6 +77,8 @@ pub fn read_for(bodies: Bodies, path: &Path, scale: f64) -> Result<ImportedMesh,
 ///   group `all`, and if it has none, its triangles and quadrilaterals are.
 /// - Nodes keep the file's order; those of no volume (in 2D: of no triangle or quadrilateral) of a
 ///   group are left out.
+/// - Views of one component by node, element, or node of elements become [`fields`](ImportedMesh::fields),
+///   their values times `scale`; of several steps the first.
 /// - Clockwise cells and those of negative volume are turned, their first node kept. What is outside of a
 ///   surface in 3D follows from the volume.
 ///
@@ -132,6 +135,7 @@ fn read_contents(reader: &mut Reader) -> Result<Contents, Fault> {
             ("PartitionedEntities", Version::Four) => version4::read_entities(reader, entities.get_or_insert_with(Entities::new), true)?,
             ("Nodes", Version::Four) => version4::read_nodes(reader, &mut contents)?,
             ("Elements", Version::Four) => version4::read_elements(reader, &mut contents, entities.as_ref())?,
+            (data, _) if let Some(place) = views::Place::of(data) => views::read(reader, &mut contents, place)?,
             _ => reader.skip_section(name, start)?,
         }
         reader.section_end(name)?;

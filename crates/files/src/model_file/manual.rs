@@ -152,7 +152,7 @@ since they are no part of the summary that it leaves out; `summary.json` lists t
 | the flow stress falls | a material with `hardening` below 0, `saturation` below `yield`, a falling table, or an `isotropic_stress` below 0 for which backstresses do not make up | strain gathers in one row of elements; results after the peak depend on their size |
 | a Poisson's ratio above 0.49 in `tri3` or `quad4_full` | parts not in plane stress; rubbers by their bulk and shear modulus | the elements lock: several times too stiff |
 | a fluid without viscosity in `quad4` or `quad4_full` | parts of law `null`, but for a `rectangle` of one row | nothing holds shapes that keep the volume: elements fold where the fluid does not flow along the mesh |
-| nothing acts on a part | no contact, obstacle, join, spring, load or motion has to do with it, nor with what shares its nodes | it stays as it is, and others go through it |
+| nothing acts on a part | no contact, obstacle, join, spring, load, cavity or motion has to do with it, nor with what shares its nodes | it stays as it is, and others go through it |
 
 ";
 
@@ -187,6 +187,7 @@ fn words(key: &Key) -> String {
         }
         Kind::Motion => MOTION.to_string(),
         Kind::Rigid => format!("true, false, or {MOTION}"),
+        Kind::MassFlow(_, range) => format!("mass per time, kg/s, in 2D kg/s/m{}", within(range)),
         Kind::Integer(least) => format!("whole number from {least}"),
         Kind::Integers(count, least) => format!("{count} whole numbers from {least}"),
         Kind::Choice(known) if known.names().len() <= 4 => {

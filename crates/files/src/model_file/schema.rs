@@ -243,6 +243,9 @@ fn of_key(key: &Key) -> Json {
         Kind::Stiffness(_, range) => {
             any([number(range), object([("type", text("string")), ("examples", texts(["3.5e11 N/m/m", "1e14 Pa/m"]))])])
         }
+        Kind::MassFlow(_, range) => {
+            any([number(range), object([("type", text("string")), ("examples", texts(["0.5 kg/s", "0.5 kg/s/m"]))])])
+        }
         Kind::Integer(least) => integer(least),
         Kind::Integers(count, least) => list(integer(least), Some(count)),
         Kind::Cadence => any([integer(1), quantity(Dimension::TIME, Range::Positive)]),

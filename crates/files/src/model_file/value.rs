@@ -254,7 +254,7 @@ impl<'a> At<'a> {
 pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
     let at = At { kind: key.kind, key, node, path };
     Ok(match key.kind {
-        Kind::Quantity(dimension, range) => Datum::Number(at.number(&[dimension], range, false)?.0),
+        Kind::Quantity(dimension, range) | Kind::MassFlow(dimension, range) => Datum::Number(at.number(&[dimension], range, false)?.0),
         Kind::Angle(dimension, range) => Datum::Number(at.number(&[dimension], range, true)?.0),
         Kind::Vector(dimension, range) => Datum::Vector(at.vector(dimension, range)?),
         Kind::Spatial(dimension, range) => Datum::Spatial(at.spatial(dimension, range)?),
@@ -367,6 +367,7 @@ pub(super) fn words(kind: Kind) -> String {
         Kind::Motion => "a table with x, y, z, rotation or some of them".to_string(),
         Kind::Rigid => "true, false, or a table with x, y, z, rotation or some of them".to_string(),
         Kind::Stiffness(..) => "a stiffness".to_string(),
+        Kind::MassFlow(..) => "a mass per time".to_string(),
         Kind::Integer(_) => "a whole number".to_string(),
         Kind::Integers(count, _) => format!("a list of {count} whole numbers"),
         Kind::Cadence => "a whole number or a time".to_string(),
@@ -409,6 +410,8 @@ pub(super) fn example(key: &Key) -> String {
         Kind::Rigid => "true".to_string(),
         Kind::Stiffness(Dimension::FORCE_PER_LENGTH, _) => "\"3.5e8 N/m\"".to_string(),
         Kind::Stiffness(..) => "\"3.5e11 N/m/m\"".to_string(),
+        Kind::MassFlow(Dimension::FORCE_PER_VELOCITY, _) => "\"0.5 kg/s\"".to_string(),
+        Kind::MassFlow(..) => "\"0.5 kg/s/m\"".to_string(),
         Kind::Integer(_) => "12".to_string(),
         Kind::Integers(count, _) => format!("[{}]", ["12", "3", "4"].iter().cycle().take(count).copied().collect::<Vec<_>>().join(", ")),
         Kind::Cadence => "\"10 us\"".to_string(),

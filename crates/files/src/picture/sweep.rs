@@ -57,6 +57,7 @@ pub(crate) fn unit_of(column: Option<&str>, name: &str, is_time: bool, of_whole_
     let bare = column.split('[').next().unwrap_or(column);
     match bare.rsplit('.').next().unwrap_or(bare) {
         _ if bare.starts_with("energy.") => energy,
+        _ if bare.starts_with("cavity.") => crate::results::unit(column, of_whole_bodies),
         "force_x" | "force_y" => force,
         "energy" | "friction_work" => energy,
         "penetration" | "x" | "y" => "m",

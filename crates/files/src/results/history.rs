@@ -159,6 +159,11 @@ pub fn unit(column: &str, of_whole_bodies: bool) -> &'static str {
     match what {
         "time" | "time_step" => return "s",
         _ if what.starts_with("energy.") || last == "energy" => return per_depth("J/m", "J"),
+        "cavity.pressure" => return "Pa",
+        "cavity.volume" => return per_depth("m^3/m", "m^3"),
+        "cavity.mass" => return per_depth("kg/m", "kg"),
+        "cavity.temperature" => return "K",
+        "cavity.work" => return per_depth("J/m", "J"),
         _ => {}
     }
     match last.strip_suffix(['x', 'y', 'z']).map_or(last, |stem| stem.trim_end_matches('_')) {
@@ -229,6 +234,8 @@ mod tests {
         assert_eq!(units("contact.force_x[hit]"), ["N/m", "N"]);
         assert_eq!(units("obstacle.moment[roll]"), ["N", "N m"]);
         assert_eq!(units("contact.penetration[hit.x]"), ["m", "m"]);
+        assert_eq!((units("cavity.pressure[gas]"), units("cavity.mass[gas]")), (["Pa"; 2], ["kg/m", "kg"]));
+        assert_eq!((units("cavity.volume[gas]"), units("cavity.work[gas]")), (["m^3/m", "m^3"], ["J/m", "J"]));
         assert_eq!((units("P.x"), units("P.vy"), units("time")), (["m"; 2], ["m/s"; 2], ["s"; 2]));
         assert_eq!((units("rigid.spin[a]"), units("rigid.angle[a]"), units("rigid.vz[a]")), (["rad/s"; 2], ["rad"; 2], ["m/s"; 2]));
     }

@@ -48,7 +48,7 @@ pub(super) fn mesh(source: &str, corners: &[[[f64; 3]; 3]], tolerance: Option<f6
     if !rim.is_empty() {
         groups.push(MeshGroup { name: RIM.into(), dimension: 1, cells: rim });
     }
-    Ok(ImportedMesh { source: source.into(), positions, groups })
+    Ok(ImportedMesh { source: source.into(), positions, groups, ..ImportedMesh::default() })
 }
 
 /// Longest side of the box around places.

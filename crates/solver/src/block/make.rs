@@ -21,6 +21,8 @@ pub struct BlockInput<'a, const D: usize> {
     pub area: f64,
     /// Directions of the nodes of each element of a shell; empty: from its neighbours in the block.
     pub directions: &'a [[f64; D]],
+    /// Of shells the thickness of each corner, m; empty: as the section says.
+    pub thicknesses: &'a [f64],
     /// Section of shells.
     pub section: Option<&'a ShellSection>,
     /// Materials of the layers of the section, if it has any; those beyond are of `material`.
@@ -51,6 +53,7 @@ impl<'a, const D: usize> BlockInput<'a, D> {
             element,
             area: 0.0,
             directions: &[],
+            thicknesses: &[],
             section: None,
             layers: &[],
             profile: None,

@@ -436,6 +436,9 @@ struct Room<const D: usize> {
     law: Scratch,
 }
 
+/// The thickness of a corner, by its number and place, m.
+type ThicknessAt<'a, const D: usize> = &'a dyn Fn(usize, [f64; D]) -> f64;
+
 /// The shells of a part.
 pub(super) struct Shells<K, const D: usize> {
     laws: Laws,
@@ -479,7 +482,8 @@ where
         let (laws, points) = Laws::of(input, section, law_of, K::PLANES)?;
         let facts = Facts { is_axisymmetric, ..Facts::new::<K, D>(points, &laws, is_plane_stress) };
         let facts = if section.layers.is_empty() { facts } else { facts.layered::<D>(&laws) };
-        let thickness = |place: [f64; D]| section.thickness_at(place);
+        let thickness =
+            |corner: usize, place: [f64; D]| input.thicknesses.get(corner).copied().unwrap_or_else(|| section.thickness_at(place));
         Some(Self::of(input, laws, facts, section.failed_points, (&thickness, section.fold_angle)))
     }
 
@@ -490,7 +494,7 @@ where
         let laws = Laws::one(input.material, law, points.count() * K::PLANES);
         // No stress in both directions across.
         let facts = Facts { profile, ..Facts::new::<K, D>(points, &laws, true) };
-        Some(Self::of(input, laws, facts, given.failed_points, (&|_| profile.area, 0.0)))
+        Some(Self::of(input, laws, facts, given.failed_points, (&|_, _| profile.area, 0.0)))
     }
 
     fn of(
@@ -498,7 +502,7 @@ where
         laws: Laws,
         facts: Facts,
         failed_share: f64,
-        (thickness, fold_angle): (&dyn Fn([f64; D]) -> f64, f64),
+        (thickness, fold_angle): (ThicknessAt<'_, D>, f64),
     ) -> Self {
         let density = laws.density(&facts.section);
         let (points, count, components) = (facts.section.count() * K::PLANES, input.connectivity.len() / K::NODES, facts.components);
@@ -538,7 +542,7 @@ where
         shells
     }
 
-    fn begin_elements(&mut self, input: &BlockInput<'_, D>, thickness_at: &dyn Fn([f64; D]) -> f64, fold_angle: f64, density: f64) {
+    fn begin_elements(&mut self, input: &BlockInput<'_, D>, thickness_at: ThicknessAt<'_, D>, fold_angle: f64, density: f64) {
         let own =
             input.directions.is_empty().then(|| K::directions(input.connectivity, input.positions, crate::angle::cos_sin(fold_angle)[0]));
         let directions = own.as_deref().unwrap_or(input.directions);
@@ -547,7 +551,7 @@ where
             let (batch, lane) = (element / BATCH, element % BATCH);
             let positions: Vec<[f64; D]> = nodes.iter().map(|&node| input.positions[node as usize]).collect();
             let own = &directions[element * K::NODES..][..K::NODES];
-            let corners: Vec<f64> = positions.iter().map(|&place| thickness_at(place)).collect();
+            let corners: Vec<f64> = (element * K::NODES..).zip(&positions).map(|(corner, &place)| thickness_at(corner, place)).collect();
             let is_even = corners.iter().all(|own| *own == corners[0]);
             let thickness = if is_even { corners[0] } else { corners.iter().sum::<f64>() / K::NODES as f64 };
             let start = K::start(&self.facts, &positions, own, thickness);

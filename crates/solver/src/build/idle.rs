@@ -31,7 +31,7 @@ where
         kind: &IDLE,
         path: format!("part[{index}]"),
         message: format!(
-            "nothing acts on part `{}`: no contact, obstacle, join, weld, joint, spring, load or motion has to do with it",
+            "nothing acts on part `{}`: no contact, obstacle, join, weld, joint, spring, load, cavity or motion has to do with it",
             part.name
         ),
         consequence: "it stays as it is, and other parts go through it".into(),
@@ -53,7 +53,8 @@ fn named(model: &Model) -> impl Iterator<Item = &str> {
         Load::Force { on, .. } | Load::Moment { on, .. } | Load::Pressure { on, .. } => Some(on),
         _ => None,
     });
-    contacts.chain(pairs).chain(welded).chain(driven).chain(loaded).map(String::as_str)
+    let pressed = model.cavities.iter().flat_map(|cavity| &cavity.on);
+    contacts.chain(pairs).chain(welded).chain(driven).chain(loaded).chain(pressed).map(String::as_str)
 }
 
 /// Whether it does more than hold.

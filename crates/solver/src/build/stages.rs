@@ -23,6 +23,7 @@ use crate::energy::{Ledger, Sums};
 use crate::error::Fault;
 use crate::failure::Criterion;
 use crate::load::body_force::BodyForces;
+use crate::load::cavity::Cavities;
 use crate::load::damping::Damping;
 use crate::load::force::Forces;
 use crate::load::non_reflecting::{Behind, NonReflecting};
@@ -80,6 +81,7 @@ where
 {
     springs: Option<Box<dyn Block<D>>>,
     forces: Forces<D>,
+    cavities: Cavities<D>,
     boundary: NonReflecting<D>,
     /// Contacts, then obstacles.
     pub(super) contacts: Vec<Contact<D>>,
@@ -161,13 +163,14 @@ where
     pub(super) fn conditions(&mut self, elements: &Elements<D>) -> Result<Conditions<D>, Vec<Fault>> {
         let springs = self.springs().map(|springs| Box::new(springs) as Box<dyn Block<D>>);
         let (forces, boundary) = self.loads();
+        let cavities = self.cavities();
         self.check_moments(&elements.blocks);
         let contacts = self.contacts_and_obstacles();
         let contacts = self.sound(contacts)?;
         self.bodies.weigh(&elements.body_forces, &self.mass);
         let criteria = self.criteria();
         let criteria = self.sound(criteria)?;
-        Ok(Conditions { springs, forces, boundary, contacts, criteria })
+        Ok(Conditions { springs, forces, cavities, boundary, contacts, criteria })
     }
 
     /// The system.
@@ -181,7 +184,7 @@ where
         threads: usize,
     ) -> System<D> {
         let Elements { mut blocks, mut velocities, shares, body_forces, damping, mass_added, mass_for_step } = elements;
-        let Conditions { springs, forces, boundary, contacts, criteria } = conditions;
+        let Conditions { springs, forces, cavities, boundary, contacts, criteria } = conditions;
         let Self {
             model, mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, moduli, time_step, ..
         } = self;
@@ -255,6 +258,7 @@ where
             damping,
             body_forces,
             forces,
+            cavities,
             boundary,
             joins,
             outlines,
@@ -327,6 +331,7 @@ where
                 layers: &layers,
                 profile: part.profile.as_ref(),
                 directions: self.mesh.directions.get(index).map_or(&[], |own| &own[..]),
+                thicknesses: self.mesh.thicknesses.get(index).map_or(&[], |own| &own[..]),
                 damping: self.model.stiffness_damping(part),
                 options: ElementOptions { hourglass: part.hourglass },
                 stress_state: if D == 2 { &part.stress_state } else { "" },
@@ -393,6 +398,17 @@ where
         let made = (reported(forces, &mut faults), reported(boundary, &mut faults));
         self.faults.extend(faults);
         made
+    }
+}
+
+impl<const D: usize> Builder<'_, D>
+where
+    Dim<D>: Builds<D>,
+{
+    /// Gas in closed surfaces.
+    fn cavities(&mut self) -> Cavities<D> {
+        let cavities = Cavities::new(self.model, &self.mesh, &self.curves, |facet| self.constraints.is_mirror(facet));
+        reported(cavities, &mut self.faults)
     }
 }
 

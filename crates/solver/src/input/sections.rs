@@ -8,8 +8,8 @@ use crate::contact::{formulation, law, search};
 use crate::failure::CRITERIA;
 use crate::model::values::Datum;
 use crate::model::{
-    CONSTRAINT, CONTACT, CURVE, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS, PROBE, RUN, SPRING,
-    SYMMETRY, Values, WELD,
+    CAVITY, CONSTRAINT, CONTACT, CURVE, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS, PROBE, RUN,
+    SPRING, SYMMETRY, Values, WELD,
 };
 use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
@@ -43,6 +43,7 @@ pub static SECTIONS: &[&Section] = &[
     &WELD,
     &JOINT,
     &LOAD,
+    &CAVITY,
     &NON_REFLECTING,
     &SPRING,
     &POINT_MASS,

@@ -123,6 +123,15 @@ where
         }
     }
 
+    /// Adds forces on some of all nodes, of which there are so many.
+    pub(crate) fn add(&mut self, given: impl Iterator<Item = (u32, [f64; D])>, nodes: usize) {
+        self.now.resize(nodes, [0.0; D]);
+        for (node, force) in given {
+            let sum = &mut self.now[node as usize];
+            *sum = plus(*sum, force);
+        }
+    }
+
     /// Lets `by` hand those on some nodes on to others: it reads forces, and pushes. What is handed on is
     /// gone from where it was.
     pub(crate) fn hand_on(&mut self, by: impl FnOnce(&dyn Fn(usize) -> [f64; D], &mut dyn FnMut(u32, [f64; D], u32))) {

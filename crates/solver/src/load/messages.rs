@@ -19,6 +19,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &OFF_SYMMETRY,
     &CONNECTION,
     &HINGE,
+    &OPEN_CAVITY,
+    &WRONG_SIDE,
 ];
 
 pub(crate) static CURVE: Message = Message {
@@ -169,4 +171,21 @@ pub(crate) static HINGE: Message = Message {
     ),
     cause: "Nodes of solids have no rotation, so what is joined to one of them turns freely about it.",
     remedy: "Bind the rim of a shell by a contact with `tied`, which holds both of its faces, the end of a beam by a weld; or let it be, if a hinge is meant.",
+};
+
+pub(crate) static OPEN_CAVITY: Message = Message {
+    code: "E0516",
+    title: "a cavity that is not closed",
+    example: Example::Model("[[cavity]]\nname = \"gap\"\non = [\"block.right\", \"wall.left\"]\nambient = \"100 kPa\"\n"),
+    cause: "Gas has a volume only in a closed surface. Rims are closed by what has its nodes at the same places, by planes of \
+        symmetry, and by the axis of an axisymmetric model.",
+    remedy: "Name all sides that look into the gas; add the missing walls as parts, or `[[symmetry]]` where the model is a part of the body.",
+};
+
+pub(crate) static WRONG_SIDE: Message = Message {
+    code: "E0517",
+    title: "a cavity seen from outside",
+    example: Example::Model("[[cavity]]\nname = \"gas\"\non = \"block\"\nambient = \"100 kPa\"\n"),
+    cause: "The surface encloses the bodies instead of the gas, or nothing: the volume that it looks into is not positive.",
+    remedy: "Name the inner sides of the walls: of a ring `ring.inner`, of a shell the side that looks into the gas.",
 };

@@ -6,6 +6,7 @@
 //! impulse is the integral of its curve, whatever the steps.
 
 pub mod body_force;
+pub mod cavity;
 pub mod constraint;
 pub mod curve;
 pub mod damping;

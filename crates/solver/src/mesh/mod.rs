@@ -13,6 +13,7 @@ mod dimension;
 mod order;
 mod persist;
 mod skin;
+mod thickness;
 
 pub use dimension::{Meshed, signed_volume};
 pub use skin::SkinNode;
@@ -237,6 +238,9 @@ where
     pub(super) joints: Vec<([u32; 2], u32)>,
     /// Of each group of shells the directions of the nodes of each element: tangents in 2D, normals in 3D.
     pub directions: Vec<Vec<[f64; D]>>,
+    /// Of each group of shells whose thickness a mesh file gives that of the corners of each element, m; else
+    /// empty, as the whole list without such groups.
+    pub thicknesses: Vec<Vec<f64>>,
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are
     /// numbered first.
     outlines: Vec<bool>,
@@ -295,6 +299,7 @@ where
         }
         mesh.imported = imported;
         mesh.reorder(|part| model.parts[part].has_rotations());
+        mesh.take_thicknesses(model, &mut faults);
         mesh.check_growth(model, &mut faults);
         if !faults.is_empty() {
             return Err(faults);

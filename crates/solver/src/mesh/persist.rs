@@ -43,10 +43,24 @@ where
     Dim<D>: Meshed<D>,
 {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { positions, parts, groups, user_nodes, imported, revision, skins, kin, joints, directions, outlines, sides, points } =
-            self;
+        let Self {
+            positions,
+            parts,
+            groups,
+            user_nodes,
+            imported,
+            revision,
+            skins,
+            kin,
+            joints,
+            directions,
+            thicknesses,
+            outlines,
+            sides,
+            points,
+        } = self;
         persist_points(positions, archive)?;
-        persist_each!(archive; parts, groups, user_nodes, imported, revision, outlines, sides, points);
+        persist_each!(archive; parts, groups, user_nodes, imported, revision, thicknesses, outlines, sides, points);
         let mut owners: Vec<u32> = skins.iter().map(|skin| skin.owner).collect();
         let mut arms: Vec<[f64; D]> = skins.iter().map(|skin| skin.arm).collect();
         owners.persist(archive)?;

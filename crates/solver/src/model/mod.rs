@@ -8,6 +8,7 @@
 mod section;
 pub mod values;
 pub mod messages;
+mod cavity;
 mod connection;
 mod contact;
 mod discrete;
@@ -24,6 +25,7 @@ mod run;
 mod shell;
 mod triangles;
 
+pub use cavity::{Cavity, Inflow, Vent};
 pub use connection::{EXPONENT, Joint, KINDS, Weld};
 pub use contact::{Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Partners, Penalty, PenaltySource};
 pub use discrete::{PointMass, Spring};
@@ -48,6 +50,7 @@ pub use crate::mesh::shapes::{
     CircularArc, Cuboid, Cylinder, Disk, Edge, Extrude, Line, Path, Polygon, Quadrilateral, Rectangle, Revolve, Ring, Shape, SpaceTruss,
     Sphere, Sweep, Trapezoid, Truss, Tube,
 };
+pub(crate) use cavity::CAVITY;
 pub(crate) use connection::{JOINT, WELD};
 pub(crate) use contact::CONTACT;
 pub(crate) use discrete::{POINT_MASS, SPRING};
@@ -96,6 +99,8 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     /// `[[load]]`.
     pub loads: Vec<Load>,
+    /// `[[cavity]]`.
+    pub cavities: Vec<Cavity>,
     /// `[[non_reflecting]]`.
     pub non_reflecting: Vec<NonReflecting>,
     /// `[[join]]`.
@@ -208,6 +213,26 @@ pub struct ImportedMesh {
     pub positions: Vec<[f64; 3]>,
     /// Groups by name.
     pub groups: Vec<MeshGroup>,
+    /// Lengths by place that the file has besides, such as the thickness of shells.
+    pub fields: Vec<MeshField>,
+}
+
+/// A named length by place, as a mesh file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshField {
+    /// Unique name.
+    pub name: String,
+    /// m.
+    pub values: FieldValues,
+}
+
+/// Where the values of a field are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FieldValues {
+    /// One for each node of the mesh, where it is there.
+    Nodes(Vec<Option<f64>>),
+    /// By group, cell of it and node of that; of cells without values nothing.
+    Corners(Vec<Vec<Vec<f64>>>),
 }
 
 /// A named group of cells of one dimension.

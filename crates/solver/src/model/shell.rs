@@ -5,7 +5,7 @@ use crate::model::values::Field;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Between, Finite, Positive, UpTo};
 use crate::vocabulary::Choices;
-use crate::vocabulary::Kind::{Angle, Choice, Integer, Quantity, Reference, Spatial, Tables};
+use crate::vocabulary::Kind::{Angle, Choice, Integer, Quantity, Reference, Spatial, Tables, Text};
 use crate::vocabulary::{Rule, Section};
 
 /// Points inside.
@@ -28,16 +28,21 @@ section! {
         doc: "The section of shells (`shell2`, in 3D `shell4` and `shell3`): thickness, and layers of points through it. Two Gauss points are exact while \
             the material is elastic; odd numbers of them are a little weak in plastic hinges, even ones a little stiff.",
         rules: &[
-            Rule::OneOf(&["thickness", "layers"]),
+            Rule::OneOf(&["thickness", "thickness_field", "layers"]),
             Rule::NotBoth("points", "layers"),
             Rule::NotBoth("reference", "offset"),
             Rule::NotBoth("offset", "thickness_growth"),
+            Rule::NotBoth("offset", "thickness_field"),
+            Rule::NotBoth("thickness_growth", "thickness_field"),
             Rule::Needs("thickness_point", "thickness_growth"),
         ],
         ..Section::EMPTY
     };
-    thickness: f64 = Quantity(Dimension::LENGTH, Positive), Optional("the sum of its layers"), "Thickness at the start; it follows the strain.",
+    thickness: f64 = Quantity(Dimension::LENGTH, Positive), Optional("that of a field, or the sum of its layers"), "Thickness at the start; it follows the strain.",
         read thickness;
+    thickness_field: String = Text, Optional("the same all over"),
+        "Name of a view of the part's mesh file that gives the thickness at the start: by node, by element or by node of each element, in the \
+            unit of the file; `nodal_thickness` of an Abaqus deck.";
     layers: Vec<ShellLayer> = Tables(&SHELL_LAYER), Optional("one of the part's material"),
         "Layers of different materials or directions, from the lower face (in 2D the right one) to the upper one.";
     points: usize = Integer(1), Default("5"), "Points through the thickness, 1 to 10 (`lobatto`: 3 to 10); 1 is a membrane without bending.";
@@ -118,10 +123,10 @@ impl ShellSection {
         (0..D).fold(self.thickness, |sum, k| sum + self.thickness_growth[k] * (place[k] - self.thickness_point[k]))
     }
 
-    /// How far its lower and its upper face are from the surface of the nodes at a place, m.
+    /// How far its lower and its upper face are from the surface of the nodes where it is so thick, m.
     #[must_use]
-    pub fn faces_at<const D: usize>(&self, place: [f64; D]) -> [f64; 2] {
-        [-1.0, 1.0].map(|side| (0.5 + side * self.middle()) * self.thickness_at(place))
+    pub fn faces(&self, thickness: f64) -> [f64; 2] {
+        [-1.0, 1.0].map(|side| (0.5 + side * self.middle()) * thickness)
     }
 
     /// The name of the material of one of its layers, given that of its part.

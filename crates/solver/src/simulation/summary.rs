@@ -6,7 +6,7 @@ use super::{ContactSearch, Runs};
 use crate::contact::Contact;
 use crate::contact::messages::{MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
 use crate::contact::tracker::Certificate;
-use crate::error::{ERODED, MASS_ADDED, Notice, RELAXED};
+use crate::error::{ERODED, MASS_ADDED, Notice, OPENED, RELAXED};
 use crate::mesh::PartMesh;
 use crate::output::{Eroded, Erosion, MassInRun, Summary};
 use crate::record::Momentum;
@@ -50,6 +50,12 @@ where
                     all.join(", "),
                     place::<D>(first(at))
                 ),
+            );
+        }
+        for (cavity, time) in self.system.cavities.iter().filter_map(|cavity| Some((cavity, cavity.opened()?))) {
+            report(
+                &OPENED,
+                format!("the surface of cavity \"{}\" opened at {time:.6e} s: from then on its gas has the pressure outside", cavity.name),
             );
         }
         if let Some(relaxation) = &self.system.relaxation {

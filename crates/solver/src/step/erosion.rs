@@ -226,12 +226,14 @@ where
             let has_elements = self.mesh.has_elements();
             self.rotations.renew_loads(|node| has_elements[node as usize]);
         }
-        if !self.forces.is_empty() {
+        if !(self.forces.is_empty() && self.cavities.is_empty()) {
             let has_elements = self.mesh.has_elements();
             let cells = self.mesh.groups.iter().filter(|group| group.is_body(D)).flat_map(|group| group.live_outer_cells());
             let mut backed: Vec<Facet<D>> = cells.flat_map(<Dim<D>>::cell_facets).collect();
             backed.sort_unstable();
-            self.forces.renew(|node| !has_elements[node as usize], |facet| backed.binary_search(&facet.canonical()).is_ok());
+            let is_backed = |facet: Facet<D>| backed.binary_search(&facet.canonical()).is_ok();
+            self.forces.renew(|node| !has_elements[node as usize], is_backed);
+            self.cavities.renew(self.time, is_backed);
         }
         if self.contacts.is_empty() {
             return;

@@ -76,6 +76,8 @@ pub enum Governor {
     Node(u32),
     /// The assembled mesh, whose fastest motion is largest at this node.
     Assembled(u32),
+    /// The gas of a cavity, by its number.
+    Cavity(u32),
     /// The model, by the largest step that it allows.
     Given,
     /// Bodies that come at each other so fast that a longer step would let them overlap before a contact sees
@@ -95,7 +97,8 @@ where
         if elements.determinant <= 0.0 {
             return Err(self.inverted());
         }
-        let (squared, mut governor) = self.stable_step_squared(elements);
+        let bound = self.stable_step_squared(elements);
+        let (squared, mut governor) = self.with_cavities(bound);
         let mut time_step = self.limits.safety * squared.sqrt();
         if self.limits.largest < time_step {
             (time_step, governor) = (self.limits.largest, Governor::Given);

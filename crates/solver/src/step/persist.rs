@@ -16,6 +16,7 @@ impl Persist for Governor {
             Self::Contact => (3, 0.0),
             Self::Node(node) => (4, f64::from(node)),
             Self::Assembled(node) => (5, f64::from(node)),
+            Self::Cavity(number) => (6, f64::from(number)),
         };
         persist_each!(archive; &mut number, &mut square);
         archive.check(number < 4 || square < archive.nodes as f64, "a node that there is not")?;
@@ -26,6 +27,7 @@ impl Persist for Governor {
             3 => Self::Contact,
             4 => Self::Node(square as u32),
             5 => Self::Assembled(square as u32),
+            6 => Self::Cavity(square as u32),
             _ => return Err(ArchiveError::new("unknown governor of the time step")),
         };
         Ok(())
@@ -80,12 +82,13 @@ where
             mass_added: _, mass_scaling: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
             springs: _, erosion: _, rotations: _, skins: _,
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
-            bodies, curves, forces, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
+            bodies, curves, forces, cavities, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
             subcycling, slots,
         } = self;
         persist_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
         persist_each!(archive; ledger, bodies, curves, &mut reports[..]);
         forces.persist_pushes(archive)?;
+        cavities.persist(archive)?;
         if let Some(bound) = nodal_bound {
             bound.persist(archive)?;
         }

@@ -17,7 +17,7 @@ use std::sync::Arc;
 fn body_of<const D: usize>(element: &ElementKind, material: Material, patch: &Patch<D>) -> Model {
     let positions = patch.positions.iter().map(|x| std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))).collect();
     let cells = patch.connectivity.chunks(element.nodes()).map(<[u32]>::to_vec);
-    let mesh = ImportedMesh { source: "test".into(), positions, groups: vec![group("body", D as u8, cells)] };
+    let mesh = ImportedMesh { source: "test".into(), positions, groups: vec![group("body", D as u8, cells)], ..ImportedMesh::default() };
     // So far away that steps are not rounded to meet it.
     let mut model = model(1e6);
     model.materials.insert("m".into(), material);

@@ -93,7 +93,12 @@ pub(crate) fn mapped([nu, nv]: [usize; 2], place: impl Fn(f64, f64) -> [f64; 2])
     let at = |i: usize, j: usize| (j * (nu + 1) + i) as u32;
     let cells = (0..nv).flat_map(|j| (0..nu).map(move |i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
     let groups = vec![group("body", 2, cells)];
-    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| in_3d(place(u, v))).collect(), groups }
+    ImportedMesh {
+        source: "test".into(),
+        positions: positions.map(|(u, v)| in_3d(place(u, v))).collect(),
+        groups,
+        ..ImportedMesh::default()
+    }
 }
 
 /// Image of a grid that closes in its second direction: u around from 0 to 1, v through the wall.
@@ -102,7 +107,12 @@ pub(crate) fn closed_ring([through, around]: [usize; 2], place: impl Fn(f64, f64
     let at = |i: usize, j: usize| (j % around * (through + 1) + i) as u32;
     let cells = (0..around).flat_map(|j| (0..through).map(move |i| vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]));
     let groups = vec![group("body", 2, cells)];
-    ImportedMesh { source: "test".into(), positions: positions.map(|(u, v)| in_3d(place(u, v))).collect(), groups }
+    ImportedMesh {
+        source: "test".into(),
+        positions: positions.map(|(u, v)| in_3d(place(u, v))).collect(),
+        groups,
+        ..ImportedMesh::default()
+    }
 }
 
 /// Adds the body of a mesh.

@@ -52,7 +52,7 @@ fn two_bricks(spring: Spring) -> Model {
         group("near", 0, std::iter::once(vec![6])),
         group("far", 0, std::iter::once(vec![8])),
     ];
-    model.meshes.push(Arc::new(ImportedMesh { source: "bricks".into(), positions, groups }));
+    model.meshes.push(Arc::new(ImportedMesh { source: "bricks".into(), positions, groups, ..ImportedMesh::default() }));
     for name in ["small", "large"] {
         let shape = Shape::Group { mesh: 0, group: name.into() };
         model.parts.push(Part { rigid: Some(Motion::default()), ..part(name, shape) });
@@ -192,7 +192,7 @@ fn a_bar_in_3d_pulls_along_its_line_and_turns_without_strain() {
 fn lines(points: &[Vector], lines: &[[u32; 2]]) -> ImportedMesh {
     let mut groups = vec![group("bars", 1, lines.iter().map(|line| line.to_vec()))];
     groups.extend((0..points.len()).map(|k| MeshGroup { name: format!("point{k}"), dimension: 0, cells: vec![vec![k as u32]] }));
-    ImportedMesh { source: "lines".into(), positions: points.to_vec(), groups }
+    ImportedMesh { source: "lines".into(), positions: points.to_vec(), groups, ..ImportedMesh::default() }
 }
 
 fn bars(model: &mut Model, mesh: ImportedMesh, area: f64) {

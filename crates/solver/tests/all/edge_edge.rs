@@ -52,7 +52,7 @@ impl Block {
         let square = |i: usize, j: usize, k: usize| [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)];
         let cells = (0..nx * ny * nz).map(|cell| (cell % nx, cell / nx % ny, cell / nx / ny));
         let groups = vec![group("body", 3, cells.map(|(i, j, k)| [square(i, j, k), square(i, j, k + 1)].concat()))];
-        model.meshes.push(Arc::new(ImportedMesh { source: "test".into(), positions, groups }));
+        model.meshes.push(Arc::new(ImportedMesh { source: "test".into(), positions, groups, ..ImportedMesh::default() }));
         model.parts.push(Part {
             name: name.into(),
             material: "soft".into(),

@@ -59,7 +59,7 @@ fn bar_of_parts(law: &str, size: [f64; 2], elements: [usize; 2], end: f64, veloc
             ..Part::default()
         });
     }
-    model.meshes.push(Arc::new(ImportedMesh { source: "bar".into(), positions, groups }));
+    model.meshes.push(Arc::new(ImportedMesh { source: "bar".into(), positions, groups, ..ImportedMesh::default() }));
     model
 }
 

@@ -16,6 +16,7 @@ mod bars;
 mod beam_models;
 mod beams;
 mod blocks;
+mod cavities;
 mod certificate;
 mod certificate_in_3d;
 mod chaboche;

@@ -31,7 +31,7 @@ fn block(n: u32, cells: Vec<Vec<u32>>) -> Model {
     let top = line("top", (0..n).map(|i| vec![n * (n + 1) + i, n * (n + 1) + i + 1]).collect());
     let groups = vec![MeshGroup { name: "body".into(), dimension: 2, cells }, top];
     let mut model = Model { run: Run { end: 1e-3, ..Run::default() }, ..Model::default() };
-    model.meshes.push(Arc::new(ImportedMesh { source: "block".into(), positions, groups }));
+    model.meshes.push(Arc::new(ImportedMesh { source: "block".into(), positions, groups, ..ImportedMesh::default() }));
     model.materials.insert("m".into(), material("elastic", 0.3));
     let shape = Shape::Group { mesh: 0, group: "body".into() };
     model.parts.push(Part { name: "block".into(), material: "m".into(), shape, ..Part::default() });

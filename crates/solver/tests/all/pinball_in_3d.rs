@@ -42,7 +42,7 @@ fn add_box(
         all.extend(cut.iter().map(|cell| cell.iter().map(|&c| hexahedron[c]).collect::<Vec<u32>>()));
     }
     let groups = vec![group("body", 3, all.into_iter())];
-    model.meshes.push(Arc::new(ImportedMesh { source: "test".into(), positions, groups }));
+    model.meshes.push(Arc::new(ImportedMesh { source: "test".into(), positions, groups, ..ImportedMesh::default() }));
     model.parts.push(Part {
         name: name.into(),
         material: "soft".into(),

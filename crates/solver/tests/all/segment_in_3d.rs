@@ -54,7 +54,7 @@ pub(crate) fn add_grid(
         group(&format!("{name}-bottom"), 2, bottom.into_iter()),
         group(&format!("{name}-top"), 2, top.into_iter()),
     ];
-    model.meshes.push(Arc::new(ImportedMesh { source: "test".into(), positions, groups }));
+    model.meshes.push(Arc::new(ImportedMesh { source: "test".into(), positions, groups, ..ImportedMesh::default() }));
     model.parts.push(Part {
         name: name.into(),
         material: "soft".into(),

@@ -29,7 +29,12 @@ fn strip(ratio: f64, [wide, narrow, rows]: [usize; 3], shift: f64) -> Model {
     let groups = [("left", 0, first), ("middle", first, last), ("right", last, widths.len())];
     let groups = groups.map(|(name, from, to)| group(name, 2, cells(from, to).into_iter())).into();
     let mut model = model(1e6);
-    add_groups(&mut model, ImportedMesh { source: "test".into(), positions, groups }, &["left", "middle", "right"], [0.0; 2]);
+    add_groups(
+        &mut model,
+        ImportedMesh { source: "test".into(), positions, groups, ..ImportedMesh::default() },
+        &["left", "middle", "right"],
+        [0.0; 2],
+    );
     model.run.subcycling = true;
     model
 }

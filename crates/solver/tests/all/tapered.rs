@@ -6,7 +6,7 @@ use crate::sheet_models::crash;
 use crate::shell_benchmarks::{Problem, elastic, is_near};
 use crate::shells::section;
 use crate::shells_in_space::{Driven, motion, moved, random};
-use embate_solver::model::{Line, Rectangle, ShellSection};
+use embate_solver::model::{FieldValues, ImportedMesh, Line, MeshField, Model, Obstacle, Rectangle, ShellSection};
 
 fn growing(thickness: f64, growth: [f64; 3]) -> ShellSection {
     ShellSection { thickness_growth: growth, ..section(thickness) }
@@ -98,4 +98,77 @@ fn tapered_sheets_keep_momenta_and_the_ledger_and_have_equal_bits() {
     assert!(summary.ledger_residual < 1e-12, "{:e}", summary.ledger_residual);
     assert!(summary.momentum_drift_linear.unwrap() < 1e-12 && summary.momentum_drift_angular.unwrap() < 1e-12, "{summary:?}");
     hash_of_equal_bits(&model, &[1, 2], "tapered");
+}
+
+/// A plate of quadrilaterals and triangles from a file, as a part with a section.
+fn from_file(section: ShellSection, fields: Vec<MeshField>) -> Model {
+    let mut file = mapped([6, 4], |u, v| [0.6 * u + 0.02 * (5.0 * v).sin(), 0.4 * v]);
+    let cells = std::mem::take(&mut file.groups[0].cells);
+    for (number, cell) in cells.into_iter().enumerate() {
+        match number % 3 {
+            0 => file.groups[0].cells.extend([vec![cell[0], cell[1], cell[2]], vec![cell[0], cell[2], cell[3]]]),
+            // Nodes begin anywhere.
+            turn => file.groups[0].cells.push((0..4).map(|k| cell[(k + turn) % 4]).collect()),
+        }
+    }
+    file.fields = fields;
+    let mut model = model(2e-4);
+    add_mesh(&mut model, "plate", file, [0.0; 2]);
+    let part = model.parts.last_mut().unwrap();
+    (part.element, part.section, part.velocity) = ("shell4".into(), Some(section), [0.0, 0.0, -20.0]);
+    part.spin = 50.0;
+    model.obstacles.push(Obstacle::wall("floor", [0.0, 0.0, -0.012], [0.1, 0.0, 1.0]));
+    model
+}
+
+#[test]
+fn a_thickness_from_a_file_is_that_of_the_same_growth_to_the_last_bit() {
+    let section_of = |name: &str| ShellSection { thickness: 0.0, thickness_field: name.into(), ..ShellSection::default() };
+    let grows = growing(0.004, [0.01, -0.004, 0.0]);
+    let plain = from_file(grows.clone(), vec![]);
+    let file = &plain.meshes[0];
+    let at = |node: &u32| grows.thickness_at(file.positions[*node as usize]);
+    let by_node: Vec<f64> = (0..file.positions.len() as u32).map(|node| at(&node)).collect();
+    let corners = vec![file.groups[0].cells.iter().map(|cell| cell.iter().map(at).collect()).collect()];
+    let fields = |file: &ImportedMesh| {
+        assert_eq!(file.positions.len(), by_node.len());
+        vec![
+            MeshField { name: "nodes".into(), values: FieldValues::Nodes(by_node.iter().copied().map(Some).collect()) },
+            MeshField { name: "corners".into(), values: FieldValues::Corners(corners.clone()) },
+        ]
+    };
+    let hash = to_end(&plain).summary().state_hash;
+    assert_ne!(to_end(&from_file(section(0.004), vec![])).summary().state_hash, hash);
+    for name in ["nodes", "corners"] {
+        assert_eq!(to_end(&from_file(section_of(name), fields(file))).summary().state_hash, hash, "{name}");
+    }
+    // Each corner has its own: a step from element to element.
+    let steps = (0..file.groups[0].cells.len()).map(|k| vec![0.003 + 1e-4 * k as f64; file.groups[0].cells[k].len()]).collect();
+    let stepped = vec![MeshField { name: "steps".into(), values: FieldValues::Corners(vec![steps]) }];
+    let mass = simulation(&from_file(section_of("steps"), stepped)).overview().parts[0].mass;
+    let area = |cell: &Vec<u32>| {
+        let x = |k: usize| file.positions[cell[k % cell.len()] as usize];
+        (0..cell.len()).map(|k| 0.5 * (x(k)[0] * x(k + 1)[1] - x(k)[1] * x(k + 1)[0])).sum::<f64>()
+    };
+    let exact: f64 = file.groups[0].cells.iter().enumerate().map(|(k, cell)| 1e3 * (0.003 + 1e-4 * k as f64) * area(cell)).sum();
+    assert!((mass / exact - 1.0).abs() < 1e-12, "{mass} {exact}");
+    // What is not there, is not positive, or is not of a file.
+    let mut lacking = fields(file);
+    for field in &mut lacking {
+        match &mut field.values {
+            FieldValues::Nodes(values) => values[7] = None,
+            FieldValues::Corners(groups) => groups[0][5][1] = 0.0,
+        }
+    }
+    for (name, words) in [("nodes", "has no value at"), ("corners", "is 0e0 m at")] {
+        let told = faults(&from_file(section_of(name), lacking.clone()));
+        assert!(told.len() == 1 && told[0].contains("part[0].section.thickness_field") && told[0].contains(words), "{told:?}");
+    }
+    let told = faults(&from_file(section_of("node"), fields(file)));
+    assert!(told.len() == 1 && told[0].contains("did you mean `nodes`?"), "{told:?}");
+    let mut shape = crate::bodies::model(1e-4);
+    add(&mut shape, "sheet", Rectangle::default().into(), [0.0; 2]);
+    (shape.parts[0].element, shape.parts[0].section) = ("shell4".into(), Some(section_of("nodes")));
+    let told = faults(&shape);
+    assert!(told.len() == 1 && told[0].contains("no file gives its thickness"), "{told:?}");
 }

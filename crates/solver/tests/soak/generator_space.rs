@@ -64,7 +64,12 @@ impl Scene {
         let name = format!("body{}", self.model.parts.len());
         let nodes = mesh.cells.iter().map(Vec::len).max().unwrap_or(0);
         let groups = vec![MeshGroup { name: "body".into(), dimension: 3, cells: mesh.cells }];
-        self.model.meshes.push(Arc::new(ImportedMesh { source: name.clone(), positions: mesh.positions, groups }));
+        self.model.meshes.push(Arc::new(ImportedMesh {
+            source: name.clone(),
+            positions: mesh.positions,
+            groups,
+            ..ImportedMesh::default()
+        }));
         let law = dice.choice(&SOFT);
         let own = if dice.chance(0.3) { dice.order(0.05, 20.0) } else { 1.0 };
         self.model.materials.insert(name.clone(), softened(law, self.softness * own));

@@ -88,6 +88,7 @@ pub(super) static KEYWORDS: &[Keyword] = &[
     key("MEMBRANE SECTION", Used, &["ELSET", "MATERIAL"], "a part in plane stress; in 3D a shell of one point, without \
         bending", section::membrane),
     key("MPC", Ignored, ANY, "refused: constraints between nodes have no counterpart but ties", step::refused),
+    key("NODAL THICKNESS", Used, &[], "`thickness_field` of sections of shells that take it: a thickness at each node", section::nodal_thickness),
     key("NODE", Used, &["NSET", "SYSTEM"], "the mesh", done),
     key("NODE FILE", Approximated, ANY, PRINTS, done),
     key("NODE OUTPUT", Approximated, ANY, PRINTS, done),
@@ -102,9 +103,9 @@ pub(super) static KEYWORDS: &[Keyword] = &[
         surface in 2D `[[obstacle]]` with `polyline`, its free side left of the way from START on", contact::rigid_body),
     key("SECTION CONTROLS", Approximated, ANY, "hourglass control and the like are those of the element; `hourglass` \
         of the part is its coefficient", done),
-    key("SHELL GENERAL SECTION", Used, &["ELSET", "MATERIAL", "OFFSET", "POISSON"], "`section` of a part of shells, with two \
+    key("SHELL GENERAL SECTION", Used, &["ELSET", "MATERIAL", "OFFSET", "POISSON", "NODAL THICKNESS"], "`section` of a part of shells, with two \
         points: exact while it is elastic", section::shell),
-    key("SHELL SECTION", Used, &["ELSET", "MATERIAL", "OFFSET", "POISSON", "SECTION INTEGRATION", "CONTROLS"], "`section` of a \
+    key("SHELL SECTION", Used, &["ELSET", "MATERIAL", "OFFSET", "POISSON", "SECTION INTEGRATION", "CONTROLS", "NODAL THICKNESS"], "`section` of a \
         part of shells: thickness and points", section::shell),
     key("SOLID SECTION", Used, &["ELSET", "MATERIAL", "CONTROLS"], "`[[part]]`", section::solid),
     key("STEP", Used, &["NAME", "NLGEOM", "INC"], "the run", step::step),

@@ -11,8 +11,9 @@ use super::report::Outcome::{Approximated, Ignored};
 use super::units::{Units, number};
 use crate::abaqus::deck::Element;
 use crate::abaqus::element_kind::Family;
+use crate::abaqus::mesh::NODAL_THICKNESS;
 use crate::abaqus::messages::{INCOMPLETE, NO_COUNTERPART, SYNTAX, UNKNOWN};
-use crate::abaqus::text::{Line, folded, shown};
+use crate::abaqus::text::{Block, Line, folded, shown};
 use embate_solver::error::Fault;
 use embate_solver::quantity::Dimension;
 
@@ -39,9 +40,18 @@ pub(super) struct Section {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Body {
     Solid,
-    Shell { thickness: f64, points: usize },
-    Membrane { thickness: f64 },
-    Beam { shape: CrossSection, n1: [f64; 3] },
+    /// Without a thickness: that of the nodes.
+    Shell {
+        thickness: Option<f64>,
+        points: usize,
+    },
+    Membrane {
+        thickness: f64,
+    },
+    Beam {
+        shape: CrossSection,
+        n1: [f64; 3],
+    },
 }
 
 /// The cross-section of a beam; a is along n1, b along n2.
@@ -207,7 +217,12 @@ pub(super) fn shell(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault>
     }
     let material = folded(needed(importer, at, "MATERIAL")?);
     let numbers = importer.first_numbers(at, "a number of the section")?;
-    let thickness = of_sheet(importer, at, &numbers)?;
+    let is_nodal = block.has("NODAL THICKNESS");
+    if is_nodal && importer.deck.thicknesses.is_empty() {
+        let message = format!("*{} takes the thickness of the nodes, but there is no *NODAL THICKNESS", block.keyword);
+        return Err(importer.text.fault(&INCOMPLETE, block.line, message, "add *NODAL THICKNESS, or leave NODAL THICKNESS out"));
+    }
+    let thickness = if is_nodal { None } else { Some(of_sheet(importer, at, &numbers)?) };
     let is_gauss = block.is("SECTION INTEGRATION", "GAUSS");
     // As many as Abaqus takes where nothing is said; of a general section two are exact.
     let usual = if is_general {
@@ -244,6 +259,15 @@ pub(super) fn shell(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault>
     }
     add(importer, at, &material, 1.0, Body::Shell { thickness, points })?;
     lines_left_out(importer, at, 1);
+    Ok(())
+}
+
+/// *NODAL THICKNESS is read with the mesh; a section must take it.
+pub(super) fn nodal_thickness(importer: &mut Importer<'_>, at: usize) -> Result<(), Fault> {
+    let takes = |block: &Block| block.keyword.starts_with("SHELL") && block.has("NODAL THICKNESS");
+    if !importer.text.blocks.iter().any(takes) {
+        importer.ignored(at, importer.block(at).line, "no section of shells takes the thickness of the nodes (NODAL THICKNESS)");
+    }
     Ok(())
 }
 
@@ -384,7 +408,12 @@ impl Importer<'_> {
             Body::Solid => String::new(),
             Body::Membrane { .. } if !self.is_3d() => String::new(),
             Body::Membrane { thickness } => format!("section = {{ thickness = {}, points = 1 }}\n", length(thickness)),
-            Body::Shell { thickness, points } => format!("section = {{ thickness = {}, points = {points} }}\n", length(thickness)),
+            Body::Shell { thickness: Some(thickness), points } => {
+                format!("section = {{ thickness = {}, points = {points} }}\n", length(thickness))
+            }
+            Body::Shell { thickness: None, points } => {
+                format!("section = {{ thickness_field = \"{NODAL_THICKNESS}\", points = {points} }}\n")
+            }
             Body::Beam { shape, .. } if !self.is_3d() => {
                 let CrossSection::Rectangle { b, .. } = shape else {
                     let message = "a beam in 2D is a shell in plane stress, whose section is a rectangle";

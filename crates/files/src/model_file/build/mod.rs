@@ -20,8 +20,8 @@ use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
 use embate_solver::model::{
-    Constraint, Curve, Drive, ImportedMesh, Join, Joint, Load, Material, Model, NonReflecting, Obstacle, ObstacleShape, Output, Part,
-    Partners, Placement, PointMass, Probe, Run, Shape, Spring, Symmetry, TriangleSurface, Values, Weld,
+    Cavity, Constraint, Curve, Drive, ImportedMesh, Join, Joint, Load, Material, Model, NonReflecting, Obstacle, ObstacleShape, Output,
+    Part, Partners, Placement, PointMass, Probe, Run, Shape, Spring, Symmetry, TriangleSurface, Values, Weld,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -48,6 +48,7 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         symmetries: all(document, "symmetry", Symmetry::read),
         constraints: document.section("constraint").iter().map(|record| constraint(record, faults)).collect(),
         loads: all(document, "load", Load::read),
+        cavities: all(document, "cavity", Cavity::read),
         non_reflecting: all(document, "non_reflecting", NonReflecting::read),
         joins: all(document, "join", Join::read),
         welds: all(document, "weld", Weld::read),

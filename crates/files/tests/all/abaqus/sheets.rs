@@ -329,12 +329,11 @@ fn what_shells_and_beams_can_not_keep_is_reported_or_refused() {
     let section = "*SHELL SECTION, ELSET=SHEET, MATERIAL=STEEL\n1.\n";
     for (section, more, text) in [
         ("*SHELL SECTION, ELSET=SHEET, MATERIAL=STEEL, OFFSET=SPOS\n1.\n", "", "OFFSET=SPOS: nodes are in the middle"),
-        ("*SHELL SECTION, ELSET=SHEET, MATERIAL=STEEL, NODAL THICKNESS\n1.\n", "", "the parameter NODAL THICKNESS is not read"),
         (section, "*BOUNDARY, AMPLITUDE=A\nX0-SHEET, 5, 5, 0.1\n", "of rotations only velocities are prescribed"),
         (section, "*INITIAL CONDITIONS, TYPE=VELOCITY\nX0-SHEET, 6, 3.\n", "an angular velocity"),
         (section, "*DLOAD\nSHEET, E1, 3.\n", "a pressure on edges of shells does not act"),
         (section, "*SURFACE, NAME=RIM\nSHEET, E1\n*DSLOAD\nRIM, P, 3.\n", "only a pressure (P) on edges or faces of elements is read"),
-        (section, "*NODAL THICKNESS\nX0-SHEET, 2.\n", "embate has no counterpart of this keyword"),
+        (section, "*NODAL THICKNESS\nX0-SHEET, 2.\n", "no section of shells takes the thickness of the nodes"),
     ] {
         let (made, _) = imported(&with(section, more));
         assert!(made.report.has_ignored() && made.report.text().contains(text), "{more}: {}", made.report.text());
@@ -415,4 +414,21 @@ fn every_side_of_a_shell_has_its_name() {
         [same("S1", "SNEG"), same("S2", "SPOS"), same("S3", "E1"), same("S6", "E4")],
         [vec![1, 3, 2, 0], vec![0, 2, 3, 1], vec![0, 2], vec![1, 0]]
     );
+}
+
+#[test]
+fn a_thickness_at_nodes_is_that_of_the_shells_there() {
+    // mm: 2 at one end, 4 at the other, by node and by set.
+    let nodal = "*NODAL THICKNESS\nX0-S, 2.0\nX1-S, 4.0\n";
+    let section = "*SHELL SECTION, ELSET=S, MATERIAL=STEEL, NODAL THICKNESS\n99.0, 3\n";
+    let deck = |section: &str, nodal: &str| grid("S", "S4R", [1, 2], [10.0, 6.0, 0.0], 1) + nodal + section + STEEL + &step("");
+    let (made, model) = imported(&deck(section, nodal));
+    assert!(made.model.contains("section = { thickness_field = \"nodal_thickness\", points = 3 }"), "{}", made.model);
+    assert!(made.report.text().contains("NODAL THICKNESS"), "{}", made.report.text());
+    let mass = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap().overview().parts[0].mass;
+    assert!((mass / (7850.0 * 10e-3 * 6e-3 * 3e-3) - 1.0).abs() < 1e-12, "{mass}");
+    let lacking = made_faults(&deck(section, ""));
+    assert!(lacking.len() == 1 && lacking[0].message.contains("no *NODAL THICKNESS"), "{lacking:?}");
+    let unknown = made_faults(&deck(section, "*NODAL THICKNESS\nX7-S, 2.0\n"));
+    assert!(unknown.len() == 1 && unknown[0].message.contains("no node set \"X7-S\""), "{unknown:?}");
 }

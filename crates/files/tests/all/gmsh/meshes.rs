@@ -148,8 +148,8 @@ fn windows_line_ends_are_read() {
 
 #[test]
 fn sections_that_are_not_needed_are_stepped_over() {
-    let foreign = b"$NodeData\n1\n\"speed\"\n1\n0.0\n3\n0\n1\n1\n1 2.5\n$EndNodeData\n";
-    let binary = b"$NodeData\n\x00\xff$End\n$Nodes\x01\n$EndNodeData\n";
+    let foreign = b"$Periodic\n1\n\"speed\"\n1\n0.0\n3\n0\n1\n1\n1 2.5\n$EndPeriodic\n";
+    let binary = b"$Periodic\n\x00\xff$End\n$Nodes\x01\n$EndPeriodic\n";
     for format in FORMATS {
         let name = format!("plate-{format}");
         let mut longer = bytes(&name);

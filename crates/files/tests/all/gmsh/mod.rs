@@ -5,6 +5,7 @@ mod damage;
 mod malformed;
 mod meshes;
 mod space;
+mod views;
 
 use embate_files::gmsh::parse;
 use embate_solver::error::Fault;

@@ -103,7 +103,7 @@ fn driven(axes: &[&'static str], says: &'static str) -> Vec<Bad> {
 /// Bad values of a kind; empty for tables.
 fn values(kind: Kind) -> Vec<Bad> {
     match kind {
-        Kind::Quantity(_, range) | Kind::Angle(_, range) | Kind::Stiffness(_, range) => scalar(range),
+        Kind::Quantity(_, range) | Kind::Angle(_, range) | Kind::Stiffness(_, range) | Kind::MassFlow(_, range) => scalar(range),
         Kind::Vector(_, range) => {
             let inside = |it: Bad| Bad { value: format!("[1.0, {}]", it.value), at: "[1]", ..it };
             let mut all: Vec<Bad> = scalar(range).into_iter().map(inside).collect();

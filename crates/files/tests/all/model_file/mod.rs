@@ -81,6 +81,12 @@ at = [0, 0.1]
 between = ["tube.start", "ball.outer"]
 elongation = [0, "1 mm"]
 force = [0, "5 N/m"]
+[[cavity]]
+name = "gas"
+on = "tube.inner"
+ambient = "100 kPa"
+inflow = [{ rate = "0.5 kg/s/m", temperature = "600 K" }]
+vents = [{ orifice = "1 mm" }]
 [[point_mass]]
 on = "ball"
 mass = "2 kg/m"

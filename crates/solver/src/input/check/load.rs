@@ -95,7 +95,7 @@ impl Check<'_> {
     }
 
     /// A curve by which a load is multiplied.
-    fn factor(&mut self, path: &str, curve: &Option<String>) {
+    pub(super) fn factor(&mut self, path: &str, curve: &Option<String>) {
         if let Some(name) = curve {
             self.drive(&format!("{path}.curve"), &Drive::Curve(name.clone()), Dimension::NONE);
         }

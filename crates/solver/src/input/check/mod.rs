@@ -7,6 +7,7 @@
 //! fault and should be known all the same is in `warnings.rs`.
 
 mod beams;
+mod cavities;
 mod connections;
 mod contact;
 mod discrete;
@@ -63,6 +64,7 @@ impl Model {
         check.constraints();
         check.joins();
         check.loads();
+        check.cavities();
         check.non_reflecting();
         check.connections();
         check.springs();

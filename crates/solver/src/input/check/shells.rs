@@ -4,7 +4,7 @@ use super::Check;
 use crate::material;
 use crate::mesh::cell::CellKind;
 use crate::mesh::messages::SHELLS;
-use crate::model::{GAUSS, LOBATTO, LOWER, MIDDLE, Part, ShellSection, UPPER};
+use crate::model::{GAUSS, LOBATTO, LOWER, MIDDLE, Part, Shape, ShellSection, UPPER};
 use crate::quantity::{Dimension, Range};
 use crate::vocabulary::excerpt;
 
@@ -39,9 +39,13 @@ impl Check<'_> {
             self.fault(&SHELLS, at, "shells need their thickness", "add `section = { thickness = \"2 mm\" }`");
             return;
         };
-        for (key, value) in [("thickness", section.thickness), ("failed_points", section.failed_points), ("fold_angle", section.fold_angle)]
-        {
+        for (key, value) in [("failed_points", section.failed_points), ("fold_angle", section.fold_angle)] {
             self.number(&format!("{at}.{key}"), value);
+        }
+        if section.thickness_field.is_empty() {
+            self.number(&format!("{at}.thickness"), section.thickness);
+        } else {
+            self.thickness_field(&format!("{at}.thickness_field"), part, &section.thickness_field);
         }
         self.known(&format!("{at}.reference"), "reference", &section.reference, &[MIDDLE, LOWER, UPPER]);
         self.number(&format!("{at}.offset"), section.offset);
@@ -65,6 +69,20 @@ impl Check<'_> {
             self.fault(&SHELLS, format!("{path}.hourglass"), "these shells have no hourglass control", "leave it out");
         }
         self.rotating(&SHELLS, path, part, Part::is_of_shells, ["shells", "their membrane"]);
+    }
+
+    /// A thickness from a mesh file needs one that has it.
+    fn thickness_field(&mut self, path: &str, part: &Part, name: &str) {
+        let model = self.model;
+        let (Shape::Group { mesh, .. }, None) = (&part.shape, &part.sweep) else {
+            let message = format!("part `{}` is not a group of a mesh file as it is, so no file gives its thickness", excerpt(&part.name));
+            self.fault(&SHELLS, path, message, "give `thickness`, or take `mesh` without a sweep");
+            return;
+        };
+        // What can't be read has its own fault.
+        let Some(source) = model.meshes.get(*mesh) else { return };
+        let known: Vec<&str> = source.fields.iter().map(|field| field.name.as_str()).collect();
+        self.known(path, "field in the mesh file", name, &known);
     }
 
     /// A law with a pressure of its own can't be that of a shell.

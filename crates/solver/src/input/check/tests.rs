@@ -17,6 +17,7 @@ fn sound() -> Model {
         source: "block.msh".into(),
         positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
         groups: vec![group("body", 2, vec![vec![0, 1, 2, 3]]), group("upper", 1, vec![vec![2, 3]])],
+        ..ImportedMesh::default()
     };
     let ring = Shape::Ring(Ring {
         centre: [0.0; 2],

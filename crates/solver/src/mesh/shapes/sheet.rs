@@ -306,6 +306,7 @@ mod tests {
                 group("edge", 1, vec![vec![1, 2]]),
                 group("corner", 0, vec![vec![0]]),
             ],
+            ..ImportedMesh::default()
         }
     }
 
@@ -383,6 +384,7 @@ mod tests {
             source: "line.msh".into(),
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
             groups: vec![group("all", vec![vec![0, 1], vec![1, 2]]), group("up", vec![vec![0, 1]]), group("down", vec![vec![2, 1]])],
+            ..ImportedMesh::default()
         };
         let shell =
             Part { shape: Shape::Group { mesh: 0, group: "all".into() }, element: "shell2".into(), ..part(Rectangle::default(), None) };

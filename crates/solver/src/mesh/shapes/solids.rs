@@ -188,6 +188,7 @@ fn plane_mesh() -> ImportedMesh {
             group("between", 1, vec![vec![1, 4]]),
             group("corner", 0, vec![vec![0]]),
         ],
+        ..ImportedMesh::default()
     }
 }
 
@@ -233,6 +234,7 @@ fn a_solid_has_the_same_nodes_in_the_same_order_from_a_shape_and_from_a_file() {
         source: "file".into(),
         positions: made.positions.iter().rev().copied().collect(),
         groups: vec![group("all", 3, made.cells().map(turned).collect::<Vec<_>>().into_iter().rev().collect()), group("skin", 2, outer)],
+        ..ImportedMesh::default()
     };
     let parts = vec![Part { name: "body".into(), shape: Shape::Group { mesh: 0, group: "all".into() }, ..Part::default() }];
     let second = Mesh::<3>::new(&Model { parts, meshes: vec![Arc::new(file)], ..Model::default() }).unwrap();
@@ -280,6 +282,7 @@ fn an_element_that_is_inside_out_is_reported_with_its_number_and_place() {
             source: "file".into(),
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             groups: vec![group("all", 3, vec![cell])],
+            ..ImportedMesh::default()
         };
         let parts = vec![Part { name: "body".into(), shape: Shape::Group { mesh: 0, group: "all".into() }, ..Part::default() }];
         let model = Model { parts, meshes: vec![Arc::new(file)], ..Model::default() };

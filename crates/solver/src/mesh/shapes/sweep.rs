@@ -361,8 +361,10 @@ impl Sweep {
     pub(in crate::mesh) fn swept_mesh(&self, section: &ImportedMesh, wanted: &[&str]) -> Result<SweptMesh, Wrong> {
         let plane: Vec<[f64; 2]> = section.positions.iter().map(|&[x, y, _]| [x, y]).collect();
         let (layers, positions) = self.layers(&plane)?;
-        let mut swept =
-            SweptMesh { mesh: ImportedMesh { source: section.source.clone(), positions, groups: Vec::new() }, ..SweptMesh::default() };
+        let mut swept = SweptMesh {
+            mesh: ImportedMesh { source: section.source.clone(), positions, groups: Vec::new(), ..ImportedMesh::default() },
+            ..SweptMesh::default()
+        };
         for group in &section.groups {
             let cells = || group.elements().flatten();
             let each = |make: &Made| -> Vec<Vec<u32>> {

@@ -203,7 +203,7 @@ fn beams_along_shells_have_no_faces_and_those_that_end_on_them_belong_to_the_pla
         group("stiffener", 1, vec![vec![0, 1], vec![1, 2]]),
         group("strut", 1, vec![vec![4, 9], vec![9, 10]]),
     ];
-    let source = ImportedMesh { source: "test".into(), positions, groups };
+    let source = ImportedMesh { source: "test".into(), positions, groups, ..ImportedMesh::default() };
     let of = |name: &str| Part { name: name.into(), shape: Shape::Group { mesh: 0, group: name.into() }, ..Part::default() };
     let beam = |name: &str| Part { element: "beam2".into(), profile: Some(round()), ..of(name) };
     let section = Some(ShellSection { thickness: 0.02, ..ShellSection::default() });

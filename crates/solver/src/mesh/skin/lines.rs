@@ -55,7 +55,8 @@ impl Mesh<2> {
                 for end in 0..2 {
                     let [own, other] = [nodes[end], nodes[1 - end]].map(|node| self.positions[node as usize]);
                     let away = unit(minus(other, own)).unwrap_or_default();
-                    let [lower, upper] = section.map_or([0.0; 2], |section| section.faces_at(self.positions[nodes[end] as usize]));
+                    let [lower, upper] =
+                        section.map_or([0.0; 2], |section| section.faces(self.thickness_of(section, number, 2 * element + end)));
                     let faces = if end == 0 { [lower, upper] } else { [upper, lower] };
                     at.entry(nodes[end]).or_default().push(Spoke { group: number, element, end, away, faces, is_image: false });
                 }

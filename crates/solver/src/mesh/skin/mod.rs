@@ -22,7 +22,7 @@ use super::messages::{BEAMS, SHELLS};
 use super::surface::{Corners, Facet};
 use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh};
 use crate::error::Fault;
-use crate::model::{Model, Part, Symmetry};
+use crate::model::{Model, Part, ShellSection, Symmetry};
 use crate::vector::{dot, first, minus, plus, unit};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -90,9 +90,16 @@ where
         }
     }
 
+    /// Thickness of a shell at a corner of its connectivity, m.
+    fn thickness_of(&self, section: &ShellSection, group: usize, corner: usize) -> f64 {
+        let given = self.thicknesses.get(group).and_then(|own| own.get(corner)).copied();
+        given.unwrap_or_else(|| section.thickness_at(self.positions[self.groups[group].connectivity[corner] as usize]))
+    }
+
     /// Shells whose thickness does not stay positive.
     pub(super) fn check_growth(&self, model: &Model, faults: &mut Vec<Fault>) {
-        for (part, section) in model.parts.iter().enumerate().filter_map(|(part, it)| Some((part, it.section.as_ref()?))) {
+        let grows = |section: &&ShellSection| section.thickness_field.is_empty();
+        for (part, section) in model.parts.iter().enumerate().filter_map(|(part, it)| Some((part, it.section.as_ref().filter(grows)?))) {
             let nodes = self.groups.iter().filter(|group| group.part == part).flat_map(|group| &group.connectivity);
             let mut places = nodes.map(|&node| self.positions[node as usize]);
             if let Some(at) = places.find(|&place| section.thickness_at(place) <= 0.0) {

@@ -64,14 +64,15 @@ impl Mesh<3> {
         let (mut elements, mut wings, mut corners) = (Vec::new(), Vec::new(), Vec::new());
         for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| is_shell(group)) {
             let section = model.parts[group.part].section.as_ref();
-            let faces = |node: u32| section.map_or([0.0; 2], |section| section.faces_at(self.positions[node as usize]));
+            let faces = |corner: usize| section.map_or([0.0; 2], |section| section.faces(self.thickness_of(section, number, corner)));
             let fold = crate::angle::cos_sin(section.map_or(0.0, |section| section.fold_angle))[0];
             for (element, cell) in group.cells().enumerate() {
                 let shell = elements.len() as u32;
                 elements.push(Shell { group: number, element, fold });
                 let nodes = cell.corners();
                 (0..nodes.len()).for_each(|corner| {
-                    corners.push((nodes[corner], Corner { faces: faces(nodes[corner]), ..self.corner(shell, nodes, corner) }))
+                    let faces = faces(element * group.kind.nodes() + corner);
+                    corners.push((nodes[corner], Corner { faces, ..self.corner(shell, nodes, corner) }));
                 });
                 let centre = nodes.iter().fold([0.0; 3], |sum, &node| plus(sum, self.positions[node as usize]));
                 let centre = times(1.0 / nodes.len() as f64, centre);

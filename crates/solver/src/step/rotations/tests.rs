@@ -329,7 +329,7 @@ fn rigid_with_frame(dimension: usize) -> Model {
     die.rigid = Some(Rigid::default());
     (die.spin, die.velocity) = (0.8, [0.1, 0.3, 0.0]);
     let mut model = model(vec![die, bars("frame", group("frame"))]);
-    model.meshes = vec![Arc::new(ImportedMesh { source: "test".into(), positions, groups })];
+    model.meshes = vec![Arc::new(ImportedMesh { source: "test".into(), positions, groups, ..ImportedMesh::default() })];
     model
 }
 

@@ -18,12 +18,14 @@ where
         if !self.groups.iter().any(|group| named(group.part).is_some()) {
             return;
         }
+        // By mesh file: its node of each number of a user.
+        let mut of_users: BTreeMap<usize, BTreeMap<u32, u32>> = BTreeMap::new();
         let mut all = vec![Vec::new(); self.groups.len()];
         for (corners, group) in all.iter_mut().zip(&self.groups) {
             let (Some(section), Shape::Group { mesh, group: name }) = (named(group.part), &model.parts[group.part].shape) else { continue };
             let Some(source) = model.meshes.get(*mesh) else { continue };
             let Some(field) = source.fields.iter().find(|field| field.name == section.thickness_field) else { continue };
-            let of_user: BTreeMap<u32, u32> = self.imported[*mesh].iter().copied().zip(0..).collect();
+            let of_user = of_users.entry(*mesh).or_insert_with(|| self.imported[*mesh].iter().copied().zip(0..).collect());
             let file_node = |node: u32| of_user.get(&self.user_nodes[node as usize]).copied().unwrap_or(u32::MAX);
             let own = source.groups.iter().position(|it| it.name == *name && usize::from(it.dimension) == group.kind.dimension());
             let count = group.kind.nodes();

@@ -1,7 +1,6 @@
 //! Gas at a uniform pressure in a closed surface, as plain data: `[[cavity]]`.
 
-use super::{Drive, Values, section};
-use crate::model::values::Field;
+use super::{Drive, section};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{NotNegative, Positive, UpTo};
 use crate::vocabulary::Kind::{self, MassFlow, Name, Quantity, Reference, References, Tables};
@@ -60,26 +59,6 @@ section! {
     discharge: f64 = Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("1"), "Discharge coefficient, by which the area is multiplied.";
     opens_at: Option<f64> = Quantity(Dimension::PRESSURE, Positive), Optional("open from the start"),
         "Pressure of the gas, absolute, at which it opens, for good.";
-}
-
-impl Field for Vec<Inflow> {
-    fn sound(values: &dyn Values, key: &str) -> Option<Self> {
-        Some(values.list(key)?.into_iter().map(Inflow::read).collect())
-    }
-
-    fn placeholder() -> Self {
-        Self::new()
-    }
-}
-
-impl Field for Vec<Vent> {
-    fn sound(values: &dyn Values, key: &str) -> Option<Self> {
-        Some(values.list(key)?.into_iter().map(Vent::read).collect())
-    }
-
-    fn placeholder() -> Self {
-        Self::new()
-    }
 }
 
 impl Cavity {

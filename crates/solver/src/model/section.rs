@@ -104,6 +104,16 @@ macro_rules! section {
                 Self::default()
             }
         }
+
+        impl $crate::model::values::Field for Vec<$Type> {
+            fn sound(values: &dyn $crate::model::Values, key: &str) -> Option<Self> {
+                Some(values.list(key)?.into_iter().map($Type::read).collect())
+            }
+
+            fn placeholder() -> Self {
+                Self::new()
+            }
+        }
     };
 }
 

@@ -1,7 +1,6 @@
 //! Sections of shells: `section` of a part.
 
 use super::{Values, section};
-use crate::model::values::Field;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Between, Finite, Positive, UpTo};
 use crate::vocabulary::Choices;
@@ -78,16 +77,6 @@ section! {
         "Angle from the projection of x on the shell (of z where the shell is normal to x) to the x of the layer, from which the law \
             counts its own `angle`; counter-clockwise seen from above, in 3D alone.";
     points: Option<usize> = Integer(1), Optional("2, with `lobatto` 3"), "Points through the layer, 1 to 10 (`lobatto`: 3 to 10).";
-}
-
-impl Field for Vec<ShellLayer> {
-    fn sound(values: &dyn Values, key: &str) -> Option<Self> {
-        Some(values.list(key)?.into_iter().map(ShellLayer::read).collect())
-    }
-
-    fn placeholder() -> Self {
-        Self::new()
-    }
 }
 
 /// The thickness of a section, m.

@@ -243,7 +243,8 @@ fn runs_with_gas_continue_and_have_equal_bits() {
     let shape = CurveShape::Table { times: vec![0.0, 1e-3], values: vec![0.0, 1.0], smooth: true };
     model.curves.insert("burn".into(), Curve { shape, dimension: None });
     let inflow = vec![Inflow { rate: 40.0, curve: Some("burn".into()), temperature: Drive::Constant(600.0) }];
-    let vents = vec![Vent { orifice: 0.02, discharge: 0.7, opens_at: Some(1.05e5) }, Vent { orifice: 0.01, discharge: 1.0, opens_at: None }];
+    let vents =
+        vec![Vent { orifice: 0.02, discharge: 0.7, opens_at: Some(1.05e5) }, Vent { orifice: 0.01, discharge: 1.0, opens_at: None }];
     model.cavities.push(Cavity { inflow, vents, ..gas(&["tube.left"], 1e5, 1e5) });
     continues("gas in a tube", &model, 400);
     hash_of_equal_bits(&model, &[1, 3], "gas in a tube");

@@ -227,7 +227,8 @@ where
 /// facet, |∂x/∂ξ| is at most l/2, and the norm of ∂δx/∂ξ at most that of δx.
 fn sway<const D: usize>(depth: Depth, corners: &[u32], positions: &[[f64; D]]) -> f64 {
     let places = || corners.iter().map(|&node| positions[node as usize]);
-    let longest = places().flat_map(|a| places().map(move |b| length(minus(a, b)))).fold(0.0, f64::max);
+    let square = |a: [f64; D], b: [f64; D]| dot(minus(a, b), minus(a, b));
+    let longest = places().enumerate().flat_map(|(k, a)| places().skip(k + 1).map(move |b| square(a, b))).fold(0.0, f64::max).sqrt();
     match (D, depth) {
         (2, Depth::Plane) => 1.0,
         (2, Depth::Revolution) => std::f64::consts::TAU * (places().fold(0.0, |most: f64, x| most.max(x[0].abs())) + longest),

@@ -29,6 +29,7 @@ MOMENTS_OF = {
     "pole-bumper": (0.0, 1.0),
     "crossing-pipes": (0.0, 1.0),
     "crossing-tubes": (0.0, 1.0),
+    "cup-from-blank": (0.0, 1.0),
     "squeezed-can": (0.0, 1.0),
     "roll-over-frame": (0.35, 1.0),
     "rubber-disk": (0.0, 0.1, 0.2, 1.0),

@@ -109,6 +109,7 @@ fn every_example_is_listed_here() {
         "crossing-tubes",
         "crushed-ring",
         "cup-drawing",
+        "cup-from-blank",
         "explosive-ring",
         "foam-pad",
         "heap",

@@ -99,3 +99,20 @@ fn a_can_is_squeezed_with_the_work_that_finer_shells_take() {
     is_near(4.0 * work, 29.8, 0.1 * 29.8);
     assert!(hourglass < 0.12 * internal, "{hourglass} of {internal}");
 }
+
+/// The same of axisymmetric solids, 100 × 4 of them: `verification/shell-cup`.
+#[test]
+fn a_cup_is_drawn_from_a_round_blank_as_of_solids_of_revolution() {
+    let results = run("cup-from-blank", "example-cup-from-blank");
+    results.is_sound(1e-3);
+    for (from, to, expected) in [(0.7e-3, 1.1e-3, 36.8e3), (0.9e-3, 1.1e-3, 38.2e3)] {
+        is_near(4.0 * results.mean("contact.force_y[punch]", from, to), expected, 0.03 * expected);
+    }
+    // It stays round, and is drawn in by 3 % of the way as far.
+    let last = |column: &str| *results.column(column).last().unwrap();
+    let (rim, diagonal) = (last("rim.x"), last("diagonal.x").hypot(last("diagonal.z")));
+    is_near(rim, 34.10e-3, 0.03 * 10.9e-3);
+    is_near(diagonal, rim, 2e-5);
+    let [kinetic, internal, hourglass] = ["energy.kinetic", "energy.internal", "energy.hourglass"].map(last);
+    assert!(kinetic < 0.03 * internal && hourglass < 0.02 * internal, "{kinetic} {hourglass} of {internal}");
+}

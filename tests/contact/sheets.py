@@ -168,7 +168,7 @@ class Sheets:
         return {tuple(sorted(pair)) for pair in pairs[pairs[:, 0] != pairs[:, 1]].tolist()}
 
     def over(self, nodes, corners):
-        """Height of each node over each triangle that it is over, NaN where it is not; the way of its foot to the sheet's rim."""
+        """Height of each node over each triangle that it is over; NaN where it is not."""
         a, e1, e2 = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         normal = np.cross(e1, e2)
         square = (normal * normal).sum(1)

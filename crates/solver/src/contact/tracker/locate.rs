@@ -220,8 +220,8 @@ impl<'a> View<'a> {
 
     /// What a node is ahead of where faces end: `ahead`, or the face around the edge, if it is that which the
     /// node's own surface goes back over; nothing for a node that only passes by, over the end of a face or
-    /// hardly beyond it. Where the law acts over a distance, a node in front of an edge has that distance from
-    /// it whichever way it goes: the edge is round then, and has no end.
+    /// hardly beyond it. Where the law acts over a distance, a node in front of an edge has that distance
+    /// from it whichever way it goes: the edge is round then, and has no end.
     fn at_end(&self, x: Vector, group: &Group, ahead: Projection) -> Option<Projection> {
         if self.may_hold(group, &ahead) || (self.acts_over > 0.0 && ahead.gap > self.hold) {
             return Some(ahead);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests of `interpenetration.py` and of the scenes: overlaps made by hand, whose depths, volumes and area vectors are known.
+"""Tests of `interpenetration.py`, of `sheets.py` and of the scenes: overlaps made by hand, whose depths, volumes and area vectors are known.
 
 Run by pytest, or as a program.
 """
@@ -15,6 +15,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import meshes
 import numpy as np
 import scenes
+import sheets
 from interpenetration import Body, Frame, Judge, Placed, bodies_of, in_obstacle, judge, overlap, self_overlap, volume
 from obstacles import Obstacle
 from overlap import distances, near_pairs, simplices, winding, within_elements
@@ -368,6 +369,38 @@ def test_scenes_are_the_same_again_and_do_not_overlap_at_the_start():
                 looks = Judge(points, cells, owners, [part.name for part in made.parts])
                 looks.look(Frame(0.0, points))
                 assert looks.deepest.ratio == 0, f"{made.name()}: {looks.where} {looks.deepest}"
+
+
+def test_middles_of_sheets_that_cross_or_pass_are_seen():
+    def sheet(place):
+        """A grid of 4 x 4 elements as results have them: nodes of the lower face, then of the upper one."""
+        grid = [(u, v) for u in np.linspace(-1, 1, 5) for v in np.linspace(-1, 1, 5)]
+        points = np.array([place(u, v, side) for side in (-0.01, 0.01) for u, v in grid])
+        rings = [(5 * i + j, 5 * i + j + 5, 5 * i + j + 6, 5 * i + j + 1) for i in range(4) for j in range(4)]
+        return points, [ring + tuple(25 + k for k in ring) for ring in rings]
+
+    flat, cells = sheet(lambda u, v, w: (u, v, w))
+    found = sheets.Sheets(cells + [tuple(50 + k for k in cell) for cell in cells], [0] * 16 + [1] * 16)
+
+    def places(other, by=(0, 0, 0)):
+        return found.place(np.concatenate([flat, sheet(other)[0] + np.asarray(by)]))
+
+    def upright(u, v, w):
+        return (0.3 + w, 0.5 * u, 0.5 * v)
+
+    def small(u, v, w):
+        return (0.5 * u + 0.01, 0.5 * v + 0.02, w)
+
+    assert found.crossed(*places(upright)) == {(0, 1)}
+    assert found.crossed(*places(upright, (0, 0, 0.45))) == {(0, 1)}
+    for by in ((0, 0, 0.55), (1, 0, 0), (0, 1.6, 0)):
+        assert not found.crossed(*places(upright, by)), by
+    above, below = (places(small, (0, 0, z)) for z in (0.1, -0.1))
+    assert not found.crossed(*above) and not found.crossed(*below)
+    assert found.passed(above, below) == {(0, 1)}
+    assert not found.passed(above, places(small, (0, 0, 0.05)))
+    beside = [places(small, (1.6, 0, z)) for z in (0.1, -0.1)]
+    assert not found.passed(*beside)
 
 
 def main():

@@ -53,6 +53,8 @@ pub(super) struct View<'a> {
     hold: f64,
     /// Distance at which nodes are seen that do not move, m.
     near: f64,
+    /// Distance over which the law acts, m; 0: on the surface alone.
+    acts_over: f64,
     sweep: Sweep<'a, 2>,
     /// Who wakes later sleeps on.
     awake: f64,
@@ -80,7 +82,21 @@ impl<'a> View<'a> {
     ) -> Self {
         let (own_surface, near) = (std::ptr::eq(slaves, target), extra + START * skin);
         let (rounding, hold, awake) = (ROUNDING * skin, HOLD * skin, awake(near, LOOK_AHEAD, sweep.travel, way));
-        Self { target, candidates, slaves, ends, pass, own_surface, rounding, hold, near, sweep, awake, level: Level::best() }
+        Self {
+            target,
+            candidates,
+            slaves,
+            ends,
+            pass,
+            own_surface,
+            rounding,
+            hold,
+            near,
+            acts_over: extra,
+            sweep,
+            awake,
+            level: Level::best(),
+        }
     }
 
     /// Locates those of the groups that do not sleep.
@@ -204,9 +220,10 @@ impl<'a> View<'a> {
 
     /// What a node is ahead of where faces end: `ahead`, or the face around the edge, if it is that which the
     /// node's own surface goes back over; nothing for a node that only passes by, over the end of a face or
-    /// hardly beyond it.
+    /// hardly beyond it. Where the law acts over a distance, a node in front of an edge has that distance
+    /// from it whichever way it goes: the edge is round then, and has no end.
     fn at_end(&self, x: Vector, group: &Group, ahead: Projection) -> Option<Projection> {
-        if self.may_hold(group, &ahead) {
+        if self.may_hold(group, &ahead) || (self.acts_over > 0.0 && ahead.gap > self.hold) {
             return Some(ahead);
         }
         let (surface, nearest) = (&self.target.surface, ahead.segment);

@@ -297,8 +297,12 @@ impl OverlapCheck {
         let of = |(region, parents): (&Region, &Vec<u32>)| {
             let direction = if length(region.area) > DIRECTED * region.size { region.area } else { [0.0; 3] };
             let mut known = Known { bodies: region.bodies, began: direction, size: region.size, volume: region.volume, ..Known::default() };
-            let largest = parents.iter().map(|&parent| before[parent as usize]).reduce(|a, b| if b.size > a.size { b } else { a });
-            if let Some(parent) = largest {
+            let size = |parent: u32| before[parent as usize].size;
+            if let Some(largest) = parents.iter().copied().reduce(|a, b| if size(b) > size(a) { b } else { a }) {
+                let mut parent = before[largest as usize];
+                if region.is_own() && lineage::are_sides_swapped(&self.owners, largest, region) {
+                    parent.began = parent.began.map(|c| -c);
+                }
                 known.offset = parent.offset;
                 (known.ratio, known.thickness) = (parent.ratio, parent.thickness);
                 // What slides around a corner turns its area vector by less than a right angle from look to
@@ -374,6 +378,24 @@ impl Look<3> for OverlapCheck {
             let was_loose = known.is_loose;
             known.is_loose = known.ratio > SHALLOW && known.volume >= known.before && !(push > 0.0) && !region.is_open;
             if known.ratio > DEEPEST || is_turned || (known.is_loose && was_loose) {
+                let nodes: Vec<u32> = region
+                    .triangles
+                    .iter()
+                    .map(|t| self.skin.nodes.get(self.skin.triangles[t.0 as usize][0] as usize).copied().unwrap_or(0))
+                    .collect();
+                let first = region.triangles.first().map(|t| self.skin.x[self.skin.triangles[t.0 as usize][0] as usize]);
+                eprintln!(
+                    "MISS ratio {:.3} turned {} loose {} open {} size {:.3e} vol {:.3e} inside {} at {:?} nodes {:?}",
+                    known.ratio,
+                    is_turned,
+                    known.is_loose,
+                    region.is_open,
+                    region.size,
+                    known.volume,
+                    region.inside.len(),
+                    first,
+                    &nodes[..nodes.len().min(12)]
+                );
                 self.findings.miss();
             }
         }
@@ -393,7 +415,7 @@ impl Look<3> for OverlapCheck {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { known, volume_springs, owners, next, found_at, steps, findings, inside, skin, .. } = self;
         persist_each!(archive; known, volume_springs, owners, next, found_at, steps, findings, inside, &mut skin.x[..]);
-        let are_there = owners.is_sorted() && owners.iter().all(|&(_, owner)| (owner as usize) < known.len());
+        let are_there = owners.is_sorted() && owners.iter().all(|owner| (owner.region as usize) < known.len());
         archive.check(are_there, "overlaps are known that are not there")?;
         let are_nodes =
             |volume_spring: &VolumeSpring| volume_spring.rows.iter().all(|(node, _)| self.skin.nodes.binary_search(node).is_ok());
@@ -406,5 +428,7 @@ impl Look<3> for OverlapCheck {
     }
 }
 
+#[cfg(test)]
+mod folds;
 #[cfg(test)]
 mod tests;

@@ -8,7 +8,7 @@
 //! 1. no sampled place in it (vertices, three places on each part of an edge that is inside) is deeper than a
 //!    sixth of the local thickness τ, the lesser of both bodies';
 //! 2. its area vector has not turned by more than a right angle against the one with which it began, turned
-//!    with the bodies since;
+//!    with the bodies since; of what has no closed contour it says nothing;
 //! 3. the forces of the springs at its nodes work against its volume, −Σ f·∂V/∂x > 0, or the volume falls, or
 //!    it is shallower than τ/20.
 //!
@@ -23,7 +23,8 @@
 //!
 //! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour
 //! in one body does not close, as where it begins between facets that share a node, a node behind pierced
-//! triangles and inside by its winding number is as deep as it is far from them.
+//! triangles and inside by its winding number is as deep as it is far from them, and from the other side of
+//! the crease in which it lies.
 
 mod lineage;
 mod near;
@@ -295,7 +296,8 @@ impl OverlapCheck {
             parents.iter().for_each(|&parent| volumes[parent as usize] += region.volume.abs());
         }
         let of = |(region, parents): (&Region, &Vec<u32>)| {
-            let direction = if length(region.area) > DIRECTED * region.size { region.area } else { [0.0; 3] };
+            let has_direction = !region.is_open && length(region.area) > DIRECTED * region.size;
+            let direction = if has_direction { region.area } else { [0.0; 3] };
             let mut known = Known { bodies: region.bodies, began: direction, size: region.size, volume: region.volume, ..Known::default() };
             let size = |parent: u32| before[parent as usize].size;
             if let Some(largest) = parents.iter().copied().reduce(|a, b| if size(b) > size(a) { b } else { a }) {
@@ -372,30 +374,13 @@ impl Look<3> for OverlapCheck {
         let pushes = self.pushes(solved);
         for (number, push) in pushes.into_iter().enumerate() {
             let (region, known) = (&self.regions[number], &mut self.known[number]);
-            let has_direction = length(region.area) > DIRECTED * region.size && known.began != [0.0; 3];
+            // Of what has no closed contour N is a part only.
+            let has_direction = !region.is_open && length(region.area) > DIRECTED * region.size && known.began != [0.0; 3];
             let is_turned = has_direction && dot(known.began, region.area) < 0.0;
             // What was found in this step gets its volume spring in the next.
             let was_loose = known.is_loose;
             known.is_loose = known.ratio > SHALLOW && known.volume >= known.before && !(push > 0.0) && !region.is_open;
             if known.ratio > DEEPEST || is_turned || (known.is_loose && was_loose) {
-                let nodes: Vec<u32> = region
-                    .triangles
-                    .iter()
-                    .map(|t| self.skin.nodes.get(self.skin.triangles[t.0 as usize][0] as usize).copied().unwrap_or(0))
-                    .collect();
-                let first = region.triangles.first().map(|t| self.skin.x[self.skin.triangles[t.0 as usize][0] as usize]);
-                eprintln!(
-                    "MISS ratio {:.3} turned {} loose {} open {} size {:.3e} vol {:.3e} inside {} at {:?} nodes {:?}",
-                    known.ratio,
-                    is_turned,
-                    known.is_loose,
-                    region.is_open,
-                    region.size,
-                    known.volume,
-                    region.inside.len(),
-                    first,
-                    &nodes[..nodes.len().min(12)]
-                );
                 self.findings.miss();
             }
         }

@@ -151,8 +151,15 @@ impl<L: Lane> Measures<L> {
     /// F of the layer at a height.
     #[inline(always)]
     fn layer(&self, z: L) -> Matrix<L, 2> {
+        by_height(&self.map, &self.bend, z)
+    }
+
+    /// |F| of the layer at z is the first, z times the second and z² times the third.
+    #[inline(always)]
+    fn areas(&self) -> [L; 3] {
         let (g, d) = (&self.map, &self.bend);
-        [[g[0][0] + z * d[0][0], g[0][1] + z * d[0][1]], [g[1][0] + z * d[1][0], g[1][1] + z * d[1][1]]]
+        let mixed = g[0][0] * d[1][1] + d[0][0] * g[1][1] - (g[0][1] * d[1][0] + d[0][1] * g[1][0]);
+        [Dim::<2>::determinant(g), mixed, Dim::<2>::determinant(d)]
     }
 
     /// G⁻¹.
@@ -161,6 +168,18 @@ impl<L: Lane> Measures<L> {
         let inverse = L::splat(1.0) / Dim::<2>::determinant(&self.map);
         crate::tensor::scaled(Dim::<2>::adjugate(&self.map), inverse)
     }
+}
+
+/// a + b.
+#[inline(always)]
+fn sum<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>) -> Matrix<L, 2> {
+    [plus(a[0], b[0]), plus(a[1], b[1])]
+}
+
+/// a + z b.
+#[inline(always)]
+fn by_height<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>, z: L) -> Matrix<L, 2> {
+    [[a[0][0] + z * b[0][0], a[0][1] + z * b[0][1]], [a[1][0] + z * b[1][0], a[1][1] + z * b[1][1]]]
 }
 
 /// The axes of an element.
@@ -367,7 +386,10 @@ pub(super) fn flux<L: Lane>(
     let initial = L::load(layers.thickness, at);
     let heights = if is_rate { thickness } else { initial };
     let area = Dim::<2>::determinant(&now.map);
-    let mut sums = [[zero; 3]; 2];
+    // Stress by height: the adjugate of F is that of G and z times that of D.
+    let mut sums = [[zero; 3]; 4];
+    let (flat, bent) = (Dim::<2>::adjugate(&now.map), Dim::<2>::adjugate(&now.bend));
+    let areas = now.areas();
     let mut to = Flux {
         membrane: [[zero; 2]; 2],
         moment: [[zero; 2]; 2],
@@ -380,51 +402,57 @@ pub(super) fn flux<L: Lane>(
         flow: [zero; 3],
         resultants: [zero; SHELL_VALUES],
     };
-    let (mut sheared, mut squares) = ([zero; 2], 0.0);
+    let (mut sheared, mut squares, mut least) = ([zero; 2], 0.0, area);
     for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
         let [_, stretch] = layers.stretches::<L>(facts, p, at);
         let stress = layers.stress_of::<Tensor<3, L>, L>(p, at).0;
         let [xx, yy, _, xy, yz, zx] = stress;
         let own: [L; RESPONSE] = loaded(layers.response, p * RESPONSE, at);
         let z = L::splat(height) * heights;
-        let f = now.layer(z);
-        let (determinant, adjugate) = (Dim::<2>::determinant(&f), Dim::<2>::adjugate(&f));
+        let determinant = areas[0] + z * (areas[1] + z * areas[2]);
         let plate = initial * stretch * L::splat(kind.area * weight);
         let volume = plate * determinant;
-        let pull = crate::tensor::scaled(Dim::<2>::flux(&Plane([xx, yy, zero, xy]), &adjugate), plate);
-        for i in 0..2 {
-            for k in 0..2 {
-                to.membrane[i][k] += pull[i][k];
-                to.moment[i][k] += z * pull[i][k];
+        let mut pull = [plate * xx, plate * yy, plate * xy];
+        for (k, sum) in sums.iter_mut().enumerate() {
+            for c in 0..3 {
+                if k > 0 {
+                    pull[c] = z * pull[c];
+                }
+                sum[c] += pull[c];
             }
         }
         let shear = [zx * plate, yz * plate];
         if is_rate {
             sheared = [sheared[0] + shear[0] * determinant, sheared[1] + shear[1] * determinant];
         } else {
+            let adjugate = by_height(&flat, &bent, z);
             let more = times(&begin.layer(z), times(&adjugate, shear));
             sheared = [sheared[0] + more[0], sheared[1] + more[1]];
-        }
-        for (k, value) in [xx, yy, xy].into_iter().enumerate() {
-            sums[0][k] += value * volume;
-            sums[1][k] += value * volume * z;
         }
         let norm = xx * xx + yy * yy + L::splat(2.0) * (xy * xy + yz * yz + zx * zx);
         to.strained += volume * norm;
         to.volume += volume;
         let shear = to.moduli[1].max(own[3]);
         to.moduli = [to.moduli[0].max(facts.membrane_modulus(own[2], own[3])), shear, shear];
-        to.determinant = to.determinant.min(determinant / area);
+        least = least.min(determinant);
         if is_rate {
             let (work, lost) = (half * own[0], own[1]);
-            let part = L::select(zero.less(work), (lost / work).min(one).max(zero), zero);
-            to.flow[0] += L::splat(weight) * part;
-            to.flow[1] += L::splat(weight * height * height) * part;
+            // Most steps are elastic: nothing is divided then.
+            if L::any(zero.less(lost)) {
+                let part = L::select(zero.less(work), (lost / work).min(one).max(zero), zero);
+                to.flow[0] += L::splat(weight) * part;
+                to.flow[1] += L::splat(weight * height * height) * part;
+            }
             let square = xx * xx + yy * yy - xx * yy + L::splat(3.0) * (xy * xy + yz * yz + zx * zx);
             to.flow[2] += L::splat(weight) * square;
             squares += weight * height * height;
         }
     }
+    let of = |k: usize| Plane([sums[k][0], sums[k][1], zero, sums[k][2]]);
+    let (first, second) = (Dim::<2>::flux(&of(1), &flat), Dim::<2>::flux(&of(1), &bent));
+    to.membrane = sum(&Dim::<2>::flux(&of(0), &flat), &second);
+    to.moment = sum(&first, &Dim::<2>::flux(&of(2), &bent));
+    to.determinant = to.determinant.min(least / area);
     // No less than the sum of volumes times norms.
     to.strained = (to.volume * to.strained).sqrt();
     to.flow[2] = to.flow[2].sqrt();
@@ -437,8 +465,9 @@ pub(super) fn flux<L: Lane>(
     // By width: over the area of the middle.
     let over = one / (L::splat(kind.area) * area);
     for k in 0..3 {
-        to.resultants[k] = sums[0][k] * over;
-        to.resultants[3 + k] = -(sums[1][k] * over);
+        let of = |first: usize| areas[0] * sums[first][k] + areas[1] * sums[first + 1][k] + areas[2] * sums[first + 2][k];
+        to.resultants[k] = of(0) * over;
+        to.resultants[3 + k] = -(of(1) * over);
     }
     let force = times(&now.map, to.transverse);
     (to.resultants[6], to.resultants[7], to.resultants[8]) = (force[0] * over, force[1] * over, thickness);

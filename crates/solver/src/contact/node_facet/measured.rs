@@ -25,12 +25,13 @@ pub(super) struct Measures {
     /// is in no pair, at least, m.
     likely: [u32; BLOCK],
     beyond: [f64; BLOCK],
+    facing: [Option<Vector>; BLOCK],
 }
 
 impl Default for Measures {
     fn default() -> Self {
-        let (likely, beyond) = ([0; BLOCK], [0.0; BLOCK]);
-        Self { pairs: Pairs::NONE, measured: Vec::new(), candidates: Vec::new(), begins: [0; BLOCK + 1], likely, beyond }
+        let (likely, beyond, facing) = ([0; BLOCK], [0.0; BLOCK], [None; BLOCK]);
+        Self { pairs: Pairs::NONE, measured: Vec::new(), candidates: Vec::new(), begins: [0; BLOCK + 1], likely, beyond, facing }
     }
 }
 
@@ -44,13 +45,15 @@ pub(super) struct Known<'a> {
     first: usize,
     /// Which pair has the facet on which the node was.
     pub(super) likely: usize,
-    /// What is in no pair is farther, m.
+    /// What is in no pair is farther, m, or does not count.
     pub(super) beyond: f64,
+    /// Of a node that may touch its own body its normal there.
+    pub(super) facing: Option<Vector>,
 }
 
 impl Known<'_> {
     /// Nothing.
-    pub(super) const NONE: Self = Self { measured: &[], candidates: &[], first: 0, likely: 0, beyond: 0.0 };
+    pub(super) const NONE: Self = Self { measured: &[], candidates: &[], first: 0, likely: 0, beyond: 0.0, facing: None };
 
     /// Pair number `pair` of the group: eight that were measured together, and which of them.
     #[inline]
@@ -90,6 +93,8 @@ pub(super) struct Touching<'a> {
     pub(super) candidates: &'a [u32],
     /// What is known of their distances, see `far.rs`.
     pub(super) clear: &'a [f64],
+    /// Of a node that may touch its own body its normal there.
+    pub(super) facing: Option<Vector>,
 }
 
 impl Measures {
@@ -108,13 +113,22 @@ impl Measures {
     /// it any more.
     #[inline]
     pub(super) fn begin(&mut self, number: usize) {
-        self.begins[number] = self.candidates.len() as u32;
+        (self.begins[number], self.facing[number]) = (self.candidates.len() as u32, None);
     }
 
-    /// Adds the candidates that are looked at in this step at the most, of group number `number`.
-    pub(super) fn add(&mut self, number: usize, of: &Touching<'_>, facets: &[[u32; 4]], (sweep, way): (Sweep<'_, 3>, f64), level: Level) {
-        let Touching { node, likely, side, may_pass, candidates, clear } = *of;
-        let Some(first) = candidates.iter().position(|&facet| facet == likely) else { return };
+    /// Adds the candidates that are looked at in this step at the most, of group number `number`, as far as
+    /// they count.
+    pub(super) fn add(
+        &mut self,
+        number: usize,
+        of: &Touching<'_>,
+        facets: &[[u32; 4]],
+        ((sweep, way), level): ((Sweep<'_, 3>, f64), Level),
+        counts: impl Fn(u32) -> bool,
+    ) {
+        let Touching { node, likely, side, may_pass, candidates, clear, facing } = *of;
+        self.facing[number] = facing;
+        let Some(first) = candidates.iter().position(|&facet| facet == likely).filter(|_| counts(likely)) else { return };
         // The likely one was measured in the last step: it is no farther than then and what both have gone.
         let beyond = clear[first] - 2.0 * sweep.travel + 4.0 * way;
         let beyond = if may_pass { beyond.max(PASSAGE * way) } else { beyond };
@@ -122,7 +136,7 @@ impl Measures {
         for (k, &facet) in candidates.iter().enumerate() {
             if k == first {
                 self.likely[number] = self.candidates.len() as u32 - self.begins[number];
-            } else if least(clear[k], sweep.travel) > beyond {
+            } else if least(clear[k], sweep.travel) > beyond || !counts(facet) {
                 continue;
             }
             self.pairs.add(node, &facets[facet as usize], sweep, (side, may_pass));
@@ -154,7 +168,7 @@ impl Measures {
     #[inline]
     pub(super) fn of(&self, number: usize) -> Known<'_> {
         let [first, end] = [self.begins[number], self.begins[number + 1]].map(|begin| begin as usize);
-        let (likely, beyond) = (self.likely[number] as usize, self.beyond[number]);
-        Known { measured: &self.measured, candidates: &self.candidates[first..end], first, likely, beyond }
+        let (likely, beyond, facing) = (self.likely[number] as usize, self.beyond[number], self.facing[number]);
+        Known { measured: &self.measured, candidates: &self.candidates[first..end], first, likely, beyond, facing }
     }
 }

@@ -5,29 +5,50 @@
 //! several in turn, they have merged. Numbers decide nothing: what is as much counts as well.
 
 use super::{Known, Region};
+use crate::archive::persist_all;
 
-/// A triangle, and a region in which it was: in each of several, if it was in several.
-pub(super) type Owner = (u32, u32);
+/// A triangle, and a region in which it was, on which side: in each of several, if it was in several.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Owner {
+    triangle: u32,
+    pub(super) region: u32,
+    is_second: bool,
+}
+
+persist_all!(Owner { triangle, region, is_second });
 
 /// The triangles of all regions and in which they are, ascending.
 pub(super) fn owners(regions: &[Region]) -> Vec<Owner> {
-    let numbered = (0..).zip(regions);
-    let mut owners: Vec<Owner> =
-        numbered.flat_map(|(number, region)| region.triangles.iter().map(move |&(triangle, _)| (triangle, number))).collect();
+    let all = (0..).zip(regions).flat_map(|(number, region)| {
+        region.triangles.iter().map(move |&(triangle, is_second)| Owner { triangle, region: number, is_second })
+    });
+    let mut owners: Vec<Owner> = all.collect();
     owners.sort_unstable();
     owners
+}
+
+/// The entries of a triangle.
+fn of(owners: &[Owner], triangle: u32) -> impl Iterator<Item = &Owner> {
+    let begin = owners.partition_point(|owner| owner.triangle < triangle);
+    owners[begin..].iter().take_while(move |owner| owner.triangle == triangle)
+}
+
+/// Whether what was the first side of a region `before` is the second of the one that continues from it:
+/// which side of a body in itself is the first says nothing.
+pub(super) fn are_sides_swapped(owners: &[Owner], before: u32, region: &Region) -> bool {
+    let all = region.triangles.iter().flat_map(|&(triangle, is_second)| {
+        of(owners, triangle).filter(|owner| owner.region == before).map(move |owner| owner.is_second == is_second)
+    });
+    let (same, other): (Vec<bool>, Vec<bool>) = all.partition(|is_same| *is_same);
+    other.len() > same.len()
 }
 
 /// The regions `before` from which each region continues, ascending.
 pub(super) fn parents(owners: &[Owner], before: &[Known], regions: &[Region]) -> Vec<Vec<u32>> {
     // How many triangles each shares with which.
     let shared = |region: &Region| {
-        let at = |&(triangle, _): &(u32, bool)| {
-            let begin = owners.partition_point(|owner| owner.0 < triangle);
-            owners[begin..].iter().take_while(move |owner| owner.0 == triangle).map(|owner| owner.1)
-        };
-        let mut all: Vec<u32> =
-            region.triangles.iter().flat_map(at).filter(|&owner| before[owner as usize].bodies == region.bodies).collect();
+        let at = region.triangles.iter().flat_map(|&(triangle, _)| of(owners, triangle).map(|owner| owner.region));
+        let mut all: Vec<u32> = at.filter(|&owner| before[owner as usize].bodies == region.bodies).collect();
         all.sort_unstable();
         all.chunk_by(|a, b| a == b).map(|same| (same[0], same.len())).collect::<Vec<_>>()
     };
@@ -62,6 +83,14 @@ mod tests {
     fn regions_in_one_triangle_continue_each_from_its_own_in_whatever_order_they_are() {
         assert_eq!(lineage(&[&[1, 2, 3], &[3, 4, 5]], &[&[2, 3], &[3, 4, 5]]), [[0], [1]]);
         assert_eq!(lineage(&[&[3, 4, 5], &[1, 2, 3]], &[&[2, 3], &[3, 4, 5]]), [[1], [0]]);
+    }
+
+    #[test]
+    fn sides_that_change_places_are_known_by_their_triangles() {
+        let of = |triangles: &[(u32, bool)]| Region { triangles: triangles.to_vec(), ..Region::default() };
+        let before = owners(&[of(&[(7, false)]), of(&[(1, false), (2, false), (5, true), (6, true)])]);
+        let swapped = [of(&[(2, true), (3, true), (6, false)]), of(&[(2, false), (3, false), (6, true)]), of(&[(3, true), (7, true)])];
+        assert_eq!(swapped.map(|region| are_sides_swapped(&before, 1, &region)), [true, false, false]);
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //! 1. no sampled place in it (vertices, three places on each part of an edge that is inside) is deeper than a
 //!    sixth of the local thickness τ, the lesser of both bodies';
 //! 2. its area vector has not turned by more than a right angle against the one with which it began, turned
-//!    with the bodies since;
+//!    with the bodies since; of what has no closed contour it says nothing;
 //! 3. the forces of the springs at its nodes work against its volume, −Σ f·∂V/∂x > 0, or the volume falls, or
 //!    it is shallower than τ/20.
 //!
@@ -23,7 +23,8 @@
 //!
 //! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour
 //! in one body does not close, as where it begins between facets that share a node, a node behind pierced
-//! triangles and inside by its winding number is as deep as it is far from them.
+//! triangles and inside by its winding number is as deep as it is far from them, and from the other side of
+//! the crease in which it lies.
 
 mod lineage;
 mod near;
@@ -295,10 +296,15 @@ impl OverlapCheck {
             parents.iter().for_each(|&parent| volumes[parent as usize] += region.volume.abs());
         }
         let of = |(region, parents): (&Region, &Vec<u32>)| {
-            let direction = if length(region.area) > DIRECTED * region.size { region.area } else { [0.0; 3] };
+            let has_direction = !region.is_open && length(region.area) > DIRECTED * region.size;
+            let direction = if has_direction { region.area } else { [0.0; 3] };
             let mut known = Known { bodies: region.bodies, began: direction, size: region.size, volume: region.volume, ..Known::default() };
-            let largest = parents.iter().map(|&parent| before[parent as usize]).reduce(|a, b| if b.size > a.size { b } else { a });
-            if let Some(parent) = largest {
+            let size = |parent: u32| before[parent as usize].size;
+            if let Some(largest) = parents.iter().copied().reduce(|a, b| if size(b) > size(a) { b } else { a }) {
+                let mut parent = before[largest as usize];
+                if region.is_own() && lineage::are_sides_swapped(&self.owners, largest, region) {
+                    parent.began = parent.began.map(|c| -c);
+                }
                 known.offset = parent.offset;
                 (known.ratio, known.thickness) = (parent.ratio, parent.thickness);
                 // What slides around a corner turns its area vector by less than a right angle from look to
@@ -368,7 +374,8 @@ impl Look<3> for OverlapCheck {
         let pushes = self.pushes(solved);
         for (number, push) in pushes.into_iter().enumerate() {
             let (region, known) = (&self.regions[number], &mut self.known[number]);
-            let has_direction = length(region.area) > DIRECTED * region.size && known.began != [0.0; 3];
+            // Of what has no closed contour N is a part only.
+            let has_direction = !region.is_open && length(region.area) > DIRECTED * region.size && known.began != [0.0; 3];
             let is_turned = has_direction && dot(known.began, region.area) < 0.0;
             // What was found in this step gets its volume spring in the next.
             let was_loose = known.is_loose;
@@ -393,7 +400,7 @@ impl Look<3> for OverlapCheck {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { known, volume_springs, owners, next, found_at, steps, findings, inside, skin, .. } = self;
         persist_each!(archive; known, volume_springs, owners, next, found_at, steps, findings, inside, &mut skin.x[..]);
-        let are_there = owners.is_sorted() && owners.iter().all(|&(_, owner)| (owner as usize) < known.len());
+        let are_there = owners.is_sorted() && owners.iter().all(|owner| (owner.region as usize) < known.len());
         archive.check(are_there, "overlaps are known that are not there")?;
         let are_nodes =
             |volume_spring: &VolumeSpring| volume_spring.rows.iter().all(|(node, _)| self.skin.nodes.binary_search(node).is_ok());
@@ -406,5 +413,7 @@ impl Look<3> for OverlapCheck {
     }
 }
 
+#[cfg(test)]
+mod folds;
 #[cfg(test)]
 mod tests;

@@ -82,6 +82,8 @@ const SAME_PLACE: f64 = 1e-9;
 pub(super) struct Work {
     /// Per vertex, edge and triangle: the number of the pair of bodies for which it was last marked.
     inside: Vec<u32>,
+    outside: Vec<u32>,
+    leaky: Vec<u32>,
     pierced: Vec<u32>,
     listed: Vec<u32>,
     /// Place of each listed triangle in the list of its pair.
@@ -118,7 +120,7 @@ impl Work {
         };
         // `along` is a number from 0 to 1: its bits ascend with it.
         piercings.sort_by_cached_key(|piercing| (bodies(piercing), piercing.edge, (piercing.along + 0.0).to_bits(), piercing.triangle));
-        self.inside.resize(skin.x.len(), 0);
+        [&mut self.inside, &mut self.outside, &mut self.leaky].into_iter().for_each(|marks| marks.resize(skin.x.len(), 0));
         self.pierced.resize(skin.edges.len(), 0);
         self.listed.resize(skin.triangles.len(), 0);
         self.slots.resize(skin.triangles.len(), 0);
@@ -130,45 +132,50 @@ impl Work {
         regions
     }
 
-    /// Marks what is inside; the inside vertices, and those that are seen from both sides.
+    /// Marks what is inside, part by part of what nothing pierces; the inside vertices, and those that a
+    /// piercing says are inside although the same part is outside elsewhere: no contour closes it off.
     fn flood(&mut self, skin: &Skin, piercings: &[Piercing]) -> (Vec<u32>, Vec<u32>) {
-        let (mut stack, mut outside) = (Vec::new(), Vec::new());
+        let mut seeds = Vec::new();
         for here in piercings.chunk_by(|a, b| a.edge == b.edge) {
-            let [from, to] = skin.edges[here[0].edge as usize].ends;
             self.pierced[here[0].edge as usize] = self.pair;
-            let (first, last) = (&here[0], &here[here.len() - 1]);
-            let entries = 2 * here.iter().filter(|piercing| piercing.enters).count();
-            // Where it goes in as often as out, the order says how; what lies at one place has none, and
-            // other edges decide.
-            let are_apart = here.windows(2).all(|two| two[1].along - two[0].along > SAME_PLACE);
-            let is_certain = entries != here.len() || (are_apart && !here.iter().any(|piercing| piercing.is_flat));
-            let begins_outside = if entries == here.len() { first.enters } else { entries > here.len() };
-            let ends_inside = if entries == here.len() { last.enters } else { entries > here.len() };
-            if is_certain {
-                if begins_outside {
-                    outside.push(from)
+            let Some(are_inside) = ends_inside(here) else { continue };
+            for (vertex, is_inside) in skin.edges[here[0].edge as usize].ends.into_iter().zip(are_inside) {
+                if is_inside {
+                    seeds.push(vertex);
                 } else {
-                    stack.push(from)
+                    self.outside[vertex as usize] = self.pair;
                 }
-                if ends_inside { stack.push(to) } else { outside.push(to) }
             }
         }
-        let mut inside = Vec::new();
-        while let Some(vertex) = stack.pop() {
-            if std::mem::replace(&mut self.inside[vertex as usize], self.pair) == self.pair {
+        let (mut inside, mut stack) = (Vec::new(), Vec::new());
+        for &seed in &seeds {
+            if self.leaky[seed as usize] == self.pair {
                 continue;
             }
-            inside.push(vertex);
-            for &edge in skin.around.of(vertex as usize) {
-                if self.pierced[edge as usize] != self.pair {
-                    let [a, b] = skin.edges[edge as usize].ends;
-                    stack.push(if a == vertex { b } else { a });
+            let (begin, mut leaks) = (inside.len(), false);
+            stack.push(seed);
+            while let Some(vertex) = stack.pop() {
+                if std::mem::replace(&mut self.inside[vertex as usize], self.pair) == self.pair {
+                    continue;
+                }
+                inside.push(vertex);
+                leaks |= self.outside[vertex as usize] == self.pair;
+                for &edge in skin.around.of(vertex as usize) {
+                    if self.pierced[edge as usize] != self.pair {
+                        let [a, b] = skin.edges[edge as usize].ends;
+                        stack.push(if a == vertex { b } else { a });
+                    }
+                }
+            }
+            if leaks {
+                for vertex in inside.drain(begin..) {
+                    (self.inside[vertex as usize], self.leaky[vertex as usize]) = (0, self.pair);
                 }
             }
         }
         inside.sort_unstable();
-        outside.retain(|vertex| self.inside[*vertex as usize] == self.pair);
-        (inside, outside)
+        seeds.retain(|seed| self.leaky[*seed as usize] == self.pair);
+        (inside, seeds)
     }
 
     fn is_inside(&self, edge: u32, skin: &Skin) -> bool {
@@ -300,7 +307,8 @@ impl Work {
                 }
             };
             // How many times it is inside.
-            let mut count = i32::from(self.inside[ends[0] as usize] == self.pair);
+            let begins_inside = ends_inside(here).map_or(self.inside[ends[0] as usize] == self.pair, |[first, _]| first);
+            let mut count = i32::from(begins_inside);
             let mut since = begin;
             for piercing in here {
                 let before = count;
@@ -355,6 +363,19 @@ impl Work {
             })
             .collect()
     }
+}
+
+/// Whether the ends of an edge are inside, by its piercings in their order; `None`: they don't say.
+fn ends_inside(here: &[Piercing]) -> Option<[bool; 2]> {
+    let entries = 2 * here.iter().filter(|piercing| piercing.enters).count();
+    if entries != here.len() {
+        return Some([entries < here.len(), entries > here.len()]);
+    }
+    // Where it goes in as often as out, the order says how; what lies at one place has none, and other edges
+    // decide.
+    let are_apart = here.windows(2).all(|two| two[1].along - two[0].along > SAME_PLACE);
+    let is_certain = are_apart && !here.iter().any(|piercing| piercing.is_flat);
+    is_certain.then(|| [!here[0].enters, here[here.len() - 1].enters])
 }
 
 /// The parts of edges behind the triangles that they pierce, as far as the next piercing or the end of the

@@ -25,6 +25,8 @@ const INSIDE: f64 = 1.0;
 const CERTAIN: f64 = CAST;
 /// Of so many places, the deepest ones.
 const SIDED_MOST: usize = 16;
+/// Cosine of normals of the two sides of a crease.
+const AGAINST: f64 = -0.5;
 /// How well a facet of the side of entry looks against the area vector.
 const FACES: f64 = 0.2;
 /// Vertices or edges that one task looks at.
@@ -167,10 +169,14 @@ impl OverlapCheck {
             nearest.filter(|nearest| nearest.0 < square).map(|(square, foot)| (square.sqrt(), foot))
         };
         if region.is_torn() {
-            // Where its contour is not closed, of what is pierced what does not touch it.
-            let touches =
-                |triangle: u32| self.skin.triangles[triangle as usize].iter().any(|at| self.skin.triangles[own as usize].contains(at));
-            return nearest(&mut region.pierced.iter().copied().filter(|&triangle| may_be(triangle) && !touches(triangle)));
+            // Where its contour is not closed, of what is pierced what does not touch it, and of what touches
+            // it what looks against it: the other side of a crease.
+            let corners = &self.skin.triangles[own as usize];
+            let touches = |triangle: u32| self.skin.triangles[triangle as usize].iter().any(|at| corners.contains(at));
+            let pierced = region.pierced.iter().copied().filter(|&triangle| may_be(triangle) && !touches(triangle));
+            let normal = unit(self.skin.double(own));
+            let is_against = |triangle: u32| may_be(triangle) && dot(unit(self.skin.double(triangle)), normal) < AGAINST;
+            return nearest(&mut pierced.chain(self.skin.at_any(corners).filter(|&triangle| is_against(triangle))));
         }
         if region.is_own() {
             // Of its own body the other side of the region alone.

@@ -181,6 +181,11 @@ impl Skin {
         at.iter().copied().filter(|&triangle| vertices.iter().all(|vertex| self.triangles[triangle as usize].contains(vertex)))
     }
 
+    /// Triangles that have any of these vertices, once for each that they have.
+    pub(super) fn at_any<'a>(&'a self, vertices: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+        vertices.iter().flat_map(|&vertex| self.at_vertex.of(vertex as usize).iter().copied())
+    }
+
     /// Whether a triangle lies on a symmetry plane.
     pub(super) fn is_mirror(&self, triangle: u32) -> bool {
         self.facets[self.facet_of[triangle as usize] as usize].is_mirror

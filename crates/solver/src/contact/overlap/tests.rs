@@ -9,7 +9,7 @@ use crate::vector::minus;
 use proptest::prelude::*;
 
 /// A block of n × n × n hexahedra between two corners, or six tetrahedra in each.
-fn block(low: Vector, high: Vector, counts: [usize; 3], is_tet: bool, nodes: &mut Vec<Vector>, cells: &mut Vec<Vec<u32>>) {
+pub(super) fn block(low: Vector, high: Vector, counts: [usize; 3], is_tet: bool, nodes: &mut Vec<Vector>, cells: &mut Vec<Vec<u32>>) {
     let first = nodes.len() as u32;
     let [a, b, c] = counts;
     for k in 0..=c {
@@ -55,7 +55,7 @@ fn two(size: Vector, [low, high]: [Vector; 2], counts: [[usize; 3]; 2], are_tets
     (OverlapCheck::new(&bodies, &nodes, false), nodes)
 }
 
-fn look(overlap_check: &mut OverlapCheck, nodes: &[Vector]) {
+pub(super) fn look(overlap_check: &mut OverlapCheck, nodes: &[Vector]) {
     overlap_check.look(Sweep::between(nodes, nodes), 0.0);
 }
 
@@ -332,7 +332,7 @@ fn pairs_that_are_kept_and_sleep_are_those_of_a_search_anew_in_each_look() {
 }
 
 /// The surface of some elements that are one body, and its overlap check.
-fn one(nodes: &[Vector], cells: &[Vec<u32>]) -> OverlapCheck {
+pub(super) fn one(nodes: &[Vector], cells: &[Vec<u32>]) -> OverlapCheck {
     let surface = SpaceSurface::outside(cells.iter().filter_map(|nodes| Cell::of(3, nodes))).unwrap();
     let bodies = Bodies { outside: &surface, is_mirror: &|_| false, body_of: &|_| 0, side_of: None };
     OverlapCheck::new(&bodies, nodes, false)

@@ -113,7 +113,8 @@ impl Tracker {
         measures: &mut Measures,
     ) {
         let (pass, [_, first]) = (&self.passes[number], chunk.first);
-        let facets = &self.surfaces[pass.target].facets[..];
+        let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
+        let facets = &placed.surface.facets[..];
         measures.clear();
         let Some(level) = self.level else { return };
         for index in block.clone() {
@@ -125,12 +126,14 @@ impl Tracker {
             }
             let group = &chunk.groups[index];
             let Known { touches, memory: ContactHistory { facet: likely, side, is_led, .. } } = &group.known;
-            if *touches && !group.own && group.begin < group.end {
+            if *touches && group.begin < group.end {
                 let candidates = &pass.candidates[group.candidates()];
                 let clear = &chunk.clear[group.begin as usize - first..group.end as usize - first];
                 let may_pass = *side == [0.0; 3] || *is_led;
-                let touching = Touching { node: group.node, likely: *likely, side, may_pass, candidates, clear };
-                measures.add(number, &touching, facets, (sweep, way), level);
+                let facing = group.own.then(|| self.own_normal(pass.slave, group.slave, sweep.new));
+                let touching = Touching { node: group.node, likely: *likely, side, may_pass, candidates, clear, facing };
+                let counts = |facet: u32| facing.is_none_or(|own| is_against(own, &placed, facet));
+                measures.add(number, &touching, facets, ((sweep, way), level), counts);
             }
         }
         measures.end(block.len(), level);
@@ -168,8 +171,9 @@ impl Tracker {
     fn locate(&self, pass: &Pass, group: &Group<Known>, candidates: &mut Candidates<'_>, sweep: Sweep<'_, 3>, extra: f64) -> Place {
         let placed = Placed { surface: &self.surfaces[pass.target], positions: sweep.new };
         let x = sweep.new[group.node as usize];
-        let facing = if group.own { Some(self.own_normal(pass.slave, group.slave, sweep.new)) } else { None };
-        let faces = |facet: u32| facing.is_none_or(|own| dot(own, placed.facet_normal(facet)) < FACING);
+        let known = candidates.known.facing;
+        let facing = group.own.then(|| known.unwrap_or_else(|| self.own_normal(pass.slave, group.slave, sweep.new)));
+        let faces = |facet: u32| facing.is_none_or(|own| is_against(own, &placed, facet));
         let passages = |candidates: &Candidates<'_>| {
             Passages::of(&placed, sweep, group.node, candidates.in_passage().filter(|&(facet, _)| faces(facet)))
         };
@@ -198,7 +202,7 @@ impl Tracker {
         if !group.own && !found.as_ref().is_some_and(|found| continues(found) || faces_it(found)) {
             let own = self.own_normal(pass.slave, group.slave, sweep.new);
             if found.is_none_or(|found| dot(own, found.normal) >= FACING) {
-                let faces = |facet: u32| dot(own, placed.facet_normal(facet)) < FACING;
+                let faces = |facet: u32| is_against(own, &placed, facet);
                 let over = candidates.nearest(&placed, x, likely, |facet| sees(facet) && faces(facet));
                 let over = over.and_then(|(over, _)| placed.seen_over(x, over, faces));
                 let is_flush = found.is_some_and(|found| found.gap.abs() <= FLUSH * self.reach.skin);
@@ -265,6 +269,11 @@ impl Tracker {
             dot(along, beyond) < -0.05 * length(along) * length(beyond)
         })
     }
+}
+
+/// Whether a facet looks against the normal of a node at its own surface.
+fn is_against(own: Vector, placed: &Placed<'_>, facet: u32) -> bool {
+    dot(own, placed.facet_normal(facet)) < FACING
 }
 
 /// How far a node and where it projects have moved with respect to each other in the step, m.

@@ -63,20 +63,22 @@ fn note(tracker: &mut Tracker, positions: &[Vector]) {
 }
 
 /// Follows a motion in both ways and compares everything that is found and kept; how many touches there were,
-/// and how many continued as they were.
-fn compare(motion: Motion, n: usize, count: usize, random: &mut Random) -> [usize; 2] {
+/// and how many continued as they were. Both plates are bodies, or parts of one.
+fn compare(motion: Motion, n: usize, count: usize, are_one: bool, random: &mut Random) -> [usize; 2] {
     let [sx, sy] = motion.shift;
     let (upper_cells, upper) = plate(n, [sx, sy, 1.0], true);
     let (lower_cells, lower) = plate(n, [0.0; 3], false);
     let first = upper.len() as u32;
     let lower_cells: Vec<Vec<u32>> = lower_cells.iter().map(|cell| cell.iter().map(|node| node + first).collect()).collect();
     let surface = |cells: &[Vec<u32>]| SpaceSurface::outside(cells.iter().map(|cell| CellKind::Hexahedron.cell(cell))).unwrap();
-    let surfaces = [surface(&upper_cells), surface(&lower_cells)];
+    let surfaces =
+        if are_one { vec![surface(&[upper_cells, lower_cells].concat())] } else { vec![surface(&upper_cells), surface(&lower_cells)] };
+    let passes = if are_one { &[(0, 0)][..] } else { &[(0, 1), (1, 0)] };
     let all = steps(motion, &upper, &lower, count, random);
-    let bodies: Vec<u32> = (0..all[0].len()).map(|k| u32::from(k >= first as usize)).collect();
+    let bodies: Vec<u32> = (0..all[0].len()).map(|k| u32::from(k >= first as usize && !are_one)).collect();
     let make = |level: Option<Level>| {
         let search = (search::registry::<3>()[0].make)();
-        Tracker { level, ..Tracker::new(surfaces.to_vec(), &[(0, 1), (1, 0)], &bodies, search, &all[0]) }
+        Tracker { level, ..Tracker::new(surfaces.clone(), passes, &bodies, search, &all[0]) }
     };
     let (mut one_by_one, mut in_lanes) = (make(None), Level::available().into_iter().map(|level| make(Some(level))).collect::<Vec<_>>());
     let (mut travel, mut sums) = (0.0, [0; 2]);
@@ -102,18 +104,27 @@ fn compare(motion: Motion, n: usize, count: usize, random: &mut Random) -> [usiz
 #[test]
 fn who_continues_as_it_was_is_where_it_would_be_found_alone() {
     let mut random = Random::new(11);
-    let (mut all, mut most) = ([0; 2], [0; 2]);
-    for round in 0..72 {
+    let (mut all, mut most, mut own) = ([0; 2], [0; 2], [0; 2]);
+    for round in 0..108 {
         let shift = [[0.0, 0.0], [0.3, 0.3], [0.41, 0.17], [0.5, 0.5]][round % 4];
         let (crooked, noise) = ([0.0, 1e-3, 0.1][round / 4 % 3], [1e-9, 1e-4, 0.02][round / 12 % 3]);
         let (aside, depth) = ([0.0, 0.02][round / 36 % 2], [0.002, 0.05][round % 2]);
         let motion = Motion { shift, crooked, noise, aside, depth, turned: round % 5 == 0 };
-        let sums = compare(motion, 4, 60, &mut random);
-        let of = if noise < 1e-3 && depth < 0.01 && aside == 0.0 { &mut most } else { &mut all };
+        let are_one = round >= 72;
+        let sums = compare(motion, 4, 60, are_one, &mut random);
+        let is_steady = noise < 1e-3 && depth < 0.01 && aside == 0.0;
+        let of = if are_one {
+            &mut own
+        } else if is_steady {
+            &mut most
+        } else {
+            &mut all
+        };
         (of[0], of[1]) = (of[0] + sums[0], of[1] + sums[1]);
     }
     // Who slides and flies about changes more often.
     assert!(most[1] > most[0] / 2 && all[1] > all[0] / 10 && all[0] > 10_000, "{most:?} {all:?}");
+    assert!(own[1] > own[0] / 4 && own[0] > 10_000, "{own:?}");
 }
 
 #[test]

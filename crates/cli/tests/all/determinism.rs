@@ -47,8 +47,9 @@ fn every_example_has_the_same_bits_on_1_2_3_and_7_threads_and_each_instruction_s
         let name = format!("examples/{} after {steps} steps", folder.file_name().unwrap().display());
         crate::hashes::is_as_before(&name.replace(' ', "-"), &wanted.0);
         for simd in &levels {
-            for threads in if simd == "scalar" { &[2][..] } else { &[1, 2, 3, 7] } {
-                assert_eq!(hash(*threads, simd), wanted, "{} on {threads} thread(s) with {simd}", folder.display());
+            // Threads share out the same work whatever computes it: all counts are tried with one set.
+            for &threads in if Some(simd) == levels.last() { &[1, 2, 3, 7][..] } else { &[3] } {
+                assert_eq!(hash(threads, simd), wanted, "{} on {threads} thread(s) with {simd}", folder.display());
             }
         }
     }

@@ -363,7 +363,7 @@ fn a_beam_with_a_moment_at_its_end_rolls_up_to_a_circle_with_five_elements() {
     // A section that is wide, so that it does not buckle out of the plane.
     let (length, young, side) = (10.0, 1.2e6, 0.1_f64);
     for (elements, axis, section) in [(5, 1, rectangle(1.0, side)), (10, 2, rectangle(side, 1.0))] {
-        let (mut model, curve) = cantilever(length, elements, section, soft(young, 0.0, 1.0), [400.0, 0.2]);
+        let (mut model, curve) = cantilever(length, elements, section, soft(young, 0.0, 1.0), [80.0, 1.0]);
         let mut moment = [0.0; 3];
         moment[axis] = TAU * young * side.powi(3) / 12.0 / length;
         model.loads.push(Load::Moment { on: "arm.point1".into(), moment, curve });
@@ -376,7 +376,7 @@ fn a_beam_with_a_moment_at_its_end_rolls_up_to_a_circle_with_five_elements() {
 #[test]
 fn a_cantilever_under_a_large_force_is_the_elastica() {
     // Sze, Liu and Lo (2004): u = 3.286, w = 6.698; width 1 m, so that it bends in its weak plane.
-    let (mut model, curve) = cantilever(10.0, 10, rectangle(1.0, 0.1), soft(1.2e6, 0.0, 1.0), [200.0, 0.4]);
+    let (mut model, curve) = cantilever(10.0, 10, rectangle(1.0, 0.1), soft(1.2e6, 0.0, 1.0), [50.0, 1.0]);
     model.loads.push(Load::Force { on: "arm.point1".into(), force: [0.0, 0.0, 4.0], curve });
     let [x, y, z] = tip(&to_end(&model));
     println!("u {} w {z}", 10.0 - x);

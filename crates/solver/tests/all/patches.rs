@@ -400,10 +400,12 @@ where
 /// Eigenvalues of a symmetric matrix, ascending, by Jacobi's rotations.
 pub(crate) fn eigenvalues(mut a: Vec<Vec<f64>>) -> Vec<f64> {
     let n = a.len();
+    // What is below the rounding of the largest entry turns nothing.
+    let least = f64::EPSILON * a.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
     for _ in 0..30 {
         for p in 0..n {
             for q in p + 1..n {
-                if a[p][q] == 0.0 {
+                if !(a[p][q].abs() > least) {
                     continue;
                 }
                 let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);

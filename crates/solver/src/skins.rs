@@ -150,16 +150,11 @@ where
     #[inline(always)]
     fn run<L: Lane>(self) -> f64 {
         let Self { skins, rotations, time_step, positions, velocities, next } = self;
-        let (dt, rate) = (L::splat(time_step), L::splat(1.0 / time_step));
-        let (mut numbers, mut of_owners) = ([[0.0; 4]; BATCH], [[[0.0; D]; BATCH]; 2]);
-        let (mut of_nodes, mut fastest) = ([[[0.0; D]; BATCH]; 2], Batch::default());
+        let (rate, mut fastest) = (1.0 / time_step, 0.0);
         for owners in skins.owners.chunks(BATCH) {
-            let mut most = 0;
+            let mut numbers = [[0.0; 4]; BATCH];
             for (lane, owner) in owners.iter().enumerate() {
                 numbers[lane] = rotations[owner.place as usize];
-                of_owners[0][lane] = positions[owner.node as usize];
-                of_owners[1][lane] = velocities[owner.node as usize];
-                most = most.max(owner.to - owner.from);
             }
             let mut turns = [[Batch::default(); D]; D];
             for at in (0..BATCH).step_by(L::WIDTH) {
@@ -170,45 +165,28 @@ where
                     }
                 }
             }
-            // One node of each owner after the other; lanes beyond do what was there before once more.
-            for k in 0..most {
-                let own = |owner: &Owner| (owner.from + k < owner.to).then_some((owner.from + k) as usize);
-                for (lane, own) in owners.iter().map(own).enumerate() {
-                    if let Some(own) = own {
-                        of_nodes[0][lane] = skins.nodes[own].arm;
-                        of_nodes[1][lane] = positions[skins.first + own];
-                    }
-                }
-                let mut new = [[[0.0; D]; BATCH]; 2];
-                let mut squares = Batch::default();
-                for at in (0..BATCH).step_by(L::WIDTH) {
-                    let (arm, x) = (L::load_points(&of_nodes[0], at), L::load_points(&of_nodes[1], at));
-                    let (centre, mut v) = (L::load_points(&of_owners[0], at), L::load_points(&of_owners[1], at));
-                    let mut there = x;
-                    let mut square = L::splat(0.0);
+            // One by one: to bring them side by side takes longer.
+            for (lane, owner) in owners.iter().enumerate() {
+                let (centre, of_centre) = (positions[owner.node as usize], velocities[owner.node as usize]);
+                for own in owner.from as usize..owner.to as usize {
+                    let (node, arm) = (skins.first + own, skins.nodes[own].arm);
+                    let (x, mut v, mut there) = (positions[node], of_centre, positions[node]);
+                    let mut square = 0.0;
                     for i in 0..D {
-                        let mut turned = L::load(&turns[i][0], at) * arm[0];
-                        for k in 1..D {
-                            turned += L::load(&turns[i][k], at) * arm[k];
+                        let mut turned = 0.0;
+                        for k in 0..D {
+                            turned += turns[i][k].0[lane] * arm[k];
                         }
                         v[i] += rate * (turned - (x[i] - centre[i]));
-                        there[i] += dt * v[i];
+                        there[i] += time_step * v[i];
                         square += v[i] * v[i];
                     }
-                    L::store_points(v, &mut new[0], at);
-                    L::store_points(there, &mut new[1], at);
-                    square.store(&mut squares, at);
-                }
-                for (lane, own) in owners.iter().map(own).enumerate() {
-                    if let Some(own) = own {
-                        velocities[skins.first + own] = new[0][lane];
-                        next[skins.first + own] = new[1][lane];
-                        fastest.0[lane] = if squares.0[lane] > fastest.0[lane] { squares.0[lane] } else { fastest.0[lane] };
-                    }
+                    (velocities[node], next[node]) = (v, there);
+                    fastest = if square > fastest { square } else { fastest };
                 }
             }
         }
-        fastest.0.into_iter().fold(0.0, f64::max)
+        fastest
     }
 }
 

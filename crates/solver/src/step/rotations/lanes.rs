@@ -94,7 +94,7 @@ fn series<L: Lane>(u: L) -> [L; 2] {
     let (mut cos, mut sin) = (L::splat(0.0), L::splat(0.0));
     let one = L::splat(1.0);
     for k in (1..8).rev() {
-        let twice = 2.0 * k as f64;
+        let twice = 2.0 * f64::from(k);
         cos = (one - cos) * (u * L::splat(1.0 / (twice * (twice - 1.0))));
         sin = (one - sin) * (u * L::splat(1.0 / (twice * (twice + 1.0))));
     }

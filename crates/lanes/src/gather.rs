@@ -118,7 +118,7 @@ impl Places {
     }
 }
 
-/// Points with two vectors each, as position and velocity.
+/// Points with two vectors each, as position and velocity; those of four values fill their rooms.
 #[derive(Clone, Debug, Default)]
 pub struct Moving<const D: usize> {
     /// Of the plane both vectors, in 3D the first.
@@ -154,7 +154,7 @@ fn room(index: usize, width: usize) -> (usize, usize) {
 impl<const D: usize> Moving<D> {
     /// Makes room for `count` points, which hold anything.
     pub fn resize(&mut self, count: usize) {
-        const { assert!(D == 2 || D == 3, "vectors are 2D or 3D") };
+        const { assert!(D >= 2 && D <= ROOM, "vectors have two to four values") };
         let batches = (count * ROOM).div_ceil(BATCH);
         self.first.resize(batches, Batch::default());
         self.second.resize(if D == 2 { 0 } else { batches }, Batch::default());
@@ -220,6 +220,15 @@ impl<const D: usize> Moving<D> {
     }
 }
 
+impl Moving<ROOM> {
+    /// First and second vectors of all points, to be written. Of an odd number one more follows, which stands
+    /// for nothing.
+    #[inline]
+    pub fn vectors_mut(&mut self) -> [&mut [[f64; ROOM]]; 2] {
+        [rooms_mut(&mut self.first), rooms_mut(&mut self.second)]
+    }
+}
+
 /// Sums of vectors.
 #[derive(Clone, Debug, Default)]
 pub struct VectorSums<const D: usize> {
@@ -258,6 +267,12 @@ impl<const D: usize> VectorSums<D> {
         for (out, vector) in out[..self.count].iter_mut().zip(vectors) {
             out.copy_from_slice(&vector[..D]);
         }
+    }
+
+    /// The components of each sum.
+    #[inline]
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        rooms(&self.values).as_flattened().chunks_exact(Self::WIDTH).take(self.count).map(|vector| &vector[..D])
     }
 
     /// The components of a sum.

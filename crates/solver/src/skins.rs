@@ -9,7 +9,7 @@ use crate::mesh::{Mesh, Meshed, SkinNode};
 use crate::rotation::Rotate;
 use crate::rotations::Rotations;
 use crate::tensor::{Dim, Matrix};
-use crate::vector::{minus, plus, times};
+use crate::vector::{minus, plus};
 use embate_lanes::{BATCH, Batch, Kernel, Lane, Level};
 
 /// The nodes on the faces of the shells of a model.
@@ -18,6 +18,7 @@ pub(crate) struct Skins<const D: usize> {
     /// Number of the first of them; they follow each other.
     first: usize,
     nodes: Vec<SkinNode<D>>,
+    are_all_led: bool,
     /// Where the owner of each is among the nodes that rotate; `u32::MAX`: a rigid body leads it.
     places: Vec<u32>,
     /// Nodes of the middle that lead some, in the order of these.
@@ -55,7 +56,8 @@ where
                 None => owners.push(Owner { node: skin.owner, place, from: own, to: own + 1 }),
             }
         }
-        Self { first, nodes: mesh.skins.clone(), places, owners }
+        let are_all_led = places.iter().all(|&place| place != u32::MAX);
+        Self { first, nodes: mesh.skins.clone(), are_all_led, places, owners }
     }
 
     /// Each node that a node of the middle leads, with that, and its place among those that rotate.
@@ -72,10 +74,19 @@ where
         }
     }
 
-    /// Velocities that lead them over the coming step (s) to where the middle will have them: what was off by
-    /// rounding comes back. `next` are the rotations after it, as [`Rotations::numbers_at`] gives them.
-    pub(crate) fn lead(&self, next: &[[f64; 4]], time_step: f64, positions: &[[f64; D]], velocities: &mut [[f64; D]], level: Level) {
-        level.run(Lead { skins: self, next, time_step, positions, velocities });
+    /// Velocities that lead them over the coming step (s) to where the middle will have them, and these next
+    /// positions: what was off by rounding comes back. `rotations` are those after it, as
+    /// [`Rotations::numbers_at`] gives them. Returns the largest square of a speed.
+    pub(crate) fn lead(
+        &self,
+        rotations: &[[f64; 4]],
+        time_step: f64,
+        positions: &[[f64; D]],
+        velocities: &mut [[f64; D]],
+        next: &mut [[f64; D]],
+        level: Level,
+    ) -> f64 {
+        level.run(Lead { skins: self, rotations, time_step, positions, velocities, next })
     }
 
     /// Hands the forces on them over: to the middle, and their moments to the place there.
@@ -104,6 +115,12 @@ impl<const D: usize> Skins<D> {
         self.nodes.is_empty()
     }
 
+    /// Whether these nodes are all on faces and led by the middle.
+    #[inline]
+    pub(crate) fn leads(&self, nodes: std::ops::Range<usize>) -> bool {
+        self.are_all_led && nodes.start >= self.first && nodes.end <= self.first + self.nodes.len()
+    }
+
     /// The node of the middle that a node goes with, and where that is among the nodes that rotate; `None`:
     /// it is none of a face, or a rigid body leads it.
     #[inline]
@@ -117,26 +134,27 @@ impl<const D: usize> Skins<D> {
 /// [`Skins::lead`], eight owners at a time.
 struct Lead<'a, const D: usize> {
     skins: &'a Skins<D>,
-    next: &'a [[f64; 4]],
+    rotations: &'a [[f64; 4]],
     time_step: f64,
     positions: &'a [[f64; D]],
     velocities: &'a mut [[f64; D]],
+    next: &'a mut [[f64; D]],
 }
 
 impl<const D: usize> Kernel for Lead<'_, D>
 where
     Dim<D>: RotatedArm<D>,
 {
-    type Output = ();
+    type Output = f64;
 
     #[inline(always)]
-    fn run<L: Lane>(self) {
-        let Self { skins, next, time_step, positions, velocities } = self;
-        let rate = 1.0 / time_step;
+    fn run<L: Lane>(self) -> f64 {
+        let Self { skins, rotations, time_step, positions, velocities, next } = self;
+        let (rate, mut fastest) = (1.0 / time_step, 0.0);
         for owners in skins.owners.chunks(BATCH) {
             let mut numbers = [[0.0; 4]; BATCH];
             for (lane, owner) in owners.iter().enumerate() {
-                numbers[lane] = next[owner.place as usize];
+                numbers[lane] = rotations[owner.place as usize];
             }
             let mut turns = [[Batch::default(); D]; D];
             for at in (0..BATCH).step_by(L::WIDTH) {
@@ -147,20 +165,28 @@ where
                     }
                 }
             }
+            // One by one: to bring them side by side takes longer.
             for (lane, owner) in owners.iter().enumerate() {
-                let (x, v) = (positions[owner.node as usize], velocities[owner.node as usize]);
+                let (centre, of_centre) = (positions[owner.node as usize], velocities[owner.node as usize]);
                 for own in owner.from as usize..owner.to as usize {
                     let (node, arm) = (skins.first + own, skins.nodes[own].arm);
-                    let mut new = [0.0; D];
+                    let (x, mut v, mut there) = (positions[node], of_centre, positions[node]);
+                    let mut square = 0.0;
                     for i in 0..D {
+                        let mut turned = 0.0;
                         for k in 0..D {
-                            new[i] += turns[i][k].0[lane] * arm[k];
+                            turned += turns[i][k].0[lane] * arm[k];
                         }
+                        v[i] += rate * (turned - (x[i] - centre[i]));
+                        there[i] += time_step * v[i];
+                        square += v[i] * v[i];
                     }
-                    velocities[node] = plus(v, times(rate, minus(new, minus(positions[node], x))));
+                    (velocities[node], next[node]) = (v, there);
+                    fastest = if square > fastest { square } else { fastest };
                 }
             }
         }
+        fastest
     }
 }
 

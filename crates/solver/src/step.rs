@@ -283,7 +283,7 @@ where
     /// x^{n+1} = x^n + dt^n v^{n+1/2}.
     fn move_nodes(&mut self) {
         let dt = self.time_step;
-        // The velocity update has moved the free ones already.
+        // The velocity update has moved those that are free or on faces already.
         for node in self.groups.held_nodes(self.positions.len()) {
             self.positions_old[node] = plus(self.positions[node], times(dt, self.velocities[node]));
         }
@@ -417,9 +417,10 @@ where
         self.of_bodies = self.bodies.accelerate(steps, &self.contact_forces, &self.positions, &mut self.velocities);
         self.of_bodies += &groups;
         self.of_bodies += &self.rotations.accelerate(steps, &self.damping, &self.bodies, self.level);
-        self.skins.lead(self.rotations.next(), time_step, &self.positions, &mut self.velocities, self.level);
+        let (positions, velocities, next) = (&self.positions, &mut self.velocities, &mut self.positions_old);
+        let of_faces = self.skins.lead(self.rotations.next(), time_step, positions, velocities, next, self.level);
         self.time_step = time_step;
-        self.speed = self.largest_speed();
+        self.speed = self.largest_speed(of_faces);
     }
 
     /// Enters the step in the ledger and checks that the run is still worth continuing.
@@ -475,12 +476,12 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Dimension<D>,
 {
-    /// Largest |v^{n+1/2}|, m/s.
-    fn largest_speed(&self) -> f64 {
+    /// Largest |v^{n+1/2}|, m/s, with the square of that of what faces of shells lead.
+    fn largest_speed(&self, of_faces: f64) -> f64 {
         let free = self.sums.iter().map(|sums| sums.speed_squared);
         let square = |node: usize| dot(self.velocities[node], self.velocities[node]);
         let held = self.groups.held_nodes(self.velocities.len()).map(square);
-        reductions::max(free.chain(held)).sqrt()
+        reductions::max(free.chain(held).chain([of_faces])).sqrt()
     }
 
     /// Finds the nodes that nothing holds.
@@ -494,7 +495,7 @@ where
                 && joins.of_node(number).is_none()
                 && bodies.of_node(number).is_none()
         };
-        self.groups = Groups::new(self.mass.len(), is_free);
+        self.groups = Groups::new(self.mass.len(), is_free, |nodes| skins.leads(nodes));
     }
 
     /// Finds the nodes on the faces of shells, which their middles lead.

@@ -3,7 +3,10 @@
 
 use crate::material;
 use crate::mesh::cell::CellKind;
-use crate::model::{Contact, Cuboid, Friction, Interface, Material, Model, Output, Part, Partners, Rectangle, Run, Shape};
+use crate::model::{
+    Contact, Cuboid, Friction, Interface, Line, Material, Model, Output, Part, Partners, Profile, RECTANGLE, Rectangle, Run, Shape,
+    ShellSection, SpaceTruss,
+};
 
 /// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of
 /// its stiffness.
@@ -127,6 +130,30 @@ pub fn spinning_cube(element: &str, law: &str, n: usize) -> Model {
     let size = n as f64 * 1e-3;
     let shape = Cuboid { corner: [-0.5 * size; 3], size: [size; 3], elements: [n; 3], ..Cuboid::default() };
     spinning(element, law, Shape::Cuboid(shape), size)
+}
+
+/// A shell or a beam of about so many elements of 1 mm that spins and touches nothing: `shell2` and `beam2`
+/// are a straight strip, `shell4` a square plate. Half a millimetre thick (a beam one millimetre wide), with
+/// so many points through the thickness (fibres along each side).
+#[must_use]
+pub fn spinning_sheet(element: &str, law: &str, elements: usize, points: usize) -> Model {
+    let is_line = ["shell2", "beam2"].contains(&element);
+    let n = if is_line { elements } else { (elements as f64).sqrt() as usize };
+    let half = 0.5e-3 * n as f64;
+    let shape = match element {
+        "shell2" => Shape::Line(Line { points: vec![[-half, 0.0], [half, 0.0]], radius: 0.0, closed: false, elements: n }),
+        "beam2" => Shape::SpaceTruss(SpaceTruss { lines: vec![vec![[-half, 0.0, 0.0], [half, 0.0, 0.0]]], elements: n }),
+        _ => Shape::Rectangle(Rectangle { corner: [-half; 2], size: [2.0 * half; 2], elements: [n, n], ..Rectangle::default() }),
+    };
+    let mut model = spinning(element, law, shape, 2.0 * half);
+    let part = &mut model.parts[0];
+    if element == "beam2" {
+        let (width, height) = (Some(1e-3), Some(0.5e-3));
+        part.profile = Some(Profile { shape: RECTANGLE.into(), width, height, points: Some(points), ..Profile::default() });
+    } else {
+        part.section = Some(ShellSection { thickness: 0.5e-3, points, ..ShellSection::default() });
+    }
+    model
 }
 
 /// A body with sides of a `size`, m, about the origin.

@@ -10,7 +10,7 @@ mod ceilings;
 mod rates;
 
 pub use crate::random::Random;
-pub use bodies::{Patch, contact, material, slabs, spinning_block, spinning_cube, strips};
+pub use bodies::{Patch, contact, material, slabs, spinning_block, spinning_cube, spinning_sheet, strips};
 pub use ceilings::{multiply_add, triad};
 pub use embate_lanes::Level;
 #[cfg(feature = "count")]

@@ -9,7 +9,7 @@
 //!
 //! Nodes have the moment of inertia m α about every axis; α is chosen at the start such that membrane waves
 //! alone set the stable step, which so does not depend on the thickness. An element that has failed neither
-//! is strained nor pulls. Strips of eight batches go through strain, law and forces one after the other, so
+//! is strained nor pulls. Strips of a few batches go through strain, law and forces one after the other, so
 //! that what passes between stays in the first-level cache.
 //!
 //! [`points::layer`]: crate::material::points::layer
@@ -20,9 +20,11 @@ mod beam;
 mod bound;
 mod laws;
 mod line;
+mod local;
 mod profile;
 mod quad;
 mod quad_full;
+mod rate;
 mod section;
 mod surface;
 mod triangle;
@@ -39,17 +41,19 @@ use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::material::points::{PointLaw, RESPONSE, Scratch};
 use crate::material::variable::PLASTIC_STRAIN;
 use crate::material::{Family, young_and_poisson};
-use crate::rotations::Rotations;
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use crate::vector::{plus, times};
-use embate_lanes::{BATCH, Batch, Lane};
+use embate_lanes::{BATCH, Batch, Indices, Lane, Moving, VectorSums};
 use laws::{Held, LawOf, Laws, Stiffness};
+use local::{LocalPoints, Pose};
 use profile::Profile;
 use section::Points as Section;
 use std::sync::Mutex;
 
 /// Batches that one task advances.
 const CHUNK: usize = 32;
+/// Batches that go through strain, law and forces together, so that what passes between stays near.
+const STRIP: usize = 2;
 
 /// A tensor of the layers.
 type Tensor<const D: usize, L> = <Dim<D> as Space<D>>::Tensor<L>;
@@ -78,8 +82,10 @@ pub(super) struct Facts {
     components: usize,
     /// K and µ at rest, Pa.
     at_rest: [f64; 2],
-    /// Modulus of a membrane, and shear moduli in the plane and across it, at rest, Pa.
+    /// Modulus of a membrane, and shear moduli in the plane and across it, at rest, Pa; and whether they
+    /// never change.
     moduli: [f64; 3],
+    is_constant: bool,
     /// Whether its layers have laws of their own, and whether none of them grows stiffer than at rest.
     is_layered: bool,
     is_limited: bool,
@@ -120,6 +126,7 @@ impl Facts {
             components: <K::Tensor as SymmetricTensor<f64>>::COMPONENTS,
             at_rest,
             moduli: [0.0; 3],
+            is_constant: false,
             is_layered: false,
             is_limited: false,
             held: Held::isotropic(young_and_poisson(at_rest), at_rest[1]),
@@ -129,6 +136,7 @@ impl Facts {
             [facts.membrane_modulus(bulk, shear), shear, shear]
         };
         facts.moduli = laws.largest(moduli);
+        facts.is_constant = laws.has_constant_stiffness();
         facts
     }
 
@@ -145,6 +153,9 @@ impl Facts {
     /// waves alone K + 4µ/3.
     #[inline(always)]
     fn membrane_modulus<L: Lane>(&self, bulk: L, shear: L) -> L {
+        if self.is_constant {
+            return L::splat(self.moduli[0]);
+        }
         let three = L::splat(3.0);
         if !self.is_isotropic {
             return bulk + L::splat(4.0 / 3.0) * shear;
@@ -199,6 +210,8 @@ pub(super) struct Layers<'a> {
     damped: &'a [Batch],
     /// Thickness at the start, m.
     thickness: &'a Batch,
+    /// See [`Answer::flow`]: of the last step.
+    flow: &'a [Batch; 3],
     /// Number of the first of these points in the history.
     first: usize,
 }
@@ -231,6 +244,7 @@ impl Layers<'_> {
             response: &self.response[number * count * RESPONSE..],
             damped: if self.damped.is_empty() { self.damped } else { &self.damped[number * count * facts.components..] },
             thickness: self.thickness,
+            flow: self.flow,
             first: number * count,
         }
     }
@@ -260,8 +274,6 @@ pub(super) struct Strains<'a> {
     thickness: [&'a Batch; 2],
     /// Time β of the damping in proportion to the stiffness over the step; 0: none.
     damping: f64,
-    /// See [`Answer::flow`].
-    flow: &'a [Batch; 3],
     /// 1: it is there.
     live: &'a Batch,
 }
@@ -280,7 +292,6 @@ impl Strains<'_> {
             rotation: &mut self.rotation[number * count * turn..],
             thickness: self.thickness,
             damping: self.damping,
-            flow: self.flow,
             live: self.live,
         }
     }
@@ -317,6 +328,10 @@ where
     const NODES: usize;
     /// Batches that are kept of an element.
     const STATE: usize;
+    /// Batches that pass from strain to forces in a step.
+    const PASSED: usize = 0;
+    /// What it knows of the rotation of a node.
+    const POSE: Pose;
     /// Points in the plane, each with all layers.
     const PLANES: usize = 1;
     /// Whether the material of a layer may rotate against the frame of its element.
@@ -327,17 +342,30 @@ where
     fn directions(connectivity: &[u32], positions: &[[f64; D]], fold: f64) -> Vec<[f64; D]>;
     /// An element at the start.
     fn start(facts: &Facts, positions: &[[f64; D]], directions: &[[f64; D]], thickness: f64) -> Start;
-    /// Strains the layers, and keeps what forces need.
-    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, D>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize);
+    /// Strains the layers, and keeps or passes on what forces need.
+    fn strain<L: Lane>(
+        facts: &Facts,
+        corners: &Corners<'_, D>,
+        state: &mut [Batch],
+        passed: &mut [Batch],
+        strains: &mut Strains<'_>,
+        at: usize,
+    );
     /// Forces and moments of the stresses; `inertia` is that of a corner by its mass, m².
     fn forces<L: Lane>(
         facts: &Facts,
-        state: &[Batch],
+        state: &mut [Batch],
+        passed: &[Batch],
         layers: &Layers<'_>,
         inertia: L,
         pulls: &mut Pulls<'_, L, D>,
         at: usize,
     ) -> Answer<L>;
+    /// [`Answer::resultants`] of a lane, from what is kept alone.
+    fn resultants(facts: &Facts, state: &[Batch], layers: &Layers<'_>, lane: usize) -> [f64; SHELL_VALUES] {
+        let mut pulls = Pulls { forces: &mut [[0.0; D]; CORNERS], moments: &mut [[0.0; 3]; CORNERS], there: true };
+        Self::forces::<f64>(facts, &mut state.to_vec(), &vec![Batch::default(); Self::PASSED], layers, 1.0, &mut pulls, lane).resultants
+    }
     /// Stress of an elastic body with K and µ (Pa) that is strained like a layer, Pa.
     fn elastic<L: Lane>(facts: &Facts, strain: &[Batch], stiffness: [L; 2], at: usize) -> [L; 6];
     /// A stress in the frame of an element (at one of its points in the plane), in that of the model: xx yy
@@ -345,41 +373,53 @@ where
     fn turned(state: &[Batch], stress: [f64; 6], plane: usize, lane: usize) -> [f64; 6];
 }
 
-/// Positions of the nodes of a batch of elements, corner by corner, and their rotations (see
-/// [`Rotations::numbers_at`]).
+/// Corners of an element, at most.
+const CORNERS: usize = 4;
+
+/// The corners of a batch of elements among the points of their chunk.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corners<'a, const D: usize> {
-    positions: &'a [[[f64; D]; BATCH]],
-    rotations: &'a [[[f64; 4]; BATCH]],
+    points: &'a Moving<4>,
+    places: &'a Indices,
+    /// Row of the first of them.
+    row: usize,
 }
 
 impl<const D: usize> Corners<'_, D> {
+    /// Position of a corner, and its [`Pose`].
     #[inline(always)]
     fn of<L: Lane>(&self, corner: usize, at: usize) -> ([L; D], [L; 4]) {
-        (L::load_points(&self.positions[corner], at), L::load_points(&self.rotations[corner], at))
+        let (mut position, zero) = ([L::splat(0.0); D], L::splat(0.0));
+        if D == 2 {
+            let [[x, y, angle, _]] = L::gather_one::<4, 1, false>(self.points, self.places, self.row + corner, at);
+            (position[0], position[1]) = (x, y);
+            return (position, [angle, zero, zero, zero]);
+        }
+        let [own, pose] = L::gather::<4>(self.points, self.places, self.row + corner, at);
+        position.copy_from_slice(&own[..D]);
+        (position, pose)
     }
 }
 
 /// Forces and moments of a batch of elements, corner by corner.
 #[derive(Debug)]
 pub(super) struct Pulls<'a, L: Lane, const D: usize> {
-    forces: &'a mut [[[f64; D]; BATCH]],
-    moments: &'a mut [[[f64; 3]; BATCH]],
+    forces: &'a mut [[L; D]; CORNERS],
+    moments: &'a mut [[L; 3]; CORNERS],
     /// What is not there does not pull.
     there: L::Mask,
 }
 
 impl<L: Lane, const D: usize> Pulls<'_, L, D> {
     #[inline(always)]
-    fn put(&mut self, corner: usize, mut force: [L; D], mut moment: [L; 3], at: usize) {
+    fn put(&mut self, corner: usize, mut force: [L; D], mut moment: [L; 3]) {
         for d in 0..D {
             force[d] = L::select(self.there, force[d], L::splat(0.0));
         }
         for d in 0..3 {
             moment[d] = L::select(self.there, moment[d], L::splat(0.0));
         }
-        L::store_points(force, &mut self.forces[corner], at);
-        L::store_points(moment, &mut self.moments[corner], at);
+        (self.forces[corner], self.moments[corner]) = (force, moment);
     }
 }
 
@@ -423,16 +463,16 @@ impl Persist for ShellBatch {
 
 /// Room of a thread.
 #[derive(Debug, Default)]
-struct Room<const D: usize> {
-    positions: Vec<[[f64; D]; BATCH]>,
-    rotations: Vec<[[f64; 4]; BATCH]>,
+struct Room {
+    points: Moving<4>,
+    /// Forces and moments on them; in 2D the first alone, with the moment as the third value.
+    sums: [VectorSums<3>; 2],
+    passed: Vec<Batch>,
     strain: Vec<Batch>,
     ratio: Vec<Batch>,
     rotation: Vec<Batch>,
     volume: Vec<Batch>,
     response: Vec<Batch>,
-    forces: Vec<[[f64; D]; BATCH]>,
-    moments: Vec<[[f64; 3]; BATCH]>,
     law: Scratch,
 }
 
@@ -448,10 +488,12 @@ pub(super) struct Shells<K, const D: usize> {
     /// Share of failed points with which an element fails.
     failed_share: f64,
     count: usize,
-    /// Nodes of the elements: the slots of forces and moments.
-    slots: Vec<u32>,
-    /// Where each is among the nodes that rotate.
-    places: Vec<u32>,
+    /// Nodes of the chunks: the slots of forces and moments.
+    local: LocalPoints,
+    /// Whether elements may fail; then forces and moments of each corner, else one batch per chunk, which
+    /// stands for nothing.
+    keeps_forces: bool,
+    kept: Vec<Batch>,
     state: Vec<Batch>,
     elements: Vec<ShellBatch>,
     /// Mass of each corner, kg/m (kg), and initial volume of each element, m² (m³).
@@ -467,7 +509,7 @@ pub(super) struct Shells<K, const D: usize> {
     rotation: Vec<Batch>,
     heat: Vec<Batch>,
     reports: Vec<Report>,
-    rooms: Vec<Mutex<Room<D>>>,
+    rooms: Vec<Mutex<Room>>,
     kernel: std::marker::PhantomData<K>,
 }
 
@@ -509,7 +551,7 @@ where
         let batches = count.div_ceil(BATCH);
         let scratch = |width: usize| vec![Batch::default(); batches * width];
         let turn = <<K::Tensor as SymmetricTensor<f64>>::Rotation as Turn<f64>>::COMPONENTS;
-        let mut rotation = vec![Batch::default(); super::strip::STRIP * points * turn];
+        let mut rotation = vec![Batch::default(); STRIP * points * turn];
         for point in rotation.chunks_exact_mut(turn) {
             (0..BATCH).for_each(|lane| <<K::Tensor as SymmetricTensor<f64>>::Rotation as Turn<f64>>::none().store(point, lane));
         }
@@ -520,8 +562,9 @@ where
             damping: input.damping,
             failed_share,
             count,
-            slots: input.connectivity.to_vec(),
-            places: vec![u32::MAX; input.connectivity.len()],
+            local: LocalPoints::default(),
+            keeps_forces: false,
+            kept: vec![Batch::default(); batches.div_ceil(CHUNK)],
             state: scratch(K::STATE),
             elements: vec![ShellBatch::default(); batches],
             corner_mass: Vec::with_capacity(input.connectivity.len()),
@@ -531,7 +574,7 @@ where
             damped,
             marks: Vec::new(),
             rotation,
-            heat: vec![Batch::default(); super::strip::STRIP * points],
+            heat: vec![Batch::default(); STRIP * points],
             reports: vec![Report::NOTHING; batches.div_ceil(CHUNK)],
             rooms: vec![Mutex::default()],
             kernel: std::marker::PhantomData,
@@ -546,6 +589,7 @@ where
         let own =
             input.directions.is_empty().then(|| K::directions(input.connectivity, input.positions, crate::angle::cos_sin(fold_angle)[0]));
         let directions = own.as_deref().unwrap_or(input.directions);
+        self.local = LocalPoints::new(input.connectivity, K::NODES, if matches!(K::POSE, Pose::Director) { directions } else { &[] });
         let stored = self.laws.first().stored();
         for (element, nodes) in input.connectivity.chunks_exact(K::NODES).enumerate() {
             let (batch, lane) = (element / BATCH, element % BATCH);
@@ -582,15 +626,6 @@ where
         }
     }
 
-    /// Where nodes are among those that rotate: as in the step before, in most.
-    fn find_places(&mut self, rotations: &Rotations) {
-        for (place, node) in self.places.iter_mut().zip(&self.slots) {
-            if rotations.nodes.get(*place as usize) != Some(node) {
-                *place = rotations.place(*node).map_or(u32::MAX, |place| place as u32);
-            }
-        }
-    }
-
     fn joined(&self) -> Report {
         Report::joined(self.reports.iter().copied())
     }
@@ -614,6 +649,7 @@ where
             response,
             damped: &[],
             thickness: &self.elements[batch].thickness_initial,
+            flow: &self.elements[batch].flow,
             first: 0,
         }
     }

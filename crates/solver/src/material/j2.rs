@@ -12,7 +12,7 @@
 use super::hardening::{Flow, Hardening, Linear, Ludwik, Rate, StoredFlow, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{
-    Family, History, Kinematics, Law, LawKind, Layer, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable,
+    Family, Fibre, History, Kinematics, Law, LawKind, Layer, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable,
     young_and_poisson,
 };
 use crate::tensor::SymmetricTensor;
@@ -128,30 +128,10 @@ impl<H: Hardening> Law for J2With<H> {
         let yields = (flow * flow).less(a + b);
         let (mut of_sum, mut of_rest, mut gamma, mut grown) = (one, one, zero, zero);
         if L::any(yields) {
-            let (of_a, of_b) = (L::splat(young / (3.0 * (1.0 - poisson))), twice);
-            let size = (a + b).sqrt();
-            let high = L::splat(1e13 / (2.0 * self.shear).min(young / (3.0 * (1.0 - poisson))));
-            let mut newton = Newton::new(zero, high, size, yields);
-            let (mut end, mut step) = ([flow, slope], zero);
-            for _ in 0..LIMIT {
-                let gamma = newton.at;
-                let (p, r) = (one / (one + of_a * gamma), one / (one + of_b * gamma));
-                let (part_a, part_b) = (a * p * p, b * r * r);
-                let q = (part_a + part_b).sqrt();
-                let q_slope = -((of_a * part_a * p + of_b * part_b * r) / q);
-                step = L::splat(2.0 / 3.0) * gamma * q;
-                let now = self.hardening.flow(plastic + step);
-                end = [now.stress, now.slope];
-                let change = q_slope - now.slope * L::splat(2.0 / 3.0) * (q + gamma * q_slope);
-                if !newton.next(q - now.stress, change) {
-                    break;
-                }
-            }
-            gamma = newton.at;
-            (of_sum, of_rest) = (one / (one + of_a * gamma), one / (one + of_b * gamma));
-            step = L::select(yields, step, zero);
-            grown = step;
-            *state = ([plastic + step], H::StoredFlow::new([L::select(yields, end[0], flow), L::select(yields, end[1], slope)]));
+            let of = [young / (3.0 * (1.0 - poisson)), 2.0 * self.shear];
+            let (found, end) = self.yielded([a, b], of, plastic, [flow, slope], yields);
+            [of_sum, of_rest, gamma, grown] = found;
+            *state = ([plastic + grown], H::StoredFlow::new(end));
         }
         let (sum, difference) = (sum * of_sum, difference * of_rest);
         let stress =
@@ -173,12 +153,107 @@ impl<H: Hardening> Law for J2With<H> {
         Layer { stress, across, dissipated }
     }
 
+    fn has_fibre(&self) -> bool {
+        self.rate.is_none()
+    }
+
+    /// As [`Law::layer`] with σ₂₂ = σ₃₃ = 0: σ₁₁ is that of the elastic trial over 1 + ⅔ E Δγ. Without shear
+    /// stress and with linear hardening Δε_p = (|σ₁₁| − σ_y)/(E + H).
+    #[inline(always)]
+    fn fibre<L: Lane, T: SymmetricTensor<L>>(&self, strain: [L; 2], old: [L; 2], state: &mut Self::State<L, T>) -> Fibre<L> {
+        let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
+        let [young, poisson] = young_and_poisson([self.bulk, self.shear]);
+        let (along, beside) = (old[0] + L::splat(young) * strain[0], old[1] + L::splat(2.0 * self.shear) * strain[1]);
+        let ([plastic], kept) = *state;
+        let [flow, slope] = kept.flow(&self.hardening, plastic);
+        let (a, b) = (along * along, L::splat(3.0) * beside * beside);
+        let yields = (flow * flow).less(a + b);
+        let (mut of_along, mut of_rest, mut grown) = (one, one, zero);
+        if L::any(yields) {
+            let sheared = zero.less(b);
+            let modulus = self.hardening.modulus();
+            let mut end = [flow, slope];
+            if let Some(modulus) = modulus {
+                let step = (along.abs() - flow) * L::splat(1.0 / (young + modulus));
+                grown = L::select(yields, step, zero);
+                end[0] = flow + L::splat(modulus) * grown;
+                of_along = L::select(yields, one - L::splat(young) * step / along.abs(), one);
+            }
+            if modulus.is_none() || L::any(sheared) {
+                let (found, newton_end) = self.yielded([a, b], [2.0 / 3.0 * young, 2.0 * self.shear], plastic, [flow, slope], yields);
+                if modulus.is_none() {
+                    [of_along, of_rest, _, grown] = found;
+                    end = newton_end;
+                } else {
+                    of_along = L::select(sheared, found[0], of_along);
+                    of_rest = L::select(sheared, found[1], one);
+                    grown = L::select(sheared, found[3], grown);
+                    end = [L::select(sheared, newton_end[0], end[0]), L::select(sheared, newton_end[1], end[1])];
+                }
+            }
+            *state = ([plastic + grown], H::StoredFlow::new(end));
+        }
+        let stress = [along * of_along, beside * of_rest];
+        // Of the new stress: Δε_p along it is ⅔ Δγ σ₁₁, and what goes across half of that.
+        let plastic_strain = (along - stress[0]) * L::splat(1.0 / young);
+        let mut dissipated = zero;
+        if let Some(modulus) = self.hardening.modulus() {
+            dissipated = (flow + L::splat(0.5 * modulus) * grown) * grown;
+        } else if L::any(yields) {
+            let shear = (beside - stress[1]) * L::splat(0.5 / self.shear);
+            let work = (old[0] + stress[0]) * plastic_strain + L::splat(2.0) * (old[1] + stress[1]) * shear;
+            dissipated = (half * work).max(zero);
+        }
+        let across = -(L::splat(poisson / young) * (stress[0] - old[0])) - half * plastic_strain;
+        Fibre { stress, across, dissipated }
+    }
+
     fn stiffness(&self) -> [f64; 2] {
         [self.bulk, self.shear]
     }
 }
 
 impl<H: Hardening> J2With<H> {
+    /// Of a trial stress with q² = a + b, of which a becomes less by (1 + α Δγ)², b by (1 + β Δγ)²: 1/(1 + α
+    /// Δγ), 1/(1 + β Δγ), Δγ and Δε_p = ⅔ Δγ q, and the flow stress and its slope there.
+    #[inline(always)]
+    fn yielded<L: Lane>(
+        &self,
+        [a, b]: [L; 2],
+        [alpha, beta]: [f64; 2],
+        plastic: L,
+        [flow, slope]: [L; 2],
+        yields: L::Mask,
+    ) -> ([L; 4], [L; 2]) {
+        let (zero, one) = (L::splat(0.0), L::splat(1.0));
+        let (of_a, of_b) = (L::splat(alpha), L::splat(beta));
+        let (both, third) = (a + b, L::splat(2.0 / 3.0));
+        let size = both.sqrt();
+        // The root if both became less alike along a straight flow curve.
+        let start = (size - flow) * both / (flow * (of_a * a + of_b * b) + third * slope.max(zero) * size * both);
+        let mut newton = Newton::new(start, L::splat(1e13 / alpha.min(beta)), size, yields);
+        let (mut end, mut step, mut parts) = ([flow, slope], zero, [one; 2]);
+        for _ in 0..LIMIT {
+            let gamma = newton.at;
+            let (more_a, more_b) = (one + of_a * gamma, one + of_b * gamma);
+            let inverse = one / (more_a * more_b);
+            let (p, r) = (more_b * inverse, more_a * inverse);
+            parts = [p, r];
+            let (part_a, part_b) = (a * p * p, b * r * r);
+            let q = (part_a + part_b).sqrt();
+            let q_slope = -((of_a * part_a * p + of_b * part_b * r) / q);
+            step = third * gamma * q;
+            let now = self.hardening.flow(plastic + step);
+            end = [now.stress, now.slope];
+            let change = q_slope - now.slope * third * (q + gamma * q_slope);
+            if !newton.next(q - now.stress, change) {
+                break;
+            }
+        }
+        let end = [L::select(yields, end[0], flow), L::select(yields, end[1], slope)];
+        ([parts[0], parts[1], newton.at, L::select(yields, step, zero)], end)
+    }
+
     /// Δε_p of q − 3µ Δε_p = σ_y(ε_p + Δε_p), and the flow stress and its slope there.
     #[inline(always)]
     fn step_static<L: Lane>(&self, q: L, plastic: L, [flow, slope]: [L; 2], yields: L::Mask) -> (L, [L; 2]) {

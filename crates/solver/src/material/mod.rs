@@ -113,6 +113,17 @@ pub struct Layer<L> {
     pub dissipated: L,
 }
 
+/// A point under uniaxial stress along 1, and with a shear stress 12 beside it, at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Fibre<L> {
+    /// Cauchy stress 11 and 12, Pa.
+    pub stress: [L; 2],
+    /// Δε₂₂ = Δε₃₃.
+    pub across: L,
+    /// As in [`Layer`].
+    pub dissipated: L,
+}
+
 /// A material law. `update` must be `#[inline(always)]`: it becomes part of the block's kernel.
 pub trait Law: Copy + Send + Sync + 'static {
     /// Name, parameters and source.
@@ -178,6 +189,18 @@ pub trait Law: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn layer<L: Lane, T: SymmetricTensor<L>>(&self, _strain: [L; 6], old: [L; 6], _state: &mut Self::State<L, T>) -> Layer<L> {
         Layer { stress: old, across: L::splat(0.0), dissipated: L::splat(0.0) }
+    }
+
+    /// Whether it knows the stress of a fibre by itself: [`Law::fibre`].
+    fn has_fibre(&self) -> bool {
+        false
+    }
+
+    /// Rate: what [`Law::update`] would give with the strains across at which the stresses across vanish,
+    /// where [`Law::has_fibre`], from Δε₁₁ and Δε₁₂ and the old stresses; see [`Fibre`].
+    #[inline(always)]
+    fn fibre<L: Lane, T: SymmetricTensor<L>>(&self, _strain: [L; 2], old: [L; 2], _state: &mut Self::State<L, T>) -> Fibre<L> {
+        Fibre { stress: old, across: L::splat(0.0), dissipated: L::splat(0.0) }
     }
 
     /// Bulk and shear stiffness at rest, Pa.

@@ -78,6 +78,10 @@ pub trait PointLaw: Send + Sync {
     fn is_stiffest_at_rest(&self) -> bool {
         false
     }
+    /// Whether the stiffness that it reports is that of an isotropic body, and always that at rest.
+    fn has_constant_stiffness(&self) -> bool {
+        false
+    }
     /// Energy stored at the start per initial volume, J/m³: of an equation of state.
     fn stored(&self) -> f64 {
         0.0
@@ -105,6 +109,13 @@ pub trait PointLaw: Send + Sync {
     /// The same of layers without stress in the component `across` (yy or zz), whose strain it finds; the
     /// last of the state of a point is λ across, which follows.
     fn respond_layer(&self, _level: Level, _across: usize, _points: Points<'_>) {}
+    /// Whether it has [`PointLaw::respond_fibre`].
+    fn has_fibre(&self) -> bool {
+        false
+    }
+    /// The same in 2D without stress yy and zz; the last of the state of a point is the ratio of
+    /// cross-sections.
+    fn respond_fibre(&self, _level: Level, _points: Points<'_>) {}
 }
 
 /// The law of a material for points in 2D or 3D, with its equation of state; `None` when one of
@@ -219,6 +230,12 @@ where
     fn respond_layer(&self, level: Level, across: usize, points: Points<'_>) {
         level.run(RespondLayer::<M, D> { law: &self.law, across, points, dimension: PhantomData });
     }
+    fn has_fibre(&self) -> bool {
+        self.law.has_fibre()
+    }
+    fn respond_fibre(&self, level: Level, points: Points<'_>) {
+        level.run(RespondFibre { law: &self.law, points });
+    }
 }
 
 /// The law at many points of layers.
@@ -246,7 +263,10 @@ where
         let Points { strain, stress, state, response, .. } = self.points;
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let inner = <M::State<L, Tensor<D, L>> as State<L>>::COUNT;
-        let [bulk, shear] = self.law.stiffness().map(L::splat);
+        // A copy, which no store can change: what follows from it is worked out once.
+        let law = *self.law;
+        let [bulk, shear] = law.stiffness();
+        let [bulk, shear] = [L::splat(bulk), L::splat(shear)];
         let (half, one) = (L::splat(0.5), L::splat(1.0));
         for p in 0..strain.len() / components {
             let strain = &strain[p * components..(p + 1) * components];
@@ -257,7 +277,7 @@ where
                 let strain = as_layer(<Tensor<D, L> as SymmetricTensor<L>>::load(strain, at).components(), self.across);
                 let old = as_layer(<Tensor<D, L> as SymmetricTensor<L>>::load(stress, at).components(), self.across);
                 let mut history = <M::State<L, Tensor<D, L>> as State<L>>::load(state, at);
-                let found = self.law.layer::<L, Tensor<D, L>>(strain, old, &mut history);
+                let found = law.layer::<L, Tensor<D, L>>(strain, old, &mut history);
                 history.store(state, at);
                 let new = found.stress;
                 let mut work = (old[0] + new[0]) * strain[0] + (old[1] + new[1]) * strain[1];
@@ -270,6 +290,55 @@ where
                 let (before, change) = (L::load(&thickness[0], at), half * found.across);
                 let after = before * (one + change) / (one - change);
                 after.store(&mut thickness[0], at);
+                let mean = half * (before + after);
+                (work * mean).store(&mut out[0], at);
+                (found.dissipated * mean).store(&mut out[1], at);
+                bulk.store(&mut out[2], at);
+                shear.store(&mut out[3], at);
+            }
+        }
+    }
+}
+
+/// The law at many points in 2D under uniaxial stress.
+struct RespondFibre<'a, M> {
+    law: &'a M,
+    points: Points<'a>,
+}
+
+impl<M: Law> Kernel for RespondFibre<'_, M> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lane>(self) {
+        const XX: usize = 0;
+        const XY: usize = 3;
+        let Points { strain, stress, state, response, .. } = self.points;
+        let inner = <M::State<L, Plane<L>> as State<L>>::COUNT;
+        // A copy, which no store can change: what follows from it is worked out once.
+        let law = *self.law;
+        let [bulk, shear] = law.stiffness();
+        let [bulk, shear] = [L::splat(bulk), L::splat(shear)];
+        let (zero, half, one) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
+        for p in 0..strain.len() / PLANE {
+            let strain = &strain[p * PLANE..(p + 1) * PLANE];
+            let stress = &mut stress[p * PLANE..(p + 1) * PLANE];
+            let (state, section) = state[p * (inner + 1)..(p + 1) * (inner + 1)].split_at_mut(inner);
+            let out = &mut response[p * RESPONSE..(p + 1) * RESPONSE];
+            for at in (0..BATCH).step_by(L::WIDTH) {
+                let strain = [L::load(&strain[XX], at), L::load(&strain[XY], at)];
+                let old = [L::load(&stress[XX], at), L::load(&stress[XY], at)];
+                let mut history = <M::State<L, Plane<L>> as State<L>>::load(state, at);
+                let found = law.fibre::<L, Plane<L>>(strain, old, &mut history);
+                history.store(state, at);
+                let new = found.stress;
+                let beside = (old[1] + new[1]) * strain[1];
+                let work = (old[0] + new[0]) * strain[0] + (beside + beside);
+                Plane([new[0], zero, zero, new[1]]).store(stress, at);
+                let (before, change) = (L::load(&section[0], at), half * found.across);
+                let factor = (one + change) / (one - change);
+                let after = before * (factor * factor);
+                after.store(&mut section[0], at);
                 let mean = half * (before + after);
                 (work * mean).store(&mut out[0], at);
                 (found.dissipated * mean).store(&mut out[1], at);

@@ -10,20 +10,23 @@ use crate::energy::Sums;
 use crate::tensor::Dim;
 use crate::vector::{dot, plus, times};
 use embate_lanes::{BATCH, Batch, Kernel, Lane};
+use std::ops::Range;
 
 /// The groups of eight nodes.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Groups {
     /// Whether all nodes of each full group are free.
     pub(crate) free: Vec<bool>,
-    /// The others, ascending, the last one if it is not full.
+    /// The others, ascending, the last one if it is not full, but for those on faces of shells.
     pub(crate) held: Vec<u32>,
 }
 
 impl Groups {
-    pub(crate) fn new(nodes: usize, is_free: impl Fn(usize) -> bool) -> Self {
+    /// Of so many nodes; groups on faces of shells alone move with the middles of these.
+    pub(crate) fn new(nodes: usize, is_free: impl Fn(usize) -> bool, are_on_faces: impl Fn(Range<usize>) -> bool) -> Self {
         let free: Vec<bool> = (0..nodes / BATCH).map(|group| (group * BATCH..(group + 1) * BATCH).all(&is_free)).collect();
-        let held = (0..nodes.div_ceil(BATCH)).filter(|&group| free.get(group) != Some(&true)).map(|group| group as u32).collect();
+        let is_held = |&group: &usize| free.get(group) != Some(&true) && !are_on_faces(group * BATCH..((group + 1) * BATCH).min(nodes));
+        let held = (0..nodes.div_ceil(BATCH)).filter(is_held).map(|group| group as u32).collect();
         Self { free, held }
     }
 

@@ -197,7 +197,7 @@ where
         let mut sums = self.level.run(Free { nodes: self, first, velocities: &mut *velocities, positions_next });
         for (group, velocities) in velocities.chunks_mut(BATCH).enumerate() {
             let first = first + group * BATCH;
-            if self.free.get(first / BATCH) == Some(&true) {
+            if self.free.get(first / BATCH) == Some(&true) || self.skins.leads(first..first + velocities.len()) {
                 continue;
             }
             for (node, v) in (first..).zip(velocities) {

@@ -47,19 +47,22 @@ pub(crate) struct NodalRotations {
     assembly: Assembly,
     /// Rigid body of each; `u32::MAX`: none.
     bodies: Vec<u32>,
-    /// Those that no body leads, alone or joined.
+    /// Those that no body leads and that are held or joined.
     groups: Vec<Group>,
     /// Moments of loads on them, and their sum now, N (N m); empty without.
     loads: Vec<MomentLoad>,
     now_loads: Vec<[f64; 3]>,
     /// Moments of contact forces in the coming update, N (N m); empty without.
     contact: Vec<[f64; 3]>,
-    /// Group of each; `u32::MAX`: a body leads it.
+    /// Group of each; [`ALONE`]: nothing holds or joins it; `u32::MAX`: a body leads it.
     group_of: Vec<u32>,
-    /// Which eights of places nothing holds, joins or leads, and the groups of all other places.
+    /// Which eights of places are alone, and the places that are so in others.
     free: Vec<bool>,
-    others: Vec<u32>,
+    lone: Vec<u32>,
 }
+
+/// Stands for the group of a place that is in none.
+const ALONE: u32 = u32::MAX - 1;
 
 /// A moment that acts on nodes.
 #[derive(Clone, Debug)]
@@ -71,7 +74,7 @@ struct MomentLoad {
     curve: Option<usize>,
 }
 
-/// Nodes that rotate as one, or one alone.
+/// Nodes that rotate as one, or one that is held.
 #[derive(Clone, Debug)]
 struct Group {
     /// Place of each, and its rotation from the first one, which leads.
@@ -98,7 +101,7 @@ impl Persist for NodalRotations {
             contact: _,
             group_of: _,
             free: _,
-            others: _,
+            lone: _,
         } = self;
         let Rotations { nodes: _, angles, attitudes, spins } = now;
         persist_each!(archive; &mut angles[..], &mut attitudes[..], &mut spins[..], &mut spins_old[..]);
@@ -184,17 +187,16 @@ impl NodalRotations {
             let whole = members.iter().map(|&(place, _)| inertia[place]).sum();
             Some(Group { members, inertia: whole, held: Some(held).filter(|held| !held.is_empty()) })
         };
-        let groups: Vec<Group> = alone.chain(joined).filter_map(group).collect();
-        let mut group_of = vec![u32::MAX; count];
+        let groups: Vec<Group> =
+            alone.chain(joined).filter_map(group).filter(|group| group.held.is_some() || group.members.len() > 1).collect();
+        let mut group_of: Vec<u32> = of_bodies.iter().map(|&body| if body == u32::MAX { ALONE } else { u32::MAX }).collect();
         for (number, group) in (0..).zip(&groups) {
             group.members.iter().for_each(|&(place, _)| group_of[place] = number);
         }
-        let is_free =
-            |place: usize| groups.get(group_of[place] as usize).is_some_and(|group| group.members.len() == 1 && group.held.is_none());
-        let free = Eights::new(count, is_free).free;
-        let is_other = |&number: &u32| free.get(groups[number as usize].members[0].0 / BATCH) != Some(&true);
+        let is_alone = |place: usize| group_of[place] == ALONE;
+        let free = Eights::new(count, is_alone, |_| false).free;
         Self {
-            others: (0..groups.len() as u32).filter(is_other).collect(),
+            lone: (0..count).filter(|&place| is_alone(place) && free.get(place / BATCH) != Some(&true)).map(|place| place as u32).collect(),
             free,
             next: vec![[0.0; 4]; count],
             spins_old: now.spins.clone(),
@@ -258,10 +260,27 @@ impl NodalRotations {
     /// ω^{n−½}, ω^{n+½} without contact, and its change per moment of contact, of the first place of a group;
     /// Δt is `mean_step`, a of damping `slowing` at a node.
     pub(super) fn response(&self, place: usize, mean_step: f64, slowing: impl Fn(usize) -> f64) -> ([[f64; 3]; 2], Square<3>) {
-        let spin = self.now.spins[place];
-        let Some(group) = self.groups.get(self.group_of[place] as usize) else { return ([spin; 2], [[0.0; 3]; 3]) };
-        let pull = self.pull(group, &self.now.spins, [false, true], slowing);
+        let (spin, spins, wanted) = (self.now.spins[place], &self.now.spins, [false, true]);
+        let pull = match self.group_of[place] {
+            u32::MAX => return ([spin; 2], [[0.0; 3]; 3]),
+            ALONE => self.pull_alone(place, spins, wanted, slowing),
+            group => self.pull(&self.groups[group as usize], spins, wanted, slowing),
+        };
         ([spin, pull.free_velocity(mean_step)], pull.mobility_over(mean_step))
+    }
+
+    /// What pulls on a place that is in no group, as [`NodalRotations::pull`].
+    fn pull_alone(
+        &self,
+        place: usize,
+        spins: &[[f64; 3]],
+        [with_contact, with_loads]: [bool; 2],
+        slowing: impl Fn(usize) -> f64,
+    ) -> Pull<'_, 3> {
+        let of = |list: &[[f64; 3]], wanted: bool| if wanted { list.get(place).copied() } else { None };
+        let moment = self.assembly.force(place, &self.slots);
+        let pulls = [Some(moment), of(&self.contact, with_contact), of(&self.now_loads, with_loads)];
+        Pull::<3>::of_elements(self.inertia[place], spins[place], pulls, slowing(self.now.nodes[place] as usize), None)
     }
 
     /// What pulls on a group that has these spins: of contact and loads as wanted.
@@ -348,7 +367,11 @@ impl NodalRotations {
         std::mem::swap(&mut self.now.spins, &mut self.spins_old);
         let mut spins = std::mem::take(&mut self.now.spins);
         let mut sums = level.run(lanes::Accelerate { rotations: self, dt: mean_step, damping, spins: &mut spins });
-        for group in self.others.iter().map(|&number| &self.groups[number as usize]) {
+        for place in self.lone.iter().map(|&place| place as usize) {
+            let pull = self.pull_alone(place, &self.spins_old, [true, true], |node| damping.factor(node));
+            spins[place] = pull.advance(mean_step, &mut sums);
+        }
+        for group in &self.groups {
             let pull = self.pull(group, &self.spins_old, [true, true], |node| damping.factor(node));
             group.lead(pull.advance(mean_step, &mut sums), &mut spins);
         }

@@ -24,7 +24,6 @@ pub(crate) fn unit(a: Vector) -> Vector {
 /// Elements whose nodes rotate, driven by places and rotations of these.
 pub(crate) struct Driven {
     pub(crate) block: Box<dyn Block<3>>,
-    connectivity: Vec<u32>,
     pub(crate) forces: Vec<Vector>,
     pub(crate) moments: Vec<Vector>,
     pub(crate) positions: Vec<Vector>,
@@ -52,7 +51,6 @@ impl Driven {
         let slots = block.slots().len();
         let report = evaluate_at_rest(block.as_mut(), positions, Level::best());
         Self {
-            connectivity: input.connectivity.to_vec(),
             forces: vec![[0.0; 3]; slots],
             moments: vec![[0.0; 3]; slots],
             positions: positions.to_vec(),
@@ -77,7 +75,7 @@ impl Driven {
     /// Force and moment of each node, summed over its slots.
     pub(crate) fn pulls(&self) -> Vec<f64> {
         let mut all = vec![0.0; 6 * self.positions.len()];
-        for (slot, &node) in self.connectivity.iter().enumerate() {
+        for (slot, &node) in self.block.slots().iter().enumerate().filter(|(_, node)| (**node as usize) < self.positions.len()) {
             for k in 0..3 {
                 all[6 * node as usize + k] += self.forces[slot][k];
                 all[6 * node as usize + 3 + k] += self.moments[slot][k];

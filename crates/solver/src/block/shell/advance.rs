@@ -2,13 +2,14 @@
 //! shared by threads, and their reports joined in order.
 
 use super::laws::Laws;
-use super::{BATCH, Batch, CHUNK, Corners, Facts, Layers, Pulls, Room, ShellBatch, ShellKernel, Shells, Strains};
-use crate::block::strip::{ForEachBatch, Parts, STRIP};
+use super::local::LocalPoints;
+use super::{BATCH, Batch, CHUNK, CORNERS, Corners, Facts, Layers, Pulls, Room, STRIP, ShellBatch, ShellKernel, Shells, Strains};
+use crate::block::strip::{ForEachBatch, Parts};
 use crate::block::{Motion, NodalForces, Report, damping};
 use crate::material::Family;
 use crate::material::points::{Points, RESPONSE};
 use crate::tensor::{Dim, Space};
-use embate_lanes::{Chunks, Lane, Level, Team};
+use embate_lanes::{Chunks, Indices, Lane, Level, Moving, Team, VectorSums};
 use std::marker::PhantomData;
 use std::sync::{Mutex, PoisonError};
 
@@ -18,8 +19,12 @@ struct Strain<'a, K, const D: usize> {
     points: usize,
     /// β over the step; 0: none.
     damping: f64,
-    corners: Corners<'a, D>,
+    points_now: &'a Moving<4>,
+    places: &'a Indices,
+    /// The first batch of the strip in the block.
+    first: usize,
     state: &'a mut [Batch],
+    passed: &'a mut [Batch],
     elements: &'a [ShellBatch],
     stress: &'a mut [Batch],
     rotation: &'a mut [Batch],
@@ -51,12 +56,11 @@ where
             rotation: &mut self.rotation[points.start * turn..points.end * turn],
             thickness: [&own.thickness, &own.thickness_initial],
             damping: self.damping,
-            flow: &own.flow,
             live: &own.live,
         };
-        let nodes = batch * K::NODES..(batch + 1) * K::NODES;
-        let corners = Corners { positions: &self.corners.positions[nodes.clone()], rotations: &self.corners.rotations[nodes] };
-        K::strain::<L>(self.facts, &corners, &mut self.state[batch * K::STATE..][..K::STATE], &mut strains, at);
+        let corners = Corners::<D> { points: self.points_now, places: self.places, row: (self.first + batch) * K::NODES };
+        let state = &mut self.state[batch * K::STATE..][..K::STATE];
+        K::strain::<L>(self.facts, &corners, state, &mut self.passed[batch * K::PASSED..][..K::PASSED], &mut strains, at);
     }
 }
 
@@ -66,7 +70,8 @@ struct Pull<'a, K, const D: usize> {
     points: usize,
     /// β and the step, s.
     damping: [f64; 2],
-    state: &'a [Batch],
+    state: &'a mut [Batch],
+    passed: &'a [Batch],
     stress: &'a mut [Batch],
     damped: &'a mut [Batch],
     history: &'a [Batch],
@@ -74,8 +79,12 @@ struct Pull<'a, K, const D: usize> {
     strain: &'a [Batch],
     volume: &'a [Batch],
     elements: &'a mut [ShellBatch],
-    forces: &'a mut [[[f64; D]; BATCH]],
-    moments: &'a mut [[[f64; 3]; BATCH]],
+    places: &'a Indices,
+    /// The first batch of the strip in the block.
+    first: usize,
+    sums: &'a mut [VectorSums<3>; 2],
+    /// Empty: forces are not kept.
+    kept: &'a mut [Batch],
     kernel: PhantomData<K>,
 }
 
@@ -130,13 +139,19 @@ where
             response: &self.response[points.start * RESPONSE..points.end * RESPONSE],
             damped,
             thickness: &own.thickness_initial,
+            flow: &own.flow,
             first: 0,
         };
-        let state = &self.state[batch * K::STATE..][..K::STATE];
-        let there = L::splat(0.5).less(L::load(&own.live, at));
-        let nodes = batch * K::NODES..(batch + 1) * K::NODES;
-        let mut pulls = Pulls { forces: &mut self.forces[nodes.clone()], moments: &mut self.moments[nodes], there };
-        let answer = K::forces::<L>(self.facts, state, &layers, L::load(&own.inertia, at), &mut pulls, at);
+        let state = &mut self.state[batch * K::STATE..][..K::STATE];
+        let passed = &self.passed[batch * K::PASSED..][..K::PASSED];
+        let (zero, there) = (L::splat(0.0), L::splat(0.5).less(L::load(&own.live, at)));
+        let (mut forces, mut moments) = ([[zero; D]; CORNERS], [[zero; 3]; CORNERS]);
+        let mut pulls = Pulls { forces: &mut forces, moments: &mut moments, there };
+        let answer = K::forces::<L>(self.facts, state, passed, &layers, L::load(&own.inertia, at), &mut pulls, at);
+        add(&forces, &moments, K::NODES, self.sums, self.places, [(self.first + batch) * K::NODES, at]);
+        if !self.kept.is_empty() {
+            keep(&forces, &moments, &mut self.kept[batch * K::NODES * (D + 3)..][..K::NODES * (D + 3)], at);
+        }
         // dt = 2/ω.
         let squared = L::splat(4.0) * L::load(&own.mass_least, at) / answer.stiffness;
         let squared = damping::step_squared(squared, self.damping[0]);
@@ -192,8 +207,8 @@ struct Common<'a, const D: usize> {
     needs_rotation: bool,
     facts: &'a Facts,
     damping: f64,
-    slots: &'a [u32],
-    places: &'a [u32],
+    local: &'a LocalPoints,
+    keeps_forces: bool,
     rotation: &'a [Batch],
     heat: &'a [Batch],
     motion: &'a Motion<'a, D>,
@@ -202,13 +217,13 @@ struct Common<'a, const D: usize> {
 
 /// What one task advances.
 struct Chunk<'a, const D: usize> {
-    /// Its first batch.
-    first: usize,
+    index: usize,
     state: &'a mut [Batch],
     elements: &'a mut [ShellBatch],
     stress: &'a mut [Batch],
     damped: &'a mut [Batch],
     history: &'a mut [Batch],
+    kept: &'a mut [Batch],
     forces: &'a mut [[f64; D]],
     moments: &'a mut [[f64; 3]],
 }
@@ -219,7 +234,8 @@ where
 {
     pub(super) fn advance_all(&mut self, motion: &Motion<'_, D>, level: Level, pulls: NodalForces<'_, D>, team: &mut Team) {
         let (points, components, width) = (self.points(), self.facts.components, self.facts.width);
-        let nodes = CHUNK * BATCH * K::NODES;
+        let slots = self.local.width();
+        let kept_size = if self.keeps_forces { CHUNK * K::NODES * (D + 3) } else { 1 };
         while self.rooms.len() < team.threads() {
             self.rooms.push(Mutex::default());
         }
@@ -229,8 +245,8 @@ where
             needs_rotation: !self.laws.all(|law| !law.needs_rotation()),
             facts: &self.facts,
             damping: self.damping,
-            slots: &self.slots,
-            places: &self.places,
+            local: &self.local,
+            keeps_forces: self.keeps_forces,
             rotation: &self.rotation,
             heat: &self.heat,
             motion,
@@ -243,45 +259,47 @@ where
             Chunks::new(&mut self.stress, CHUNK * points * components),
             Chunks::new(&mut self.damped, damped_size),
             Chunks::new(&mut self.history, CHUNK * width),
-            Chunks::new(pulls.forces, nodes),
-            Chunks::new(pulls.moments, nodes),
+            Chunks::new(&mut self.kept, kept_size),
+            Chunks::new(pulls.forces, slots),
+            Chunks::new(pulls.moments, slots),
             Chunks::new(&mut self.reports, 1),
         );
-        team.each(lists, |index, member, (state, elements, stress, damped, history, forces, moments, report)| {
+        team.each(lists, |index, member, (state, elements, stress, damped, history, kept, forces, moments, report)| {
             let mut room = rooms[member].lock().unwrap_or_else(PoisonError::into_inner);
             let first = index * CHUNK;
-            let mut chunk = Chunk { first, state, elements, stress, damped, history, forces, moments };
+            let mut chunk = Chunk { index, state, elements, stress, damped, history, kept, forces, moments };
             Self::advance_chunk(&common, &mut chunk, &mut room);
             let marks = marks.get(first..(first + chunk.elements.len()).min(marks.len())).unwrap_or_default();
             report[0] = summed(chunk.elements, marks);
         });
     }
 
-    fn advance_chunk(common: &Common<'_, D>, chunk: &mut Chunk<'_, D>, room: &mut Room<D>) {
-        let Common { facts, motion, level, .. } = *common;
+    fn advance_chunk(common: &Common<'_, D>, chunk: &mut Chunk<'_, D>, room: &mut Room) {
+        let Common { facts, motion, level, local, .. } = *common;
         let (points, components, width) = (facts.section.count() * K::PLANES, facts.components, facts.width);
-        let count = chunk.elements.len();
+        let (count, each) = (chunk.elements.len(), K::NODES * (D + 3));
+        local.copy(chunk.index, motion, &mut room.points, level);
+        room.sums.iter_mut().for_each(|sums| sums.clear(local.width()));
         for from in (0..count).step_by(STRIP) {
             let to = (from + STRIP).min(count);
-            let batches = to - from;
-            room.fit::<K>(batches, points, components);
+            let (batches, first) = (to - from, chunk.index * CHUNK + from);
+            room.fit::<K, D>(batches, points, components);
             let turns = if K::ROTATES && common.needs_rotation { common.rotation.len() / STRIP * batches } else { 0 };
             room.rotation.resize(turns, Batch::default());
-            for batch in 0..batches {
-                let nodes = batch * K::NODES..(batch + 1) * K::NODES;
-                Self::gather(common, chunk.first + from + batch, &mut room.positions[nodes.clone()], &mut room.rotations[nodes]);
-            }
             let stress = &mut chunk.stress[from * points * components..to * points * components];
             let history = &mut chunk.history[from * width..to * width];
             let state = &mut chunk.state[from * K::STATE..to * K::STATE];
             let elements = &mut chunk.elements[from..to];
-            let Room { positions, rotations, strain, ratio, rotation, volume, response, forces, moments, law } = &mut *room;
+            let Room { points: points_now, sums, passed, strain, ratio, rotation, volume, response, law } = &mut *room;
             level.run(ForEachBatch(Strain::<K, D> {
                 facts,
                 points,
                 damping: if motion.time_step > 0.0 { common.damping / motion.time_step } else { 0.0 },
-                corners: Corners { positions, rotations },
+                points_now,
+                places: &local.places,
+                first,
                 state: &mut *state,
+                passed: &mut *passed,
                 elements: &*elements,
                 stress: &mut *stress,
                 rotation: &mut *rotation,
@@ -312,6 +330,7 @@ where
                 points,
                 damping: [common.damping, motion.time_step],
                 state,
+                passed,
                 stress,
                 damped,
                 history,
@@ -319,27 +338,37 @@ where
                 strain,
                 volume,
                 elements,
-                forces: &mut *forces,
-                moments: &mut *moments,
+                places: &local.places,
+                first,
+                sums,
+                kept: if common.keeps_forces { &mut chunk.kept[from * each..to * each] } else { &mut [][..] },
                 kernel: PhantomData,
             }));
-            let first = from * BATCH * K::NODES;
-            scatter::<D>(forces, K::NODES, &mut chunk.forces[first..]);
-            scatter::<3>(moments, K::NODES, &mut chunk.moments[first..]);
         }
+        write(&room.sums, chunk.forces, chunk.moments);
     }
 
-    /// The motion of the nodes of a batch; lanes beyond the last element repeat it.
-    fn gather(common: &Common<'_, D>, batch: usize, positions: &mut [[[f64; D]; BATCH]], rotations: &mut [[[f64; 4]; BATCH]]) {
-        let last = common.slots.len() / K::NODES - 1;
-        let corners = positions.iter_mut().zip(rotations);
-        for (corner, (positions, rotations)) in corners.enumerate() {
+    /// Sums again what pulls on the nodes of a chunk, from what is kept of elements that are there.
+    pub(super) fn sum_again(&self, index: usize, pulls: &mut NodalForces<'_, D>) {
+        let (width, each) = (self.local.width(), K::NODES * (D + 3));
+        let mut sums = [VectorSums::default(), VectorSums::default()];
+        sums.iter_mut().for_each(|sums| sums.clear(width));
+        for batch in index * CHUNK..((index + 1) * CHUNK).min(self.elements.len()) {
+            let kept = &self.kept[batch * each..][..each];
             for lane in 0..BATCH {
-                let slot = (batch * BATCH + lane).min(last) * K::NODES + corner;
-                positions[lane] = common.motion.positions[common.slots[slot] as usize];
-                rotations[lane] = common.motion.rotations.numbers_at::<D>(common.places[slot] as usize);
+                let (mut forces, mut moments) = ([[0.0; D]; CORNERS], [[0.0; 3]; CORNERS]);
+                if self.elements[batch].live.0[lane] > 0.0 {
+                    for (own, (force, moment)) in kept.chunks_exact(D + 3).zip(forces.iter_mut().zip(&mut moments)) {
+                        let (first, rest) = own.split_at(D);
+                        force.iter_mut().zip(first).for_each(|(value, batch)| *value = batch.0[lane]);
+                        moment.iter_mut().zip(rest).for_each(|(value, batch)| *value = batch.0[lane]);
+                    }
+                }
+                add::<f64, D>(&forces, &moments, K::NODES, &mut sums, &self.local.places, [batch * K::NODES, lane]);
             }
         }
+        let slots = index * width..(index + 1) * width;
+        write(&sums, &mut pulls.forces[slots.clone()], &mut pulls.moments[slots]);
     }
 
     /// Reports of all chunks from what elements have.
@@ -351,14 +380,59 @@ where
     }
 }
 
-/// Vectors by corners and lanes to slots by elements and corners, as many as there are.
-fn scatter<const D: usize>(from: &[[[f64; D]; BATCH]], corners: usize, slots: &mut [[f64; D]]) {
-    for (batch, slots) in from.chunks_exact(corners).zip(slots.chunks_mut(BATCH * corners)) {
-        for (lane, slots) in slots.chunks_exact_mut(corners).enumerate() {
-            for (slot, corner) in slots.iter_mut().zip(batch) {
-                *slot = corner[lane];
-            }
+/// Adds forces and moments of the corners of a batch to the sums of their points.
+#[inline(always)]
+fn add<L: Lane, const D: usize>(
+    forces: &[[L; D]; CORNERS],
+    moments: &[[L; 3]; CORNERS],
+    corners: usize,
+    [of_forces, of_moments]: &mut [VectorSums<3>; 2],
+    places: &Indices,
+    [row, at]: [usize; 2],
+) {
+    let mut all = [[L::splat(0.0); 3]; CORNERS];
+    for corner in 0..CORNERS {
+        all[corner][2] = moments[corner][2];
+        all[corner][..D].copy_from_slice(&forces[corner]);
+    }
+    scatter(&all, corners, of_forces, places, [row, at]);
+    if D == 3 {
+        scatter(moments, corners, of_moments, places, [row, at]);
+    }
+}
+
+/// The first so many of some vectors to their sums.
+#[inline(always)]
+fn scatter<L: Lane>(vectors: &[[L; 3]; CORNERS], count: usize, sums: &mut VectorSums<3>, places: &Indices, [row, at]: [usize; 2]) {
+    let [a, b, c, d] = *vectors;
+    match count {
+        2 => L::scatter(&[a, b], sums, places, row, at),
+        3 => L::scatter(&[a, b, c], sums, places, row, at),
+        _ => L::scatter(&[a, b, c, d], sums, places, row, at),
+    }
+}
+
+/// Keeps forces and moments of the corners of a batch.
+#[inline(always)]
+fn keep<L: Lane, const D: usize>(forces: &[[L; D]; CORNERS], moments: &[[L; 3]; CORNERS], kept: &mut [Batch], at: usize) {
+    for (corner, own) in kept.chunks_exact_mut(D + 3).enumerate() {
+        for d in 0..D {
+            forces[corner][d].store(&mut own[d], at);
         }
+        for d in 0..3 {
+            moments[corner][d].store(&mut own[D + d], at);
+        }
+    }
+}
+
+/// Sums of the points of a chunk to its slots.
+fn write<const D: usize>([of_forces, of_moments]: &[VectorSums<3>; 2], forces: &mut [[f64; D]], moments: &mut [[f64; 3]]) {
+    for ((sum, force), moment) in of_forces.rows().zip(forces).zip(&mut *moments) {
+        force.copy_from_slice(&sum[..D]);
+        *moment = [0.0, 0.0, sum[2]];
+    }
+    if D == 3 {
+        of_moments.rows().zip(moments).for_each(|(sum, moment)| moment.copy_from_slice(sum));
     }
 }
 
@@ -385,21 +459,21 @@ fn summed(elements: &[ShellBatch], marks: &[Batch]) -> Report {
     report
 }
 
-impl<const D: usize> Room<D> {
+impl Room {
     /// Room for so many batches of elements.
-    fn fit<K: ShellKernel<D>>(&mut self, batches: usize, points: usize, components: usize)
+    fn fit<K: ShellKernel<D>, const D: usize>(&mut self, batches: usize, points: usize, components: usize)
     where
         Dim<D>: Space<D>,
     {
-        let (all, corners) = (batches * points, batches * K::NODES);
-        for (list, length) in
-            [(&mut self.strain, all * components), (&mut self.ratio, all), (&mut self.volume, all), (&mut self.response, all * RESPONSE)]
-        {
+        let all = batches * points;
+        for (list, length) in [
+            (&mut self.passed, batches * K::PASSED),
+            (&mut self.strain, all * components),
+            (&mut self.ratio, all),
+            (&mut self.volume, all),
+            (&mut self.response, all * RESPONSE),
+        ] {
             list.resize(length, Batch::default());
         }
-        self.positions.resize(corners, [[0.0; D]; BATCH]);
-        self.forces.resize(corners, [[0.0; D]; BATCH]);
-        self.rotations.resize(corners, [[0.0; 4]; BATCH]);
-        self.moments.resize(corners, [[0.0; 3]; BATCH]);
     }
 }

@@ -1,6 +1,6 @@
 //! Shells and beams as blocks: what the solver asks of them.
 
-use super::{Pulls, ShellKernel, Shells};
+use super::{CHUNK, ShellKernel, Shells};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::block::initial::{Initial, Wrong};
 use crate::block::{Block, ElementState, Motion, NodalForces, Report, damping};
@@ -48,29 +48,35 @@ where
     }
 
     fn slots(&self) -> &[u32] {
-        &self.slots
+        self.local.nodes()
     }
 
     fn moment_slots(&self) -> &[u32] {
-        &self.slots
+        self.local.nodes()
     }
 
     fn rotating_nodes(&self) -> Vec<(u32, f64)> {
-        let share = |(k, &node): (usize, &u32)| {
+        let share = |k: usize| {
             let element = k / K::NODES;
-            (node, self.corner_mass[k] * self.elements[element / BATCH].inertia.0[element % BATCH])
+            (self.local.node(k, K::NODES), self.corner_mass[k] * self.elements[element / BATCH].inertia.0[element % BATCH])
         };
-        self.slots.iter().enumerate().map(share).collect()
+        (0..self.corner_mass.len()).map(share).collect()
     }
 
     fn advance(&mut self, motion: &Motion<'_, D>, level: Level, pulls: NodalForces<'_, D>, team: &mut Team) -> Report {
-        self.find_places(motion.rotations);
+        self.local.find(motion.rotations);
         self.advance_all(motion, level, pulls, team);
         self.joined()
     }
 
-    fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D] {
-        slots[K::NODES * element + corner]
+    fn keep_forces(&mut self) {
+        self.keeps_forces = true;
+        self.kept = vec![Batch::default(); self.elements.len() * K::NODES * (D + 3)];
+    }
+
+    fn force(&self, element: usize, corner: usize, _: &[[f64; D]]) -> [f64; D] {
+        let first = (element / BATCH * K::NODES + corner) * (D + 3);
+        std::array::from_fn(|d| if self.keeps_forces { self.kept[first + d].0[element % BATCH] } else { 0.0 })
     }
 
     fn mass(&self, element: usize) -> f64 {
@@ -86,10 +92,10 @@ where
     }
 
     fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
-        for (element, nodes) in self.slots.chunks_exact(K::NODES).enumerate().filter(|(element, _)| self.is_alive(*element)) {
+        for element in (0..self.count).filter(|&element| self.is_alive(element)) {
             let mass = self.elements[element / BATCH].mass_least.0[element % BATCH] / K::NODES as f64;
             let stiffness = damping::bounding_stiffness(mass, self.time_step_squared(element), shortest, self.damping > 0.0);
-            nodes.iter().for_each(|&node| add(node, stiffness, mass));
+            (element * K::NODES..(element + 1) * K::NODES).for_each(|corner| add(self.local.node(corner, K::NODES), stiffness, mass));
         }
     }
 
@@ -114,9 +120,7 @@ where
         shown.thinning = 1.0 - own.thickness.0[lane] / own.thickness_initial.0[lane];
         shown.energy_density = (own.stored.0[lane] + own.besides[0].0[lane]) / self.volume[element];
         let response = vec![Batch::default(); self.points() * RESPONSE];
-        let (mut forces, mut moments) = (vec![[[0.0; D]; BATCH]; K::NODES], vec![[[0.0; 3]; BATCH]; K::NODES]);
-        let mut pulls = Pulls { forces: &mut forces, moments: &mut moments, there: true };
-        shown.shell = K::forces::<f64>(&self.facts, state, &self.layers(batch, &response), 1.0, &mut pulls, lane).resultants;
+        shown.shell = K::resultants(&self.facts, state, &self.layers(batch, &response), lane);
         shown
     }
 
@@ -166,16 +170,18 @@ where
         self.elements[element / BATCH].determinant.0[element % BATCH]
     }
 
-    fn erode(&mut self, elements: &[u32], pulls: NodalForces<'_, D>) -> Vec<f64> {
+    fn erode(&mut self, elements: &[u32], mut pulls: NodalForces<'_, D>) -> Vec<f64> {
         let take = |&element: &u32| {
-            let (element, first) = (element as usize, element as usize * K::NODES);
-            pulls.forces[first..first + K::NODES].fill([0.0; D]);
-            pulls.moments[first..first + K::NODES].fill([0.0; 3]);
+            let element = element as usize;
             let own = &mut self.elements[element / BATCH];
             own.live.0[element % BATCH] = 0.0;
             own.stored.0[element % BATCH] + own.besides[0].0[element % BATCH]
         };
         let stored = elements.iter().map(take).collect();
+        let chunk_of = |element: &u32| *element as usize / (CHUNK * BATCH);
+        for of_chunk in elements.chunk_by(|a, b| chunk_of(a) == chunk_of(b)) {
+            self.sum_again(chunk_of(&of_chunk[0]), &mut pulls);
+        }
         self.sum_reports();
         stored
     }

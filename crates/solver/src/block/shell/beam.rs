@@ -40,7 +40,7 @@
 
 use super::bound;
 use super::surface::{Vector, loaded, replace, rotated, scaled};
-use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains};
+use super::{Answer, Corners, Facts, Layers, Pose, Pulls, ShellKernel, Start, Strains};
 use crate::angle::arc_of_tangent;
 use crate::block::SHELL_VALUES;
 use crate::material::Family;
@@ -92,9 +92,10 @@ fn product<L: Lane>(a: Quaternion<L>, b: Quaternion<L>) -> Quaternion<L> {
 }
 
 impl<L: Lane> Shape<L> {
-    /// From the way from node 1 to node 2, and the triads of both.
+    /// From the way from node 1 to node 2, and the triads of both; beside it 1/c, t² = |p|²/c² and 1 −
+    /// atan(t)/t over t².
     #[inline(always)]
-    fn new(way: Vector<L>, [one, mut two]: [Quaternion<L>; 2]) -> Self {
+    fn new(way: Vector<L>, [one, mut two]: [Quaternion<L>; 2]) -> (Self, [L; 3]) {
         let (zero, half, unit) = (L::splat(0.0), L::splat(0.5), L::splat(1.0));
         let along = one[0] * two[0] + one[1] * two[1] + one[2] * two[2] + one[3] * two[3];
         let sign = L::select(along.less(zero), -unit, unit);
@@ -105,19 +106,20 @@ impl<L: Lane> Shape<L> {
             square += frame[k] * frame[k];
         }
         let size = square.sqrt();
+        let over = unit / size;
         for k in 0..4 {
-            frame[k] = frame[k] / size;
+            frame[k] = over * frame[k];
         }
         // vec(q₁* q₂): no rotation between equal triads, to the last bit.
         let (u, v) = ([one[1], one[2], one[3]], [two[1], two[2], two[3]]);
         let between = minus(minus(scaled(one[0], v), scaled(two[0], u)), cross(u, v));
-        let part = scaled(unit / size, between);
-        let cosine = half * size;
-        let slope = dot(part, part) / (cosine * cosine);
-        let arc = unit - slope * arc_of_tangent(slope);
-        let psi = scaled(L::splat(4.0) * arc / cosine, part);
+        let part = scaled(over, between);
+        let (cosine, secant) = (half * size, over + over);
+        let slope = dot(part, part) * (secant * secant);
+        let rest = arc_of_tangent(slope);
+        let psi = scaled(L::splat(4.0) * secant * (unit - slope * rest), part);
         let back = [frame[0], -frame[1], -frame[2], -frame[3]];
-        Self { gamma: rotated(back, way), psi, part, cosine, frame }
+        (Self { gamma: rotated(back, way), psi, part, cosine, frame }, [secant, slope, rest])
     }
 
     #[inline(always)]
@@ -146,14 +148,12 @@ impl<L: Lane> Shape<L> {
 
     /// H M.
     #[inline(always)]
-    fn spread(&self, moment: Vector<L>) -> Vector<L> {
+    fn spread(&self, moment: Vector<L>, [secant, slope, rest]: [L; 3]) -> Vector<L> {
         let one = L::splat(1.0);
-        let square = self.cosine * self.cosine;
-        let slope = dot(self.part, self.part) / square;
-        let rest = arc_of_tangent(slope);
+        let square = secant * secant;
         // f = (atan t/t)/c², and (1 − f)/|p|².
-        let straight = (one - slope * rest) / square;
-        let along = (rest / square - one) / square;
+        let straight = (one - slope * rest) * square;
+        let along = (rest * square - one) * square;
         plus(scaled(straight, moment), scaled(along * dot(self.part, moment), self.part))
     }
 }
@@ -180,13 +180,17 @@ fn of_columns([x, y, z]: [[f64; 3]; 3]) -> [f64; 4] {
 fn besides<L: Lane>(facts: &Facts, length: L) -> Vector<L> {
     let (profile, shear) = (&facts.profile, facts.at_rest[1]);
     let of = [shear * profile.shear[0] * profile.area, shear * profile.shear[1] * profile.area, shear * profile.torsion];
-    [L::splat(of[0]) / length, L::splat(of[1]) / length, L::splat(of[2]) / length]
+    let over = L::splat(1.0) / length;
+    [L::splat(of[0]) * over, L::splat(of[1]) * over, L::splat(of[2]) * over]
 }
 
 impl ShellKernel<3> for Beam {
     type Tensor = Plane<f64>;
     const NODES: usize = 2;
     const STATE: usize = STATE;
+    /// What [`Shape::new`] gives beside the shape.
+    const PASSED: usize = 3;
+    const POSE: Pose = Pose::Attitude;
 
     /// None: its triads follow from the section.
     fn directions(connectivity: &[u32], _: &[[f64; 3]], _: f64) -> Vec<[f64; 3]> {
@@ -200,7 +204,7 @@ impl ShellKernel<3> for Beam {
         let along = scaled(1.0 / length, way);
         // That its height is across is seen before.
         let triad = of_columns(beam_axes(along, profile.up).or_else(|| beam_axes(along, None)).unwrap_or_default());
-        let shape = Shape::<f64>::new(way, [triad; 2]);
+        let (shape, _) = Shape::<f64>::new(way, [triad; 2]);
         let mut state: Vec<f64> = triad.into_iter().chain([length]).chain(shape.all()).collect();
         state.resize(STATE, 0.0);
         let [young, shear, _] = facts.moduli;
@@ -213,7 +217,14 @@ impl ShellKernel<3> for Beam {
     }
 
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 3>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(
+        facts: &Facts,
+        corners: &Corners<'_, 3>,
+        state: &mut [Batch],
+        passed: &mut [Batch],
+        strains: &mut Strains<'_>,
+        at: usize,
+    ) {
         let (half, one, two, zero) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(0.0));
         let there = half.less(L::load(strains.live, at));
         let triad = loaded::<L, 4>(state, TRIAD, at);
@@ -222,17 +233,22 @@ impl ShellKernel<3> for Beam {
             let (own, rotation) = corners.of(a, at);
             (x[a], q[a]) = (own, product(rotation, triad));
         }
-        let (before, now) = (Shape::<L>::load(state, at), Shape::new(minus(x[1], x[0]), q));
+        let before = Shape::<L>::load(state, at);
+        let (now, arc) = Shape::new(minus(x[1], x[0]), q);
+        for k in 0..3 {
+            arc[k].store(&mut passed[k], at);
+        }
         replace(there, &now.all(), state, SHAPE, at);
         damp(facts, [&before, &now], strains.damping, there, state, at);
         let length = L::load(&state[LENGTH], at);
         let (section, initial) = (L::load(strains.thickness[0], at), L::load(strains.thickness[1], at));
         let is_rate = matches!(facts.family, Family::Rate);
         let scale = if is_rate { (section / initial).sqrt() } else { one };
+        let over = one / length;
         for p in 0..facts.section.weights.len() {
             let place = [L::splat(facts.section.sides[p]) * scale, L::splat(facts.section.heights[p]) * scale];
             let (new, old) = (now.fibre(place), before.fibre(place));
-            let stretch = new / length;
+            let stretch = new * over;
             let area = initial * L::splat(facts.section.weights[p]);
             let (along, rest, volume) = if is_rate {
                 (two * (new - old) / (new + old), zero, area * half * (new + old))
@@ -253,7 +269,8 @@ impl ShellKernel<3> for Beam {
     #[inline(always)]
     fn forces<L: Lane>(
         facts: &Facts,
-        state: &[Batch],
+        state: &mut [Batch],
+        passed: &[Batch],
         layers: &Layers<'_>,
         inertia: L,
         pulls: &mut Pulls<'_, L, 3>,
@@ -272,7 +289,7 @@ impl ShellKernel<3> for Beam {
         let section = initial * section;
         let scale = square.sqrt();
         let (mut force, mut moment) = ([zero; 3], [zero; 3]);
-        let (mut young, mut determinant) = (zero, one);
+        let (mut young, mut shortest) = (zero, now.gamma[0]);
         for (p, &weight) in facts.section.weights.iter().enumerate() {
             let [_, stretch] = layers.stretches::<L>(facts, p, at);
             let [along, ..] = layers.stress_of::<Plane<L>, L>(p, at).0;
@@ -284,7 +301,7 @@ impl ShellKernel<3> for Beam {
             moment[2] += -(pull * y);
             // The section of what is compressed grows: bars have E + |σ|.
             young = young.max(facts.membrane_modulus(bulk, stiff) + (-along).max(zero));
-            determinant = determinant.min(now.fibre([y, z]) / now.gamma[0]);
+            shortest = shortest.min(now.fibre([y, z]));
         }
         let (held, damped) = (besides(facts, length), loaded::<L, 3>(state, DAMPED, at));
         let slides = [now.gamma[1], now.gamma[2], now.psi[0]];
@@ -294,11 +311,12 @@ impl ShellKernel<3> for Beam {
             stored += half * elastic * slides[k];
             if k < 2 { force[k + 1] = elastic + damped[k] } else { moment[0] = elastic + damped[k] }
         }
-        pull(&now, force, moment, pulls, at);
+        let arc = loaded::<L, 3>(passed, 0, at);
+        pull(&now, force, moment, arc, pulls);
         let halved = L::splat(2.0) * now.cosine * now.cosine - one - L::splat(STRAIGHT);
         Answer {
-            stiffness: bound(facts, &now, [force, moment], [section, square, young], [length, inertia]),
-            determinant: determinant.min(now.gamma[0] / length).min(halved),
+            stiffness: bound(facts, &now, arc, [force, moment], [section, square, young], [length, inertia]),
+            determinant: (shortest / now.gamma[0]).min(now.gamma[0] / length).min(halved),
             thickness: section,
             hourglass: zero,
             besides: [stored, L::load(&state[TAKEN], at)],
@@ -338,15 +356,15 @@ fn damp<L: Lane>(facts: &Facts, [before, now]: [&Shape<L>; 2], damping: f64, the
 
 /// Forces and moments of a normal and two transverse forces, and a torque and two bending moments.
 #[inline(always)]
-fn pull<L: Lane>(now: &Shape<L>, force: Vector<L>, moment: Vector<L>, pulls: &mut Pulls<'_, L, 3>, at: usize) {
+fn pull<L: Lane>(now: &Shape<L>, force: Vector<L>, moment: Vector<L>, arc: [L; 3], pulls: &mut Pulls<'_, L, 3>) {
     let (half, one) = (L::splat(0.5), L::splat(1.0));
     let lever = cross(force, now.gamma);
-    let between = plus(now.spread(moment), scaled(half / now.cosine, cross(now.part, lever)));
+    let between = plus(now.spread(moment, arc), scaled(half * arc[0], cross(now.part, lever)));
     let common = scaled(half, lever);
     let force = rotated(now.frame, force);
     let couples = [rotated(now.frame, minus(between, common)), rotated(now.frame, scaled(-one, plus(common, between)))];
-    pulls.put(0, force, couples[0], at);
-    pulls.put(1, scaled(-one, force), couples[1], at);
+    pulls.put(0, force, couples[0]);
+    pulls.put(1, scaled(-one, force), couples[1]);
 }
 
 /// m ω² of the head of the file, N/m; `square` is that of the present places of fibres by those of the start.
@@ -354,6 +372,7 @@ fn pull<L: Lane>(now: &Shape<L>, force: Vector<L>, moment: Vector<L>, pulls: &mu
 fn bound<L: Lane>(
     facts: &Facts,
     now: &Shape<L>,
+    [secant, tangent, rest]: [L; 3],
     [force, moment]: [Vector<L>; 2],
     [section, square, young]: [L; 3],
     [start, inertia]: [L; 2],
@@ -361,30 +380,33 @@ fn bound<L: Lane>(
     let (zero, half, one, four) = (L::splat(0.0), L::splat(0.5), L::splat(1.0), L::splat(4.0));
     let (profile, shear) = (&facts.profile, facts.at_rest[1]);
     let length = now.gamma[0];
+    let (over, over_start, turning) = (one / length, one / start, one / inertia);
     let slide = now.gamma[1] * now.gamma[1] + now.gamma[2] * now.gamma[2];
-    let tangent = dot(now.part, now.part) / (now.cosine * now.cosine);
     let round = L::splat(profile.inertia[0].max(profile.inertia[1]) / profile.area) * square;
     // Stretch and slide by motion of the nodes and by their rotation, and what both have in common.
-    let (stiff, sheared) = (young * section / length, L::splat(shear * profile.shear[0].max(profile.shear[1]) * profile.area) / start);
-    let turned = (one + tangent) / inertia;
+    let stiff = young * section * over;
+    let sheared = L::splat(shear * profile.shear[0].max(profile.shear[1]) * profile.area) * over_start;
+    let turned = (one + tangent) * turning;
     let along = stiff * (four + slide * turned);
     let across = sheared * (four + (length * length + slide) * turned);
     let apart = along - across;
     let common = four * stiff * sheared * slide * (length * turned) * (length * turned);
     let moved = half * (along + across + (apart * apart + common).sqrt());
     // Bending and torsion, whose rotations move the axes the more the nodes have rotated against each other.
-    let spread = (one - tangent * arc_of_tangent(tangent)) / (now.cosine * now.cosine);
-    let twist = L::splat(shear * profile.torsion) / start;
-    let bent = four * spread * spread * (stiff * round).max(twist) / inertia;
+    let spread = (one - tangent * rest) * secant * secant;
+    let twist = L::splat(shear * profile.torsion) * over_start;
+    let bent = four * spread * spread * (stiff * round).max(twist) * turning;
     let material = bound::joined([moved, bent, one.min(tangent.sqrt())], zero);
-    let (d, b) = (length * length / inertia, L::splat(2.0) * length / inertia.sqrt());
-    let root = (d * d + four * b * b).sqrt();
+    // b² = 4 l²/α = 4 d.
+    let d = length * length * turning;
+    let b = L::splat(2.0) * d.sqrt();
+    let root = (d * d + L::splat(16.0) * d).sqrt();
     let normal = force[0].abs();
     let taut = L::select(zero.less(force[0]), root - d, root + d);
     let transverse = (force[1] * force[1] + force[2] * force[2]).sqrt();
     let slide = slide.sqrt();
     let levers = half * (normal * slide + transverse * length) + dot(moment, moment).sqrt();
-    material + (half * normal * taut + transverse * (b + d * slide / length)) / length + levers / inertia
+    material + (half * normal * taut + transverse * (b + d * slide * over)) * over + levers * turning
 }
 
 /// Forces and moments in the axes of the element; nothing is its thickness.

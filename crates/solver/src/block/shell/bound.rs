@@ -65,7 +65,7 @@ pub(super) fn tilted<L: Lane>(frame: &Frame<L>, g: &[Vector<L>; 2], inverse: &Ma
     let normal = frame.axes[2];
     let (one, two) = (dot(normal, g[0]), dot(normal, g[1]));
     let (a, b) = (one * inverse[0][0] + two * inverse[1][0], one * inverse[0][1] + two * inverse[1][1]);
-    stiffness * (a * a + b * b) * frame.shortening * frame.shortening / inertia
+    stiffness * (a * a + b * b) * frame.shortening * frame.shortening * (L::splat(1.0) / inertia)
 }
 
 /// Square of what a change of the directors changes of w d_α at most: (w + |w'| |d_α|)².

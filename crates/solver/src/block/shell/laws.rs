@@ -144,6 +144,11 @@ impl Laws {
         self.largest(|law| law.stiffness())
     }
 
+    /// Whether there is one law, which always reports the stiffness of an isotropic body at rest.
+    pub(super) fn has_constant_stiffness(&self) -> bool {
+        matches!(&self.layers[..], [one] if one.law.has_constant_stiffness())
+    }
+
     /// Batches of history of a batch of elements.
     pub(super) fn width(&self) -> usize {
         self.layers.iter().map(|layer| layer.points.len() * layer.law.state_width()).sum()

@@ -34,7 +34,7 @@
 //! Derived for this program; the lineage is Hughes and Liu, Comput. Meth. Appl. Mech. Engng 27 (1981)
 //! 167-181, and Simo and Vu-Quoc, J. Appl. Mech. 53 (1986) 849-854.
 
-use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains, Tensor};
+use super::{Answer, Corners, Facts, Layers, Pose, Pulls, ShellKernel, Start, Strains, Tensor};
 use crate::angle::{angle_of, cos_sin_of};
 use crate::block::SHELL_VALUES;
 use crate::material::Family;
@@ -175,6 +175,7 @@ impl ShellKernel<2> for Line {
     type Tensor = Tensor<2, f64>;
     const NODES: usize = 2;
     const STATE: usize = STATE;
+    const POSE: Pose = Pose::Angle;
 
     fn directions(connectivity: &[u32], positions: &[[f64; 2]], fold: f64) -> Vec<[f64; 2]> {
         let lines = connectivity.as_chunks::<2>().0;
@@ -236,7 +237,14 @@ impl ShellKernel<2> for Line {
     }
 
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 2>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(
+        facts: &Facts,
+        corners: &Corners<'_, 2>,
+        state: &mut [Batch],
+        _: &mut [Batch],
+        strains: &mut Strains<'_>,
+        at: usize,
+    ) {
         let (half, one, two, zero) = (L::splat(0.5), L::splat(1.0), L::splat(2.0), L::splat(0.0));
         let ((one_place, [one_angle, ..]), (other_place, [other_angle, ..])) = (corners.of::<L>(0, at), corners.of::<L>(1, at));
         let (places, angles) = ([one_place, other_place], [one_angle, other_angle]);
@@ -303,7 +311,8 @@ impl ShellKernel<2> for Line {
     #[inline(always)]
     fn forces<L: Lane>(
         facts: &Facts,
-        state: &[Batch],
+        state: &mut [Batch],
+        _: &[Batch],
         layers: &Layers<'_>,
         inertia: L,
         pulls: &mut Pulls<'_, L, 2>,
@@ -319,7 +328,9 @@ impl ShellKernel<2> for Line {
         let heights = if is_rate { thickness } else { initial };
         // Normal force, moment, transverse force; of revolution also what pulls inwards, and its moment.
         let (mut normal, mut moment, mut transverse, mut hoop, mut hoop_moment) = (zero, zero, zero, zero, zero);
-        let (mut section, mut membrane, mut shear, mut determinant) = (zero, zero, zero, one);
+        let (mut section, mut membrane, mut shear) = (zero, zero, zero);
+        let (over, over_begin) = (one / now.length, one / begin.length);
+        let (mut shortest, mut nearest) = (now.length, now.radius);
         for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
             let [_, stretch] = layers.stretches::<L>(facts, p, at);
             let [xx, _, zz, xy] = layers.stress_of::<Tensor<2, L>, L>(p, at).0;
@@ -332,13 +343,13 @@ impl ShellKernel<2> for Line {
             normal += pull;
             moment += -(pull * z);
             // As the strain counts in it: by the length of the layer over that of the middle.
-            let part = if is_rate { length / now.length } else { begin.layer(z) / begin.length };
+            let part = if is_rate { length * over } else { begin.layer(z) * over_begin };
             transverse += xy * area * part;
             if facts.is_axisymmetric {
                 let own = zz * plate * L::splat(TAU) * length;
                 hoop += own;
                 hoop_moment += own * z;
-                determinant = determinant.min(now.radius_at(z) / now.radius);
+                nearest = nearest.min(now.radius_at(z));
             } else {
                 hoop += zz * area;
                 hoop_moment += -(zz * area * z);
@@ -346,10 +357,13 @@ impl ShellKernel<2> for Line {
             section += area;
             membrane = membrane.max(facts.membrane_modulus(bulk, stiff));
             shear = shear.max(stiff);
-            determinant = determinant.min(length / now.length);
+            shortest = shortest.min(length);
         }
         transverse = L::splat(SHEAR.sqrt()) * transverse;
-        determinant = determinant.min(now.length / L::load(&state[LENGTH], at));
+        let mut determinant = one.min(shortest * over).min(now.length * over_begin);
+        if facts.is_axisymmetric {
+            determinant = determinant.min(nearest / now.radius);
+        }
         let (fx, fy) = (normal * cos - transverse * sin, normal * sin + transverse * cos);
         let common = half * (normal * now.slide - transverse * now.length);
         let (inwards, [one_more, two_more]) = if facts.is_axisymmetric {
@@ -357,8 +371,8 @@ impl ShellKernel<2> for Line {
         } else {
             (zero, [zero; 2])
         };
-        pulls.put(0, [fx - inwards, fy], [zero, zero, moment - common + one_more], at);
-        pulls.put(1, [-fx - inwards, -fy], [zero, zero, -moment - common + two_more], at);
+        pulls.put(0, [fx - inwards, fy], [zero, zero, moment - common + one_more]);
+        pulls.put(1, [-fx - inwards, -fy], [zero, zero, -moment - common + two_more]);
         Answer {
             stiffness: bound(facts, &now, [normal, transverse], section, [membrane, shear], [inertia, L::splat(facts.reach()) * heights]),
             determinant,
@@ -406,23 +420,25 @@ fn bound<L: Lane>(
 ) -> L {
     let (half, one, four) = (L::splat(0.5), L::splat(1.0), L::splat(4.0));
     let length = now.length;
-    let square = length * length;
-    let bend = thickness * thickness / (L::splat(12.0) * inertia);
-    let across = L::splat(SHEAR) * shear * section * length * (four / square + one / inertia);
+    let (over, turning) = (one / length, one / inertia);
+    let bend = thickness * thickness * L::splat(1.0 / 12.0) * turning;
+    let across = L::splat(SHEAR) * shear * section * length * (four * over * over + turning);
     let material = if facts.is_axisymmetric {
         let along = section * length * Line::of_revolution(membrane, facts.contracting(shear), [length, now.radius]);
         let apart = along.max(across) + along * bend;
         if facts.section.middle == 0.0 { apart } else { along + along * bend + across }
     } else {
-        let along = four * membrane * section / length;
+        let along = four * membrane * section * over;
         // Beside the nodes a middle that is stretched bends, too.
         let both = if facts.section.middle == 0.0 { along.max(along * bend) } else { along + along * bend };
         both.max(across)
     };
-    let (d, b) = (square / inertia, L::splat(2.0) * length / inertia.sqrt());
-    let root = (d * d + four * b * b).sqrt();
+    // b² = 4 l²/α = 4 d.
+    let d = length * length * turning;
+    let b = L::splat(2.0) * d.sqrt();
+    let root = (d * d + L::splat(16.0) * d).sqrt();
     let taut = L::select(L::splat(0.0).less(normal), root - d, root + d);
-    material + (half * normal.abs() * taut + transverse.abs() * (b + d * now.slide.abs() / length)) / length
+    material + (half * normal.abs() * taut + transverse.abs() * (b + d * now.slide.abs() * over)) * over
 }
 
 /// Forces and moments per width: along the shell, and out of the plane or around the axis.

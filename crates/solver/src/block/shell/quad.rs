@@ -41,10 +41,12 @@
 
 use super::bound;
 use super::surface::{
-    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, loaded, moved, replace, replace_vectors,
-    scaled, times, turn_at_start, vectors,
+    self, BEGIN, COMMON, Flux, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, both, flux, loaded, replace, replace_vectors, scaled,
+    times, turn_at_start, vectors,
 };
-use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains, Tensor};
+use super::{Answer, Corners, Facts, Layers, Pose, Pulls, ShellKernel, Start, Strains, Tensor, rate};
+use crate::block::SHELL_VALUES;
+use crate::material::Family;
 use crate::tensor::{Dim, Matrix, Space, cross, dot};
 use crate::vector::{minus, plus};
 use embate_lanes::{Batch, Lane};
@@ -52,7 +54,6 @@ use embate_lanes::{Batch, Lane};
 /// Patterns of the corners.
 pub(super) const XI: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
 pub(super) const ETA: [f64; 4] = [-1.0, -1.0, 1.0, 1.0];
-const HOURGLASS: [f64; 4] = [1.0, -1.0, 1.0, -1.0];
 
 /// Stress that the stabilisation may have where the layers flow, in the quadratic mean over the element, over
 /// theirs.
@@ -60,18 +61,23 @@ const STRENGTH: f64 = 0.4;
 /// See [`surface::arc`].
 pub(super) const ARC: f64 = 3.0;
 
-/// Places in the state, after what all shells in 3D have: directors of the corners at the start; p, a and b
-/// at the start; amplitudes m and b now, what of them has flowed, and the work of that, J; g₁ g₂ q d₀ d₁ d₂ r
-/// now.
-const DIRECTORS: usize = COMMON;
-const SKEW: usize = DIRECTORS + 12;
+/// Places in the state, after what all shells in 3D have: p and a at the start, and (1 + p₁² + p₂²) λ(t E K);
+/// amplitudes m and b now, what of them has flowed, and the work of that, J; ê₁ and ê₂ now.
+const SKEW: usize = COMMON;
 const SHEARED: usize = SKEW + 2;
-const BENT: usize = SHEARED + 2;
-const AMPLITUDES: usize = BENT + 2;
+const WARPING: usize = SHEARED + 2;
+const AMPLITUDES: usize = WARPING + 1;
 const FLOWN: usize = AMPLITUDES + 4;
 const LOST: usize = FLOWN + 4;
-const FORM: usize = LOST + 1;
-const STATE: usize = FORM + 21;
+const AXES: usize = LOST + 1;
+const STATE: usize = AXES + 6;
+
+/// Places of what passes from strain to forces: g₁ g₂ q d₀ d₁ d₂ r, n̂ and both natural axes, 1/trace, |d₀|,
+/// 1/|d₀|, and the arc of [`surface::arc`].
+const FORM: usize = 0;
+const FRAME: usize = FORM + 21;
+const SIZES: usize = FRAME + 9;
+const PASSED: usize = SIZES + 5;
 
 /// A quadrilateral.
 #[derive(Clone, Copy, Debug)]
@@ -111,8 +117,8 @@ impl<L: Lane> Form<L> {
     }
 
     #[inline(always)]
-    pub(super) fn load(state: &[Batch], first: usize, at: usize) -> Self {
-        let [g1, g2, q, mean, d1, d2, r] = vectors(state, first, at);
+    pub(super) fn load(from: &[Batch], first: usize, at: usize) -> Self {
+        let [g1, g2, q, mean, d1, d2, r] = vectors(from, first, at);
         Self { g: [g1, g2], q, mean, d: [d1, d2], r }
     }
 
@@ -127,9 +133,8 @@ impl<L: Lane> Form<L> {
     }
 
     #[inline(always)]
-    fn measures(&self, frame: &Frame<L>) -> Measures<L> {
+    fn measures(&self, frame: &Frame<L>, w: L) -> Measures<L> {
         let slide = self.slide();
-        let [w, _] = surface::arc(frame.size, ARC);
         Measures { map: frame.matrix(&self.g), bend: crate::tensor::scaled(frame.matrix(&self.d), w), slide }
     }
 
@@ -195,10 +200,12 @@ impl<L: Lane> Held<L> {
         let membrane = [[square * along + twice + rest * other, off], [off, rest * along - twice + square * other]];
         let shear = L::splat(SHEAR * shear) * thickness * third;
         let [[a, b], [_, d]] = crate::tensor::scaled(membrane, thickness * thickness * L::splat(1.0 / 12.0));
-        let [first, both, second] = bent.map(L::splat);
-        let bending = [[a * first, b * both], [b * both, d * second]];
-        let of = |g: [L; 2]| shear * (g[0] * g[0] + g[1] * g[1] * L::splat(shear_side));
-        Self { membrane, bending, shear: [of(g[0]), of(g[1])] }
+        let bending = [[a * L::splat(bent[0]), b * L::splat(bent[1])], [b * L::splat(bent[1]), d * L::splat(bent[2])]];
+        // Written out: a closure over lanes is not compiled for them.
+        let shear_side = L::splat(shear_side);
+        let shear =
+            [shear * (g[0][0] * g[0][0] + g[0][1] * g[0][1] * shear_side), shear * (g[1][0] * g[1][0] + g[1][1] * g[1][1] * shear_side)];
+        Self { membrane, bending, shear }
     }
 }
 
@@ -211,7 +218,7 @@ impl Quad {
     }
 
     /// Goes to the `new` amplitudes, and lets what is held of them flow as far as the layers have done:
-    /// `part` of what leads beyond the energy `most` (J). The work of that.
+    /// `part` of what leads beyond the energy `most` (J). What is held, and the work of the flow.
     #[inline(always)]
     fn flow<L: Lane>(
         state: &mut [Batch],
@@ -221,22 +228,28 @@ impl Quad {
         [part, most]: [L; 2],
         there: L::Mask,
         at: usize,
-    ) -> L {
+    ) -> ([L; 2], L) {
         let (half, zero, one) = (L::splat(0.5), L::splat(0.0), L::splat(1.0));
         let old = loaded::<L, 2>(state, AMPLITUDES + 2 * which, at);
         let gone = loaded::<L, 2>(state, FLOWN + 2 * which, at);
-        let (held, before) = (minus(new, gone), minus(old, gone));
+        let mut held = minus(new, gone);
+        replace(there, &new, state, AMPLITUDES + 2 * which, at);
         let force = times(stiffness, held);
-        let energy = half * both(force, held);
-        let kept = L::select(most.less(energy), (most / energy).sqrt(), one);
-        let flows = part * (one - kept);
+        let twice = both(force, held);
+        let energy = half * twice;
+        let leads = most.less(energy);
+        if !L::any(leads) {
+            return (held, zero);
+        }
+        let before = both(times(stiffness, minus(old, gone)), held);
+        let flows = L::select(leads, part * (one - (most / energy).sqrt()), zero);
         for k in 0..2 {
-            L::select(there, new[k], old[k]).store(&mut state[AMPLITUDES + 2 * which + k], at);
-            L::select(there, gone[k] + flows * held[k], gone[k]).store(&mut state[FLOWN + 2 * which + k], at);
+            let new = L::select(leads, gone[k] + flows * held[k], gone[k]);
+            L::select(there, new, gone[k]).store(&mut state[FLOWN + 2 * which + k], at);
+            held[k] = L::select(leads, held[k] - flows * held[k], held[k]);
         }
         // The mean of the forces before and after does the work.
-        let before = both(times(stiffness, before), held);
-        L::select(there, half * flows * (before + (one - flows) * both(force, held)), zero)
+        (held, L::select(there, half * flows * (before + (one - flows) * twice), zero))
     }
 }
 
@@ -244,6 +257,8 @@ impl ShellKernel<3> for Quad {
     type Tensor = Tensor<3, f64>;
     const NODES: usize = 4;
     const STATE: usize = STATE;
+    const PASSED: usize = PASSED;
+    const POSE: Pose = Pose::Director;
     const ROTATES: bool = true;
 
     fn directions(connectivity: &[u32], positions: &[[f64; 3]], fold: f64) -> Vec<[f64; 3]> {
@@ -256,56 +271,66 @@ impl ShellKernel<3> for Quad {
         let form = Form::<f64>::new(&x, &d);
         let turn = turn_at_start(&form.g, form.mean);
         let frame = form.frame(turn);
-        let measures = form.measures(&frame);
+        let arc = surface::arc(frame.size, ARC);
+        let measures = form.measures(&frame, arc[0]);
         let skew = times(&measures.inverse(), frame.seen(form.q));
         let [warp, twist] = form.warped(skew);
         let bent = frame.seen(twist);
-        let flat = if facts.section.middle == 0.0 { [0.0; 2] } else { frame.seen(at_middle(facts, warp, twist, thickness)) };
+        let above = facts.section.middle * thickness;
+        let flat = if above == 0.0 { [0.0; 2] } else { frame.seen(plus(warp, scaled(above, twist))) };
         let of_layers = [measures.all(); 2].into_iter().flatten().chain(turn);
-        let stabilised = skew.into_iter().chain(form.sheared()).chain(bent);
+        let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, turn, thickness));
+        let warping = bound::steepest(&held.membrane) * (1.0 + skew[0] * skew[0] + skew[1] * skew[1]);
+        let stabilised = skew.into_iter().chain(form.sheared()).chain([warping]);
         // Amplitudes, what has flowed of them, and the work of that: bent as it is, it holds nothing.
         let amplitudes = [flat, bent, flat, bent].into_iter().flatten().chain([0.0]);
-        let now = form.all().into_iter().flatten();
-        let state = of_layers.chain(d.into_iter().flatten()).chain(stabilised).chain(amplitudes).chain(now).collect();
+        let axes = [frame.axes[0], frame.axes[1]].into_iter().flatten();
+        let state = of_layers.chain(stabilised).chain(amplitudes).chain(axes).collect();
         let area = Dim::<2>::determinant(&measures.map);
         let volumes = surface::volumes(facts, Self::AREA, &measures, thickness);
         let volume = volumes.iter().sum();
-        let (inverse, held) = (measures.inverse(), Held::new(facts, &measures, turn, thickness));
         let reach = thickness * facts.reach();
         let inertia = bound::inertia(reach, Self::AREA * area, 0.0, |inertia| {
-            bounds(&form, &inverse, &held, skew, [reach; 2], facts.moduli, [inertia, volume])
+            bounds(&form, &inverse, &held, warping, arc, [reach; 2], facts.moduli, [inertia, volume])
         });
         Start { state, areas: form.areas(), volumes, inertia }
     }
 
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 3>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(
+        facts: &Facts,
+        corners: &Corners<'_, 3>,
+        state: &mut [Batch],
+        passed: &mut [Batch],
+        strains: &mut Strains<'_>,
+        at: usize,
+    ) {
+        let (mut x, mut d) = ([[L::splat(0.0); 3]; 4], [[L::splat(0.0); 3]; 4]);
+        for a in 0..4 {
+            let (own, [u, v, w, _]) = corners.of(a, at);
+            (x[a], d[a]) = (own, [u, v, w]);
+        }
         let there = L::splat(0.5).less(L::load(strains.live, at));
-        let [x, d] = moved(corners, state, DIRECTORS, at);
         let form = Form::new(&x, &d);
         let frame = form.frame(loaded(state, TURN, at));
+        let arc = surface::arc(frame.size, ARC);
         let (begin, before) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
-        replace_vectors(there, &form.all(), state, FORM, at);
-        let now = form.measures(&frame);
+        let now = form.measures(&frame, arc[0]);
         replace(there, &now.all(), state, NOW, at);
-        surface::strain(facts, Self::kind(), [&begin, &before, &now], strains, at);
-        let thickness = L::load(strains.thickness[1], at);
-        let held = Held::new(facts, &begin, loaded(state, TURN, at), thickness);
-        let [warp, twist] = form.warped(loaded(state, SKEW, at));
-        let warp = if facts.section.middle == 0.0 { warp } else { at_middle(facts, warp, twist, thickness) };
-        let [mean, bending, stress] = loaded::<L, 3>(strains.flow, 0, at);
-        let young = facts.held.young;
-        let volume = thickness * L::splat(Self::AREA) * Dim::<2>::determinant(&begin.map);
-        let most = L::splat(STRENGTH * STRENGTH / (2.0 * young)) * stress * stress * volume;
-        let lost = Self::flow(state, &held.membrane, 0, frame.seen(warp), [mean, most], there, at)
-            + Self::flow(state, &held.bending, 1, frame.seen(twist), [bending, most], there, at);
-        (L::load(&state[LOST], at) + lost).store(&mut state[LOST], at);
+        replace_vectors(there, &[frame.axes[0], frame.axes[1]], state, AXES, at);
+        pass(&form, &frame, arc, passed, at);
+        if matches!(facts.family, Family::Rate) {
+            rate::strain(facts, Self::kind(), [&begin, &before, &now], strains, at);
+        } else {
+            surface::strain(facts, Self::kind(), [&begin, &before, &now], strains, at);
+        }
     }
 
     #[inline(always)]
     fn forces<L: Lane>(
         facts: &Facts,
-        state: &[Batch],
+        state: &mut [Batch],
+        passed: &[Batch],
         layers: &Layers<'_>,
         inertia: L,
         pulls: &mut Pulls<'_, L, 3>,
@@ -314,30 +339,44 @@ impl ShellKernel<3> for Quad {
         let half = L::splat(0.5);
         let (begin, now) = (Measures::<L>::load(state, BEGIN, at), Measures::<L>::load(state, NOW, at));
         let to = flux(facts, Self::kind(), [&begin, &now], layers, layers.thickness_now(facts, at), at);
-        let form = Form::<L>::load(state, FORM, at);
-        let frame = form.frame(loaded(state, TURN, at));
+        let form = Form::<L>::load(passed, FORM, at);
+        let (frame, over_trace, arc) = passed_frame::<L>(state, passed, at);
         let skew = loaded::<L, 2>(state, SKEW, at);
         let initial = L::load(layers.thickness, at);
         let held = Held::new(facts, &begin, loaded(state, TURN, at), initial);
-        let amplitudes = loaded::<L, 4>(state, AMPLITUDES, at);
-        let flown = loaded::<L, 4>(state, FLOWN, at);
-        let m = [amplitudes[0] - flown[0], amplitudes[1] - flown[1]];
-        let b = [amplitudes[2] - flown[2], amplitudes[3] - flown[3]];
+        let [warp, twist] = form.warped(skew);
+        let (seen, bent) = (frame.seen(warp), frame.seen(twist));
+        // The amplitude of the middle, which may be beside the nodes.
+        let above = L::splat(facts.section.middle) * initial;
+        let new = if facts.section.middle == 0.0 { seen } else { [seen[0] + above * bent[0], seen[1] + above * bent[1]] };
+        let [mean, bending, stress] = loaded::<L, 3>(layers.flow, 0, at);
+        let volume = initial * L::splat(Self::AREA) * Dim::<2>::determinant(&begin.map);
+        let most = L::splat(STRENGTH * STRENGTH / (2.0 * facts.held.young)) * stress * stress * volume;
+        let (m, lost) = Self::flow(state, &held.membrane, 0, new, [mean, most], pulls.there, at);
+        let (b, lost_in_bending) = Self::flow(state, &held.bending, 1, bent, [bending, most], pulls.there, at);
+        let lost = L::load(&state[LOST], at) + (lost + lost_in_bending);
+        lost.store(&mut state[LOST], at);
         let (w, u) = (times(&held.membrane, m), times(&held.bending, b));
         // What the amplitude of the middle has of b.
-        let above = L::splat(facts.section.middle) * initial;
         let on_bent = if facts.section.middle == 0.0 { u } else { [u[0] + above * w[0], u[1] + above * w[1]] };
         let (sheared, start) = (form.sheared(), loaded::<L, 2>(state, SHEARED, at));
         let change = minus(sheared, start);
         let a = [held.shear[0] * change[0], held.shear[1] * change[1]];
-        let hourglass = half * (both(w, m) + both(u, b)) + L::load(&state[LOST], at);
-        pull(&form, &frame, &to, skew, [w, on_bent, a], pulls, at);
+        let hourglass = half * (both(w, m) + both(u, b)) + lost;
+        // The turn of the frame in its plane, which the stabilisation alone feels.
+        let turn = (w[0] * seen[1] - w[1] * seen[0] + on_bent[0] * bent[1] - on_bent[1] * bent[0]) * over_trace;
+        pull(&form, &frame, &to, [skew, arc], [warp, twist], [w, on_bent, a], turn, pulls);
         let inverse = now.inverse();
         let reach = L::splat(facts.reach());
-        let thick = [reach * initial, reach * to.thickness];
-        let bounds = facts.coupled(bounds(&form, &inverse, &held, skew, thick, to.moduli, [inertia, to.volume]));
+        let (thick, warping) = ([reach * initial, reach * to.thickness], L::load(&state[WARPING], at));
+        let bounds = facts.coupled(bounds(&form, &inverse, &held, warping, arc, thick, to.moduli, [inertia, to.volume]));
         let answer = surface::answer(&to, &frame, &form.g, &inverse, bounds, 1.0, inertia);
         Answer { hourglass, besides: [half * both(a, change), L::splat(0.0)], ..answer }
+    }
+
+    fn resultants(facts: &Facts, state: &[Batch], layers: &Layers<'_>, lane: usize) -> [f64; SHELL_VALUES] {
+        let (begin, now) = (Measures::<f64>::load(state, BEGIN, lane), Measures::<f64>::load(state, NOW, lane));
+        flux(facts, Self::kind(), [&begin, &now], layers, layers.thickness_now(facts, lane), lane).resultants
     }
 
     #[inline(always)]
@@ -346,15 +385,54 @@ impl ShellKernel<3> for Quad {
     }
 
     fn turned(state: &[Batch], stress: [f64; 6], _: usize, lane: usize) -> [f64; 6] {
-        let frame = Form::<f64>::load(state, FORM, lane).frame(loaded(state, TURN, lane));
-        surface::turned(&frame.axes, stress)
+        let [first, second] = vectors(state, AXES, lane);
+        surface::turned(&[first, second, cross(first, second)], stress)
     }
 }
 
-/// q − p₁ g₁ − p₂ g₂ of the middle, where that is beside the nodes.
+/// Passes on what forces need of the kinematics.
 #[inline(always)]
-fn at_middle<L: Lane>(facts: &Facts, warp: Vector<L>, twist: Vector<L>, thickness: L) -> Vector<L> {
-    plus(warp, scaled(L::splat(facts.section.middle) * thickness, twist))
+fn pass<L: Lane>(form: &Form<L>, frame: &Frame<L>, [w, slope]: [L; 2], passed: &mut [Batch], at: usize) {
+    let vectors = form.all();
+    for k in 0..7 {
+        for d in 0..3 {
+            vectors[k][d].store(&mut passed[FORM + 3 * k + d], at);
+        }
+    }
+    let vectors = [frame.axes[2], frame.natural[0], frame.natural[1]];
+    for k in 0..3 {
+        for d in 0..3 {
+            vectors[k][d].store(&mut passed[FRAME + 3 * k + d], at);
+        }
+    }
+    let sizes = [L::splat(1.0) / frame.trace, frame.size, frame.shortening, w, slope];
+    for k in 0..5 {
+        sizes[k].store(&mut passed[SIZES + k], at);
+    }
+}
+
+/// The frame, 1/trace of it, and the arc, as passed on; the trace is none.
+#[inline(always)]
+fn passed_frame<L: Lane>(state: &[Batch], passed: &[Batch], at: usize) -> (Frame<L>, L, [L; 2]) {
+    let ([first, second], [normal, along, beside]) = (vectors(state, AXES, at), vectors(passed, FRAME, at));
+    let [over_trace, size, shortening, w, slope] = loaded(passed, SIZES, at);
+    let frame = Frame { axes: [first, second, normal], natural: [along, beside], trace: L::splat(0.0), size, shortening };
+    (frame, over_trace, [w, slope])
+}
+
+/// The transpose of [`parts`] without its quarter: the mean, and what goes with each pattern, at the corners.
+#[inline(always)]
+fn spread<L: Lane>(sign: L, [mean, xi, eta, h]: [Vector<L>; 4]) -> [Vector<L>; 4] {
+    let mut out = [mean; 4];
+    for d in 0..3 {
+        let (plus, minus) = (mean[d] + h[d], mean[d] - h[d]);
+        let (along, across) = (xi[d] + eta[d], xi[d] - eta[d]);
+        out[0][d] = sign * (plus - along);
+        out[1][d] = sign * (minus + across);
+        out[2][d] = sign * (plus + along);
+        out[3][d] = sign * (minus - across);
+    }
+    out
 }
 
 /// a + b + c.
@@ -369,25 +447,22 @@ fn square<L: Lane>(v: Vector<L>) -> L {
     dot(v, v)
 }
 
-/// Forces and moments of what pulls on G, D, s (`to`), and on the amplitudes and a (`held`): the transpose of
-/// all of the kinematics.
+/// Forces and moments of what pulls on G, D, s (`to`), on q − p₁ g₁ − p₂ g₂ and r − p₁ d₁ − p₂ d₂, on a, and
+/// on the natural axes by their `turn`: the transpose of all of the kinematics.
 #[inline(always)]
 fn pull<L: Lane>(
     form: &Form<L>,
     frame: &Frame<L>,
     to: &Flux<L>,
-    skew: [L; 2],
+    [skew, arc]: [[L; 2]; 2],
+    [warp, twist]: [Vector<L>; 2],
     [w, u, a]: [[L; 2]; 3],
+    turn: L,
     pulls: &mut Pulls<'_, L, 3>,
-    at: usize,
 ) {
-    let [warp, twist] = form.warped(skew);
-    let (seen, bent) = (frame.seen(warp), frame.seen(twist));
-    // The turn of the frame in its plane, which the stabilisation alone feels.
-    let turn = (w[0] * seen[1] - w[1] * seen[0] + u[0] * bent[1] - u[1] * bent[0]) / frame.trace;
     let f1 = plus(frame.vector([to.membrane[0][0], to.membrane[1][0]]), scaled(turn, frame.natural[1]));
     let f2 = minus(frame.vector([to.membrane[0][1], to.membrane[1][1]]), scaled(turn, frame.natural[0]));
-    let ([k1, k2], folded) = surface::bent(frame, &form.d, &to.moment, ARC);
+    let ([k1, k2], folded) = surface::bent_by(frame, &form.d, &to.moment, arc);
     let (v, bend) = (frame.vector(w), frame.vector(u));
     let pulled = [[form.g[0], f1], [form.g[1], f2], [form.d[0], k1], [form.d[1], k2], [warp, v], [twist, bend]];
     let tilt = surface::tilt(frame, &pulled);
@@ -408,30 +483,29 @@ fn pull<L: Lane>(
     let d_xi = scaled(quarter, minus(on_d1, scaled(skew[0], bend)));
     let d_eta = scaled(quarter, minus(on_d2, scaled(skew[1], bend)));
     let (d_h, d_mean) = (scaled(quarter, bend), scaled(quarter, on_mean));
-    put(form, &[x_xi, x_eta, x_h, d_mean, d_xi, d_eta, d_h], pulls, at);
+    put(form, &[x_xi, x_eta, x_h, d_mean, d_xi, d_eta, d_h], pulls);
 }
 
 /// Forces and moments of what is on a quarter of Σ x_a by each pattern, of Σ d_a, and of Σ d_a by each
 /// pattern.
 #[inline(always)]
-pub(super) fn put<L: Lane>(form: &Form<L>, on: &[Vector<L>; 7], pulls: &mut Pulls<'_, L, 3>, at: usize) {
+pub(super) fn put<L: Lane>(form: &Form<L>, on: &[Vector<L>; 7], pulls: &mut Pulls<'_, L, 3>) {
     let [x_xi, x_eta, x_h, d_mean, d_xi, d_eta, d_h] = *on;
+    let forces = spread(L::splat(-1.0), [[L::splat(0.0); 3], x_xi, x_eta, x_h]);
+    let couples = spread(L::splat(1.0), [d_mean, d_xi, d_eta, d_h]);
+    let directors = spread(L::splat(1.0), [form.mean, form.d[0], form.d[1], form.r]);
     for corner in 0..4 {
-        let (xi, eta, h) = (L::splat(XI[corner]), L::splat(ETA[corner]), L::splat(HOURGLASS[corner]));
-        let force = join(scaled(xi, x_xi), scaled(eta, x_eta), scaled(h, x_h));
-        let couple = plus(d_mean, join(scaled(xi, d_xi), scaled(eta, d_eta), scaled(h, d_h)));
-        let director = plus(form.mean, join(scaled(xi, form.d[0]), scaled(eta, form.d[1]), scaled(h, form.r)));
-        pulls.put(corner, scaled(L::splat(-1.0), force), cross(couple, director), at);
+        pulls.put(corner, forces[corner], cross(couples[corner], directors[corner]));
     }
 }
-
 /// m ω² of motion in the plane and across it, N/m, and the cosine between both: see the head of the file.
 #[inline(always)]
 fn bounds<L: Lane>(
     form: &Form<L>,
     inverse: &Matrix<L, 2>,
     held: &Held<L>,
-    skew: [L; 2],
+    warping: L,
+    [w, slope]: [L; 2],
     [initial, thickness]: [L; 2],
     [membrane, shear, transverse]: [L; 3],
     [inertia, volume]: [L; 2],
@@ -439,11 +513,14 @@ fn bounds<L: Lane>(
     let (zero, one, two) = (L::splat(0.0), L::splat(1.0), L::splat(2.0));
     let metric = bound::metric(inverse);
     let along = bound::membrane(&metric, [membrane, shear], volume);
-    let warping = bound::steepest(&held.membrane) * (one + skew[0] * skew[0] + skew[1] * skew[1]);
-    let bend = bound::folding(form.mean, &form.d, ARC) * thickness * thickness / (L::splat(12.0) * inertia);
-    let bend_held = initial * initial / (L::splat(12.0) * inertia);
-    // Gram matrices of s and of a in the norm of the mass.
     let turning = one / inertia;
+    let flat = L::splat(1.0 / 12.0) * turning;
+    // Most of a change of the directors, as in `bound::folding`.
+    let apart = (square(form.d[0]) + square(form.d[1])).sqrt();
+    let most = w + slope.abs() * apart;
+    let bend = most * most * thickness * thickness * flat;
+    let bend_held = initial * initial * flat;
+    // Gram matrices of s and of a in the norm of the mass.
     let q = square(form.q);
     let (d0, d1, d2) = (square(form.mean), square(form.d[0]), square(form.d[1]));
     let (g1, g2) = (square(form.g[0]), square(form.g[1]));
@@ -455,6 +532,5 @@ fn bounds<L: Lane>(
     let across_held = bound::largest(&[[held.shear[0], zero], [zero, held.shear[1]]], &varied);
     let plane = along + warping;
     let plate = across.max(along * bend + warping * bend_held) + across_held;
-    let cosine = one.min(two * (square(form.d[0]) + square(form.d[1])).sqrt());
-    [plane, plate, cosine]
+    [plane, plate, one.min(two * apart)]
 }

@@ -20,7 +20,7 @@
 use super::bound;
 use super::quad::{ARC, ETA, Form, XI, put};
 use super::surface::{self, Frame, Kind, Measures, SHEAR, Vector, flux, loaded, moved, replace, replace_vectors, scaled, turn_at_start};
-use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains, Tensor};
+use super::{Answer, Corners, Facts, Layers, Pose, Pulls, ShellKernel, Start, Strains, Tensor};
 use crate::block::SHELL_VALUES;
 use crate::tensor::{Dim, Matrix, Space, dot};
 use crate::vector::{minus, plus};
@@ -130,6 +130,7 @@ impl ShellKernel<3> for Full {
     type Tensor = Tensor<3, f64>;
     const NODES: usize = 4;
     const STATE: usize = STATE;
+    const POSE: Pose = Pose::Attitude;
     const ROTATES: bool = true;
     const PLANES: usize = Self::POINTS;
 
@@ -163,7 +164,14 @@ impl ShellKernel<3> for Full {
     }
 
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 3>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(
+        facts: &Facts,
+        corners: &Corners<'_, 3>,
+        state: &mut [Batch],
+        _: &mut [Batch],
+        strains: &mut Strains<'_>,
+        at: usize,
+    ) {
         let there = L::splat(0.5).less(L::load(strains.live, at));
         let [x, d] = moved::<L, 4>(corners, state, DIRECTORS, at);
         let form = Form::new(&x, &d);
@@ -183,7 +191,8 @@ impl ShellKernel<3> for Full {
     #[inline(always)]
     fn forces<L: Lane>(
         facts: &Facts,
-        state: &[Batch],
+        state: &mut [Batch],
+        _: &[Batch],
         layers: &Layers<'_>,
         inertia: L,
         pulls: &mut Pulls<'_, L, 3>,
@@ -224,7 +233,7 @@ impl ShellKernel<3> for Full {
         for own in &mut on {
             *own = scaled(quarter, *own);
         }
-        put(&form, &on, pulls, at);
+        put(&form, &on, pulls);
         Answer {
             stiffness: bound::joined(facts.coupled(sum), tilted) + taut,
             determinant,

@@ -18,7 +18,7 @@ use super::surface::{
     self, BEGIN, COMMON, Frame, Kind, Measures, NOW, SHEAR, TURN, Vector, flux, loaded, moved, replace, replace_vectors, scaled,
     turn_at_start, vectors,
 };
-use super::{Answer, Corners, Facts, Layers, Pulls, ShellKernel, Start, Strains, Tensor};
+use super::{Answer, Corners, Facts, Layers, Pose, Pulls, ShellKernel, Start, Strains, Tensor};
 use crate::tensor::{Dim, Matrix, Space, cross, dot};
 use crate::vector::{minus, plus};
 use embate_lanes::{Batch, Lane};
@@ -148,6 +148,7 @@ impl ShellKernel<3> for Triangle {
     type Tensor = Tensor<3, f64>;
     const NODES: usize = 3;
     const STATE: usize = STATE;
+    const POSE: Pose = Pose::Attitude;
     const ROTATES: bool = true;
 
     fn directions(connectivity: &[u32], positions: &[[f64; 3]], fold: f64) -> Vec<[f64; 3]> {
@@ -175,7 +176,14 @@ impl ShellKernel<3> for Triangle {
     }
 
     #[inline(always)]
-    fn strain<L: Lane>(facts: &Facts, corners: &Corners<'_, 3>, state: &mut [Batch], strains: &mut Strains<'_>, at: usize) {
+    fn strain<L: Lane>(
+        facts: &Facts,
+        corners: &Corners<'_, 3>,
+        state: &mut [Batch],
+        _: &mut [Batch],
+        strains: &mut Strains<'_>,
+        at: usize,
+    ) {
         let there = L::splat(0.5).less(L::load(strains.live, at));
         let [x, d] = moved::<L, 3>(corners, state, DIRECTORS, at);
         let form = Form { x: [minus(x[0], x[0]), minus(x[1], x[0]), minus(x[2], x[0])], d };
@@ -192,7 +200,8 @@ impl ShellKernel<3> for Triangle {
     #[inline(always)]
     fn forces<L: Lane>(
         facts: &Facts,
-        state: &[Batch],
+        state: &mut [Batch],
+        _: &[Batch],
         layers: &Layers<'_>,
         inertia: L,
         pulls: &mut Pulls<'_, L, 3>,
@@ -215,7 +224,7 @@ impl ShellKernel<3> for Triangle {
             let force = plus(spread(&f, corner), plus(scaled(q1, rows[0][0][corner]), scaled(q2, rows[1][0][corner])));
             let couple = minus(plus(spread(&k, corner), plus(scaled(q1, rows[0][1][corner]), scaled(q2, rows[1][1][corner]))), tilt);
             let moment = cross(couple, form.d[corner]);
-            pulls.put(corner, scaled(L::splat(-1.0), force), moment, at);
+            pulls.put(corner, scaled(L::splat(-1.0), force), moment);
         }
         let inverse = now.inverse();
         let reach = L::splat(facts.reach()) * to.thickness;

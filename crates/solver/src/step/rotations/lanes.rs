@@ -85,16 +85,66 @@ impl Kernel for Rotate<'_> {
     }
 }
 
+/// Largest square of half an angle, rad², up to which its cosine and sine are short series.
+const SMALL: f64 = 1.0 / 16.0;
+
+/// cos(√u) and sin(√u)/√u of a small u: the first terms that are left out are below 1e-19.
+#[inline(always)]
+fn series<L: Lane>(u: L) -> [L; 2] {
+    let (mut cos, mut sin) = (L::splat(0.0), L::splat(0.0));
+    let one = L::splat(1.0);
+    for k in (1..8).rev() {
+        let twice = 2.0 * f64::from(k);
+        cos = (one - cos) * (u * L::splat(1.0 / (twice * (twice - 1.0))));
+        sin = (one - sin) * (u * L::splat(1.0 / (twice * (twice + 1.0))));
+    }
+    [one - cos, one - sin]
+}
+
 /// exp(θ) after a rotation.
 #[inline(always)]
 fn rotated<L: Lane>(theta: [L; 3], [s, a, b, c]: [L; 4]) -> [L; 4] {
-    let (zero, half) = (L::splat(0.0), L::splat(0.5));
-    let angle = dot(theta, theta).sqrt();
-    let [w, sin] = cos_sin_of(half * angle);
-    let part = L::select(zero.less(angle), sin / angle, half);
+    let half = L::splat(0.5);
+    let square = dot(theta, theta);
+    let quarter = L::splat(0.25) * square;
+    let [mut w, part] = series(quarter);
+    let mut part = half * part;
+    let large = L::splat(SMALL).less(quarter);
+    if L::any(large) {
+        let angle = square.sqrt();
+        let [cos, sin] = cos_sin_of(half * angle);
+        (w, part) = (L::select(large, cos, w), L::select(large, sin / angle, part));
+    }
     let [x, y, z] = times(part, theta);
     let product =
         [w * s - x * a - y * b - z * c, w * a + x * s + y * c - z * b, w * b - x * c + y * s + z * a, w * c + x * b - y * a + z * s];
     // One step of Newton towards the length 1, off which it is by roundings.
     times(L::splat(1.5) - half * dot(product, product), product)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_series_are_cosine_and_sine() {
+        for k in 0..=200 {
+            let u = SMALL * f64::from(k) / 200.0;
+            let [cos, sin] = series(u);
+            let x = u.sqrt();
+            assert!((cos - x.cos()).abs() < 2e-16, "{u}: {cos}");
+            assert!(k == 0 || (sin - x.sin() / x).abs() < 3e-16, "{u}: {sin}");
+        }
+    }
+
+    #[test]
+    fn a_rotation_by_a_small_and_by_a_large_angle_is_that_about_its_axis() {
+        for angle in [0.0, 1e-9, 0.01, 0.499_999, 0.500_001, 1.0, 3.0] {
+            let [w, x, y, z] = rotated([0.0, 0.6 * angle, -0.8 * angle], [1.0, 0.0, 0.0, 0.0]);
+            let (sin, cos) = (0.5 * angle).sin_cos();
+            for (own, expected) in [(w, cos), (x, 0.0), (y, 0.6 * sin), (z, -0.8 * sin)] {
+                assert!((own - expected).abs() < 4e-16, "{angle}: {own} for {expected}");
+            }
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! The strain of the layers of a shell in 3D with a law in rate form: the formulas of `surface.rs`, where
 //! what is linear in the height comes from the mean and the difference of both ends of a step.
 
-use super::surface::{Kind, Measures, times};
+use super::surface::{Kind, Measures, by_height, times};
 use super::{Facts, Strains, Tensor};
 use crate::tensor::{Dim, Matrix, Plane, Space, SymmetricTensor, Turn};
 use crate::vector::minus;
@@ -19,12 +19,6 @@ fn mean_and_step<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>) -> [Matrix<L, 2>; 
         }
     }
     [mean, step]
-}
-
-/// a + z b.
-#[inline(always)]
-fn at_height<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>, z: L) -> Matrix<L, 2> {
-    [[a[0][0] + z * b[0][0], a[0][1] + z * b[0][1]], [a[1][0] + z * b[1][0], a[1][1] + z * b[1][1]]]
 }
 
 /// Strains the layers over the way from `before` to `now`, and turns their stresses with the material.
@@ -45,7 +39,7 @@ pub(super) fn strain<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, before, now]
     let area = initial * L::splat(kind.area);
     for (p, (&height, &weight)) in facts.section.heights.iter().zip(&facts.section.weights).enumerate() {
         let z = L::splat(height) * thickness;
-        let (middle, step) = (at_height(&map, &bend, z), at_height(&map_step, &bend_step, z));
+        let (middle, step) = (by_height(&map, &bend, z), by_height(&map_step, &bend_step, z));
         let determinant = Dim::<2>::determinant(&middle);
         let (gradient, turns) = Dim::<2>::displaced(&step, &Dim::<2>::adjugate(&middle), determinant);
         let flat = Dim::<2>::symmetric(&gradient).rotated(&turns[0]).0;
@@ -76,8 +70,8 @@ pub(super) fn strain<L: Lane>(facts: &Facts, kind: Kind<L>, [begin, before, now]
         volume.store(&mut strains.volume[p], at);
         let mut ratio = one;
         if facts.needs_ratio {
-            let new = Dim::<2>::determinant(&at_height(&now.map, &now.bend, z));
-            ratio = L::select(there, new / Dim::<2>::determinant(&at_height(&begin.map, &begin.bend, z)), one);
+            let new = Dim::<2>::determinant(&by_height(&now.map, &now.bend, z));
+            ratio = L::select(there, new / Dim::<2>::determinant(&by_height(&begin.map, &begin.bend, z)), one);
         }
         ratio.store(&mut strains.ratio[p], at);
         if !strains.rotation.is_empty() {

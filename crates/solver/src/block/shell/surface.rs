@@ -178,7 +178,7 @@ fn sum<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>) -> Matrix<L, 2> {
 
 /// a + z b.
 #[inline(always)]
-fn by_height<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>, z: L) -> Matrix<L, 2> {
+pub(super) fn by_height<L: Lane>(a: &Matrix<L, 2>, b: &Matrix<L, 2>, z: L) -> Matrix<L, 2> {
     [[a[0][0] + z * b[0][0], a[0][1] + z * b[0][1]], [a[1][0] + z * b[1][0], a[1][1] + z * b[1][1]]]
 }
 

@@ -21,6 +21,9 @@
 //! A region that is deeper than τ/20 gets a spring on its volume (`volume_spring`): the volume spring under
 //! the springs of nodes and edges.
 //!
+//! A place that is deeper than τ/20 and in no way inside by its winding number is not: where surfaces are
+//! flush, rounding says which of them is inside.
+//!
 //! Not covered: overlaps between facets that share a node, and what lies between the samples. Where a contour
 //! in one body does not close, as where it begins between facets that share a node, a node behind pierced
 //! triangles and inside by its winding number is as deep as it is far from them, and from the other side of
@@ -124,6 +127,8 @@ pub struct OverlapCheck {
     /// The least, and the largest of each body, at the start, m.
     least: f64,
     thickest: Vec<f64>,
+    /// Whether the surface of each body is closed.
+    is_closed: Vec<bool>,
     /// Pressure stiffness at each node of the skin, κ and that by its mass, Pa/m; zero where the contact has
     /// none.
     moduli: Vec<[f64; 2]>,
@@ -167,6 +172,7 @@ impl OverlapCheck {
         let thickness = Thickness::new(&skin, &tree);
         let (least, thickest) = (thickness.least(&skin), thickness.thickest(&skin));
         let moduli = vec![[0.0; 2]; skin.nodes.len()];
+        let is_closed = skin.are_closed();
         Self {
             skin,
             tree,
@@ -174,6 +180,7 @@ impl OverlapCheck {
             thickness,
             least,
             thickest,
+            is_closed,
             moduli,
             ignores_start,
             casts: true,

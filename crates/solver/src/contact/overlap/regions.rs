@@ -132,10 +132,11 @@ impl Work {
         regions
     }
 
-    /// Marks what is inside, part by part of what nothing pierces; the inside vertices, and those that a
-    /// piercing says are inside although the same part is outside elsewhere: no contour closes it off.
-    fn flood(&mut self, skin: &Skin, piercings: &[Piercing]) -> (Vec<u32>, Vec<u32>) {
-        let mut seeds = Vec::new();
+    /// Marks what is inside, part by part of what nothing pierces; the inside vertices, and those where a
+    /// part is outside as well: no contour closes it off. Of a body in itself such a part says nothing of the
+    /// others and counts as outside.
+    fn flood(&mut self, skin: &Skin, piercings: &[Piercing], is_own: bool) -> (Vec<u32>, Vec<u32>) {
+        let (mut seeds, mut outside) = (Vec::new(), Vec::new());
         for here in piercings.chunk_by(|a, b| a.edge == b.edge) {
             self.pierced[here[0].edge as usize] = self.pair;
             let Some(are_inside) = ends_inside(here) else { continue };
@@ -144,6 +145,7 @@ impl Work {
                     seeds.push(vertex);
                 } else {
                     self.outside[vertex as usize] = self.pair;
+                    outside.push(vertex);
                 }
             }
         }
@@ -167,13 +169,17 @@ impl Work {
                     }
                 }
             }
-            if leaks {
+            if leaks && is_own {
                 for vertex in inside.drain(begin..) {
                     (self.inside[vertex as usize], self.leaky[vertex as usize]) = (0, self.pair);
                 }
             }
         }
         inside.sort_unstable();
+        if !is_own {
+            outside.retain(|vertex| self.inside[*vertex as usize] == self.pair);
+            return (inside, outside);
+        }
         seeds.retain(|seed| self.leaky[*seed as usize] == self.pair);
         (inside, seeds)
     }
@@ -191,10 +197,11 @@ impl Work {
     }
 
     fn of_pair(&mut self, skin: &Skin, bodies: [u32; 2], piercings: &[Piercing], regions: &mut Vec<Region>) {
-        let (inside, torn) = self.flood(skin, piercings);
+        let is_own = bodies[0] == bodies[1];
+        let (inside, torn) = self.flood(skin, piercings, is_own);
         let (mut pieces, mut pairs, mut loose) = (Vec::new(), Vec::new(), Vec::new());
         contours(skin, piercings, &mut pieces, &mut pairs, &mut loose);
-        let chords = self.chords(skin, piercings, &mut pieces);
+        let chords = self.chords(skin, piercings, is_own, &mut pieces);
         // All triangles that are inside as a whole or in part; those in part have pieces.
         let mut triangles = Vec::new();
         let cut = pieces.iter().map(|piece| piece.triangle).chain(loose.iter().copied());
@@ -232,7 +239,7 @@ impl Work {
             let [a, b] = pair.map(|triangle| self.slots[triangle as usize]);
             whole.join(a, b);
         });
-        let colours = if bodies[0] == bodies[1] {
+        let colours = if is_own {
             self.colours(&mut sides, &pairs, triangles.len())
         } else {
             triangles.iter().map(|&triangle| Some(skin.body(triangle) == bodies[1])).collect()
@@ -291,7 +298,7 @@ impl Work {
     }
 
     /// The parts of pierced edges that are inside, which are pieces of the rims of the triangles beside them.
-    fn chords(&self, skin: &Skin, piercings: &[Piercing], pieces: &mut Vec<Piece>) -> Vec<(u32, [Vector; 2])> {
+    fn chords(&self, skin: &Skin, piercings: &[Piercing], is_own: bool, pieces: &mut Vec<Piece>) -> Vec<(u32, [Vector; 2])> {
         let mut chords = Vec::new();
         for here in piercings.chunk_by(|a, b| a.edge == b.edge) {
             let edge = here[0].edge;
@@ -307,7 +314,8 @@ impl Work {
                 }
             };
             // How many times it is inside.
-            let begins_inside = ends_inside(here).map_or(self.inside[ends[0] as usize] == self.pair, |[first, _]| first);
+            let says = if is_own { ends_inside(here) } else { None };
+            let begins_inside = says.map_or(self.inside[ends[0] as usize] == self.pair, |[first, _]| first);
             let mut count = i32::from(begins_inside);
             let mut since = begin;
             for piercing in here {

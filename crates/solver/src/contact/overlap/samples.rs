@@ -20,8 +20,7 @@ const SIDED: f64 = 0.15;
 /// Nothing inside a body is farther from its surface than this fraction of the thickness there: half of it,
 /// but for wedges.
 const INSIDE: f64 = 1.0;
-/// A place of a body in itself that is deeper than this fraction of the thickness is looked at once more, by
-/// its winding number.
+/// A place that is deeper than this fraction of the thickness is looked at once more, by its winding number.
 const CERTAIN: f64 = CAST;
 /// Of so many places, the deepest ones.
 const SIDED_MOST: usize = 16;
@@ -188,6 +187,11 @@ impl OverlapCheck {
         Some((square.sqrt(), foot))
     }
 
+    /// Whether a place may lie in another body, as far as that is closed.
+    pub(super) fn may_be_in(&self, body: u32, place: Vector) -> bool {
+        !self.is_closed[body as usize] || self.tree.may_be_in(&self.skin, body, place)
+    }
+
     /// A node of a triangle.
     fn node_of(&self, triangle: u32) -> u32 {
         let (carriers, _) = self.skin.shares(self.skin.triangles[triangle as usize][0]);
@@ -235,8 +239,9 @@ impl Looking<'_> {
         if depth > INSIDE * if is_own { thickness } else { there } {
             return None;
         }
-        // In its own body the flood may go astray where the contour does not close.
-        if is_own && !(depth < CERTAIN * thickness) && !check.tree.is_in_itself(&check.skin, own, place) {
+        // The flood may go astray where the contour does not close, and where surfaces are flush.
+        let is_in = || if is_own { check.tree.is_in_itself(&check.skin, own, place) } else { check.may_be_in(other, place) };
+        if !(depth < CERTAIN * thickness) && !is_in() {
             return None;
         }
         let nodes = [own, foot].map(|triangle| check.node_of(triangle));

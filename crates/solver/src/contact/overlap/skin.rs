@@ -196,6 +196,15 @@ impl Skin {
         self.facets[self.facet_of[triangle as usize] as usize].body
     }
 
+    /// Whether the surface of each body is closed.
+    pub(super) fn are_closed(&self) -> Vec<bool> {
+        let mut closed = vec![true; self.bodies as usize];
+        for edge in self.edges.iter().filter(|edge| edge.triangles[1] == NONE) {
+            closed[self.body(edge.triangles[0]) as usize] = false;
+        }
+        closed
+    }
+
     /// Places of a triangle's corners, m.
     pub(super) fn corners(&self, triangle: u32) -> [Vector; 3] {
         self.triangles[triangle as usize].map(|vertex| self.x[vertex as usize])

@@ -118,6 +118,23 @@ fn a_bar_through_a_bar_is_a_region_that_turns_round_and_what_only_touches_is_non
 }
 
 #[test]
+fn a_place_is_in_a_block_or_beside_it_as_its_coordinates_say() {
+    let (overlap_check, _) = two([1.0; 3], [[2.0; 3], [3.0; 3]], [[2, 3, 1], [1; 3]], [true, false]);
+    let at = |k: u32| f64::from(k) / 8.0 - 0.25 + 1e-3;
+    let mut count = [0; 2];
+    for k in 0..13 * 13 * 13 {
+        let place = [k % 13, k / 13 % 13, k / 169].map(at);
+        let is_in = place.iter().all(|c| (0.0..1.0).contains(c));
+        // What lies in it is never missed.
+        assert!(!is_in || overlap_check.may_be_in(0, place), "{place:?}");
+        count[0] += usize::from(!is_in);
+        count[1] += usize::from(!is_in && overlap_check.may_be_in(0, place));
+    }
+    // A ray through an edge may say that what is beside it lies in it.
+    assert!(count[1] * 50 < count[0], "{count:?}");
+}
+
+#[test]
 fn sides_that_are_flush_leave_no_hole_in_a_contour() {
     for counts in [[[1; 3]; 2], [[2; 3]; 2], [[3, 2, 4], [2, 3, 1]]] {
         for are_tets in [[false; 2], [true, false], [true; 2]] {

@@ -44,8 +44,8 @@ fn stout(skin: &Skin) -> Vec<f64> {
             *surface += if facet.is_mirror { 0.0 } else { 0.5 * length(double) };
         }
     }
-    for edge in skin.edges.iter().filter(|edge| edge.triangles[1] == NONE) {
-        sums[skin.body(edge.triangles[0]) as usize].1 = 0.0;
+    for (sum, is_closed) in sums.iter_mut().zip(skin.are_closed()) {
+        sum.1 = if is_closed { sum.1 } else { 0.0 };
     }
     let of = |(_, six_volumes, surface)| if six_volumes > 0.0 && surface > 0.0 { six_volumes / surface } else { f64::INFINITY };
     sums.into_iter().map(of).collect()

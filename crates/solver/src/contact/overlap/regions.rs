@@ -136,7 +136,7 @@ impl Work {
     /// part is outside as well: no contour closes it off. Of a body in itself such a part says nothing of the
     /// others and counts as outside.
     fn flood(&mut self, skin: &Skin, piercings: &[Piercing], is_own: bool) -> (Vec<u32>, Vec<u32>) {
-        let (mut seeds, mut outside) = (Vec::new(), Vec::new());
+        let mut seeds = Vec::new();
         for here in piercings.chunk_by(|a, b| a.edge == b.edge) {
             self.pierced[here[0].edge as usize] = self.pair;
             let Some(are_inside) = ends_inside(here) else { continue };
@@ -145,7 +145,6 @@ impl Work {
                     seeds.push(vertex);
                 } else {
                     self.outside[vertex as usize] = self.pair;
-                    outside.push(vertex);
                 }
             }
         }
@@ -177,8 +176,8 @@ impl Work {
         }
         inside.sort_unstable();
         if !is_own {
-            outside.retain(|vertex| self.inside[*vertex as usize] == self.pair);
-            return (inside, outside);
+            let torn = inside.iter().copied().filter(|vertex| self.outside[*vertex as usize] == self.pair).collect();
+            return (inside, torn);
         }
         seeds.retain(|seed| self.leaky[*seed as usize] == self.pair);
         (inside, seeds)

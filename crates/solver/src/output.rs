@@ -197,6 +197,19 @@ pub struct Erosion {
     pub first: Eroded,
 }
 
+/// The largest value of a force in the history.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ForcePeak {
+    /// What it is of, as in the history: `constraint[plate.left]`.
+    pub name: String,
+    /// Size of the largest force of a row, N/m (N).
+    pub largest: f64,
+    /// Time of that row, s.
+    pub time: f64,
+    /// Components of the last row's force, N/m (N).
+    pub last: Vec<f64>,
+}
+
 /// Mass that was added in the run for longer steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassInRun {
@@ -250,6 +263,8 @@ pub struct Summary {
     pub element_evaluations: Option<u64>,
     /// What erosion has done; `None`: no element was eroded.
     pub erosion: Option<Erosion>,
+    /// Largest forces of the history's rows, in the order of its columns.
+    pub forces: Vec<ForcePeak>,
     /// Hash of positions and velocities at the end, hexadecimal.
     pub state_hash: String,
     /// Threads used.

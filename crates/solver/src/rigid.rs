@@ -232,7 +232,7 @@ where
         self.drives().iter().all(Option::is_none)
     }
 
-    fn drives(&self) -> &[Drive] {
+    pub(crate) fn drives(&self) -> &[Drive] {
         self.drives.as_ref()
     }
 

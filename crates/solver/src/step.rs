@@ -31,7 +31,7 @@ use crate::energy::{Entry, Ledger, Lost, Stores, Sums, Works};
 use crate::error::Error;
 use crate::load::body_force::BodyForces;
 use crate::load::cavity::Cavities;
-use crate::load::constraint::Constraints;
+use crate::load::constraint::{Constraints, NodeConstraint};
 use crate::load::curve::Curves;
 use crate::load::damping::Damping;
 use crate::load::force::Forces;
@@ -554,6 +554,27 @@ where
             }
             (rest, rest_of_moments) = (others, other_moments);
         }
+    }
+
+    /// Hands over the reactions in the last update of nodes that are held: the node, what holds it, and its
+    /// force, N/m; nodes of rigid bodies have none.
+    pub(crate) fn reactions(&self, mut see: impl FnMut(u32, &NodeConstraint<D>, [f64; D])) {
+        let nodes = nodes!(self, velocities_old, self.time_step);
+        for (node, held) in self.constraints.held() {
+            if self.bodies.of_node(node).is_none() && self.skins.carrier(node as usize).is_none() {
+                see(node, held, nodes.reaction(node as usize, self.velocities[node as usize]));
+            }
+        }
+    }
+
+    /// The same of rotations that are held: moments, N (N m).
+    pub(crate) fn moment_reactions(&self, see: impl FnMut(u32, &NodeConstraint<3>, [f64; 3])) {
+        self.rotations.reactions(self.mean_step(), &self.damping, see);
+    }
+
+    /// Mean of the last step and the coming one, s: what the last velocity update has taken.
+    pub(crate) fn mean_step(&self) -> f64 {
+        0.5 * (self.time_step + self.time_step_old)
     }
 
     /// Velocities of a node before and after the whole step, m/s: of a rigid body those of the point, not

@@ -136,21 +136,29 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
             (!probe.is_empty() && !probe.starts_with("energy") && !probe.starts_with("contact.force")).then(|| probe.to_string())
         })
     });
-    let forces = AXES.map(|axis| {
-        let prefixes = ["contact", "obstacle"].map(|kind| format!("{kind}.force_{axis}["));
-        let own = |name: &str| Some(prefixes.iter().find_map(|prefix| name.strip_prefix(prefix))?.strip_suffix(']')?.to_string());
-        columns(&|name| {
-            let own = own(name)?;
-            // A contact and an obstacle of the same name.
-            let is_twin = prefixes.iter().all(|prefix| table.columns.contains(&format!("{prefix}{own}]")));
-            Some(if is_twin && name.starts_with("obstacle") { format!("{own} (obstacle)") } else { own })
+    // Of things of some kinds; what has the name of one of an earlier kind is called by its kind too.
+    let forces = |kinds: &[&str]| {
+        AXES.map(|axis| {
+            let prefixes: Vec<String> = kinds.iter().map(|kind| format!("{kind}.force_{axis}[")).collect();
+            columns(&|name| {
+                let (place, own) = prefixes.iter().enumerate().find_map(|(k, prefix)| Some((k, name.strip_prefix(prefix)?)))?;
+                let is_twin = prefixes[..place].iter().any(|prefix| table.columns.iter().any(|it| it.strip_prefix(prefix) == Some(own)));
+                let own = own.strip_suffix(']')?;
+                Some(if is_twin { format!("{own} ({})", kinds[place]) } else { own.to_string() })
+            })
         })
-    });
+    };
     let from_start = is_flat(table, &positions);
     let name = if from_start { "displacement" } else { "position" };
+    let force = |name, kinds: &[&str]| {
+        let si = if table.of_whole_bodies { "N" } else { "N/m" };
+        Quantity { name, si, axes: forces(kinds), from_start: false }
+    };
     let quantities = [
         Quantity { name, si: "m", axes: positions, from_start },
-        Quantity { name: "contact force", si: if table.of_whole_bodies { "N" } else { "N/m" }, axes: forces, from_start: false },
+        force("contact force", &["contact", "obstacle"]),
+        force("reaction", &["constraint", "symmetry", "rigid"]),
+        force("force in cut", &["cut"]),
     ];
     let mut panels: Vec<Panel> = quantities.iter().flat_map(|quantity| quantity.panels(table)).collect();
     if panels.is_empty() {

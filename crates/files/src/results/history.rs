@@ -6,6 +6,7 @@
 use super::ResultsError;
 use super::atomic::part_path;
 use crate::plain;
+use embate_solver::output::{FieldKind, fields_of};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -166,14 +167,24 @@ pub fn unit(column: &str, of_whole_bodies: bool) -> &'static str {
         "cavity.work" => return per_depth("J/m", "J"),
         _ => {}
     }
+    let of_field = |kind: &&FieldKind| {
+        last == kind.name
+            || last.strip_prefix(kind.name).and_then(|rest| rest.strip_prefix('_')).is_some_and(|rest| kind.components.contains(&rest))
+    };
+    if what.contains('.')
+        && let Some(kind) = fields_of(if of_whole_bodies { 3 } else { 2 }).iter().find(of_field)
+    {
+        return kind.unit;
+    }
     match last.strip_suffix(['x', 'y', 'z']).map_or(last, |stem| stem.trim_end_matches('_')) {
-        "force" => per_depth("N/m", "N"),
+        "force" | "normal_force" | "shear_force" => per_depth("N/m", "N"),
         "moment" => per_depth("N", "N m"),
         "friction_work" => per_depth("J/m", "J"),
         "penetration" | "" => "m",
         "angle" | "turn" => "rad",
         "spin" => "rad/s",
         "v" => "m/s",
+        "a" => "m/s^2",
         _ => "",
     }
 }
@@ -236,6 +247,8 @@ mod tests {
         assert_eq!(units("contact.penetration[hit.x]"), ["m", "m"]);
         assert_eq!((units("cavity.pressure[gas]"), units("cavity.mass[gas]")), (["Pa"; 2], ["kg/m", "kg"]));
         assert_eq!((units("cavity.volume[gas]"), units("cavity.work[gas]")), (["m^3/m", "m^3"], ["J/m", "J"]));
+        assert_eq!((units("P.ax"), units("P.spin_z"), units("cut.normal_force[c]")), (["m/s^2"; 2], ["rad/s"; 2], ["N/m", "N"]));
+        assert_eq!((units("P.von_mises"), units("P.stress_xx"), units("P.displacement_y")), (["Pa"; 2], ["Pa"; 2], ["m"; 2]));
         assert_eq!((units("P.x"), units("P.vy"), units("time")), (["m"; 2], ["m/s"; 2], ["s"; 2]));
         assert_eq!((units("rigid.spin[a]"), units("rigid.angle[a]"), units("rigid.vz[a]")), (["rad/s"; 2], ["rad"; 2], ["m/s"; 2]));
     }

@@ -17,6 +17,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &BUG,
     &NO_PICTURES,
     &NO_POST_MORTEM,
+    &NO_CHANNELS,
 ];
 
 /// Something is in the way.
@@ -138,6 +139,15 @@ pub static NO_PICTURES: Message = Message {
     example: Example::Shell("mkdir -p out/check.png\nembate check model.toml --out out\n"),
     cause: "A picture could not be made; all other results are there.",
     remedy: "Draw the fields with ParaView, or choose another `picture_field`.",
+};
+
+/// Channels are missing.
+pub(super) static NO_CHANNELS: Message = Message {
+    code: "W0703",
+    title: "channels of a run are missing",
+    example: Example::Words("The disk is full when a run ends, and there is no room for `channels.csv`."),
+    cause: "The history could not be read again, or the file of the channels not be written; all other results are there.",
+    remedy: "Free some space and run the model again, or find the channels from `history.csv`.",
 };
 
 /// The post-mortem is missing.

@@ -7,6 +7,7 @@
 //! half-written, whatever happens to the run or the machine.
 
 mod atomic;
+mod channels;
 mod csv;
 mod figures;
 mod folder;

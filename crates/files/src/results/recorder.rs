@@ -6,14 +6,16 @@
 
 use super::ResultsError;
 use super::atomic::write_whole;
+use super::channels;
 use super::folder::ResultFolder;
-use super::messages::NO_PICTURES;
+use super::messages::{NO_CHANNELS, NO_PICTURES};
 use super::report::{Report, RunStatus};
 use super::writer::{Job, Writer};
 use super::writer_channel::WriterChannel;
 use crate::checkpoint::{Checkpoint, Origin};
 use crate::post_mortem;
 use crate::threads::Threads;
+use embate_solver::channel::Channels;
 use embate_solver::error::Notice;
 use embate_solver::hashes::Hashes;
 use embate_solver::model::Model;
@@ -34,6 +36,7 @@ pub struct Recorder<'a> {
     /// Until the last file is written no other run may have it.
     folder: ResultFolder,
     model: String,
+    channels: Channels,
     end: f64,
     part_names: Vec<String>,
     on_progress: OnProgress<'a>,
@@ -111,12 +114,12 @@ impl<'a> Recorder<'a> {
         checkpoints: Option<Checkpoints>,
         on_progress: OnProgress<'a>,
     ) -> Result<Self, ResultsError> {
-        let part_names = cells.part_names.clone();
+        let (part_names, channels) = (cells.part_names.clone(), channels_of(model, &columns));
         let mut writer = Writer::new(folder, model, columns, cells, Threads::new(threads))?;
         if let Some(checkpoints) = &checkpoints {
             writer.set_origin(checkpoints.origin.clone(), &part_names)?;
         }
-        Ok(Self::of(writer, (model, part_names), threads, checkpoints, on_progress))
+        Ok(Self { channels, ..Self::of(writer, (model, part_names), threads, checkpoints, on_progress) })
     }
 
     /// One that continues with the results in `path` where the checkpoint `past` was written; `frame` is the
@@ -133,11 +136,11 @@ impl<'a> Recorder<'a> {
         checkpoints: Checkpoints,
         on_progress: OnProgress<'a>,
     ) -> Result<Self, ResultsError> {
-        let part_names = cells.part_names.clone();
+        let (part_names, channels) = (cells.part_names.clone(), channels_of(model, &columns));
         let mut writer = Writer::reopen(path, (model, past), columns, (cells, frame), Threads::new(threads))?;
         writer.set_origin(checkpoints.origin.clone(), &part_names)?;
         let recorder = Self::of(writer, (model, part_names), threads, Some(checkpoints), on_progress);
-        Ok(Self { steps_before: past.state.step, ..recorder })
+        Ok(Self { steps_before: past.state.step, channels, ..recorder })
     }
 
     fn of(
@@ -151,6 +154,7 @@ impl<'a> Recorder<'a> {
         Self {
             folder: writer.folder().clone(),
             model: model.name.clone(),
+            channels: Channels::default(),
             end: model.run.end,
             part_names,
             on_progress,
@@ -194,6 +198,10 @@ impl<'a> Recorder<'a> {
         }
         let closed = end.result;
 
+        match channels::write(self.folder.path(), &self.channels) {
+            Ok(figures) => report.channels = figures,
+            Err(error) => report.warnings.push(Notice::new(&NO_CHANNELS, format!("channels are missing: {error}"))),
+        }
         let is_early = summary.rest.is_none() && summary.time_end < self.end * (1.0 - 1e-9);
         report.error = error.or_else(|| closed.as_ref().err().map(ToString::to_string));
         report.status = match report.error {
@@ -209,6 +217,11 @@ impl<'a> Recorder<'a> {
         let summarised = write_whole(&self.folder.path().join("summary.json"), report.json().as_bytes());
         Outcome { report, unwritten: closed.and(summarised).err() }
     }
+}
+
+/// The channels of a model whose simulation has these columns: it has read them already.
+fn channels_of(model: &Model, columns: &[String]) -> Channels {
+    Channels::new(model, columns).unwrap_or_default()
 }
 
 impl Observer for Recorder<'_> {

@@ -5,7 +5,7 @@
 
 use crate::program;
 use embate_solver::error::Notice;
-use embate_solver::output::{Eroded, Summary};
+use embate_solver::output::{Eroded, ForcePeak, Summary};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -77,6 +77,32 @@ pub struct FirstEroded {
     pub time: f64,
     /// By which criterion.
     pub criterion: String,
+}
+
+/// The largest force of a contact, condition, load or cut in the history.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Force {
+    /// Its size, N/m (N).
+    pub max: f64,
+    /// Time of its row, s.
+    pub time: f64,
+    /// Components in the last row, N/m (N).
+    pub end: Vec<f64>,
+}
+
+/// What a channel comes to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ChannelFigures {
+    /// The largest value.
+    pub max: f64,
+    /// Its time, s.
+    pub time_max: f64,
+    /// The smallest value.
+    pub min: f64,
+    /// Its time, s.
+    pub time_min: f64,
+    /// The last value.
+    pub end: f64,
 }
 
 /// The contents of `summary.json`; the order of the fields is the order in the file. Numbers that are not
@@ -154,6 +180,12 @@ pub struct Report {
     /// What erosion has done; left out where nothing was eroded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub erosion: Option<Erosion>,
+    /// Largest forces of the history's rows, by what they are of; left out where there are none.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub forces: BTreeMap<String, Force>,
+    /// What the model's channels come to; left out where it has none.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub channels: BTreeMap<String, ChannelFigures>,
     /// Hash of positions and velocities at the end.
     pub state_hash: String,
     /// Things the user should know.
@@ -164,6 +196,10 @@ pub struct Report {
 /// Each as one text: code, colon, what it is.
 fn texts<S: serde::Serializer>(notices: &[Notice], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(notices.iter().map(ToString::to_string))
+}
+
+fn force(peak: &ForcePeak) -> (String, Force) {
+    (peak.name.clone(), Force { max: peak.largest, time: peak.time, end: peak.last.clone() })
 }
 
 fn erosion(erosion: &embate_solver::output::Erosion, dimension: usize) -> Erosion {
@@ -216,6 +252,8 @@ impl Report {
             }),
             element_evaluations: summary.element_evaluations,
             erosion: summary.erosion.as_ref().map(|it| erosion(it, summary.dimension)),
+            forces: summary.forces.iter().map(force).collect(),
+            channels: BTreeMap::new(),
             state_hash: summary.state_hash.clone(),
             warnings: summary.warnings.clone(),
         }

@@ -113,7 +113,7 @@ impl Sweep {
         // Without it what is wrong is reported elsewhere, and of outputs only their form is known.
         let samples = simulation.map_or_else(
             || Samples::recorded(Vec::new(), Vec::new(), serde_json::Value::Null),
-            |simulation| samples(&simulation, &self.first.name),
+            |simulation| samples(&simulation, &self.first),
         );
         let (mut sources, mut faults) = (Vec::new(), Faults::default());
         if wanted.is_empty() {
@@ -155,7 +155,7 @@ impl Sweep {
         without_frames(&mut model);
         let (faults, without) = match Simulation::new(&model, &self.options) {
             Ok(simulation) => {
-                let samples = samples(&simulation, &model.name);
+                let samples = samples(&simulation, &model);
                 let without = |(number, output): (usize, &Output)| Some((number, output.examine(&samples, model.run.end).err()?));
                 (None, self.outputs.iter().enumerate().filter_map(without).collect())
             }
@@ -175,9 +175,11 @@ fn without_frames(model: &mut Model) {
 }
 
 /// What a run will have, before it has begun.
-fn samples(simulation: &Simulation, name: &str) -> Samples {
-    let summary = Report::of(&simulation.summary(), name, &[]).value();
-    Samples::recorded(simulation.history_columns(), Vec::new(), summary)
+fn samples(simulation: &Simulation, model: &Model) -> Samples {
+    let summary = Report::of(&simulation.summary(), &model.name, &[]).value();
+    let mut samples = Samples::recorded(simulation.history_columns(), Vec::new(), summary);
+    samples.add_channels(model);
+    samples
 }
 
 /// Results of work on `0..count` in order, done on so many threads.

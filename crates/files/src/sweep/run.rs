@@ -242,6 +242,7 @@ impl Sweep {
             return Ok(Some(self.failed(run, error)));
         }
         samples.summary = report.value();
+        samples.add_channels(&model);
         if summary.rest.is_some() {
             samples.stay_until(model.run.end);
         }

@@ -5,6 +5,8 @@
 //! finite, is an error and never a value: no check passes by it.
 
 use super::case::{How, Place, Source, Take};
+use embate_solver::channel::{Channels, Figures};
+use embate_solver::model::Model;
 use embate_solver::output::{Cells, Field, Frame, Location};
 use embate_solver::simulation::Simulation;
 use embate_solver::vocabulary::suggestion;
@@ -46,6 +48,21 @@ impl Samples {
     /// Of a run that has been recorded: its history and its summary, without frames.
     pub(crate) fn recorded(columns: Vec<String>, rows: Vec<Vec<f64>>, summary: serde_json::Value) -> Self {
         Self { columns, rows, cells: Cells::default(), start: Frame::default(), frames: Vec::new(), summary }
+    }
+
+    /// Adds the channels of a model as columns.
+    pub(crate) fn add_channels(&mut self, model: &Model) {
+        // The simulation has read them already.
+        let channels = Channels::new(model, &self.columns).unwrap_or_default();
+        if channels.is_empty() {
+            return;
+        }
+        let of_column = |index: usize| self.rows.iter().map(|row| row[index]).collect();
+        let found = channels.evaluate(&(0..self.columns.len()).map(of_column).collect::<Vec<_>>());
+        for Figures { name, values, .. } in found {
+            self.columns.push(name);
+            self.rows.iter_mut().zip(values).for_each(|(row, value)| row.push(value));
+        }
     }
 
     /// A text of the summary; `None` where the source is no text.

@@ -115,6 +115,7 @@ impl Case {
         let Gathering { mut samples, recorder, is_stopped, .. } = gathering;
         let summary = simulation.summary();
         samples.summary = Report::of(&summary, &model.name, &[]).value();
+        samples.add_channels(model);
         if let Some(recorder) = recorder {
             recorder.finish(error.clone(), &summary, || None).unwritten.map_or(Ok(()), Err)?;
         }

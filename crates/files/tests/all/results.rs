@@ -69,6 +69,7 @@ fn summary(steps: u64) -> Summary {
         momentum_drift_linear: Some(1e-16),
         momentum_drift_angular: None,
         erosion: None,
+        forces: Vec::new(),
         mass_added: 0.0,
         mass_added_in_run: None,
         element_evaluations: None,

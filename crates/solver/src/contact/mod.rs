@@ -428,6 +428,29 @@ where
         ends.map(moment).fold(Dim::<D>::NO_SPIN, Dim::<D>::plus)
     }
 
+    /// Hands over what each spring of the last step does at all but the first of its ends: that first end,
+    /// the end, and the force (N/m) on what is at the first one. Ends are nodes, or the number of nodes +
+    /// rigid body.
+    pub(crate) fn each_end(&self, springs: &Springs<D>, mut see: impl FnMut(u32, u32, [f64; D])) {
+        for answer in springs.answers(self.found.clone()) {
+            let mut ends = answer.ends();
+            let Some(first) = ends.next() else { continue };
+            for end in ends {
+                see(first.at, end.at, answer.force_on(&end).map(|force| 0.0 - force));
+            }
+        }
+    }
+
+    /// Hands over the forces of the last step's springs of which [`Totals::resultant`] is the sum, with where
+    /// they act.
+    pub(crate) fn each_on_first(&self, springs: &Springs<D>, mut see: impl FnMut(u32, [f64; D])) {
+        for answer in springs.answers(self.found.clone()) {
+            for end in answer.ends().filter(|end| end.share > 0.0) {
+                see(end.at, answer.force_on(&end).map(|force| f64::from(answer.spring.side) * force));
+            }
+        }
+    }
+
     /// Sum of the sizes of the forces of the last step's springs on some nodes (ascending), N/m.
     #[must_use]
     pub fn force_on(&self, nodes: &[u32], springs: &Springs<D>) -> f64 {

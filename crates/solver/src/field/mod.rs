@@ -9,6 +9,8 @@ use crate::block::ElementState;
 use crate::dimension::Dimension;
 use crate::field::snapshot::LiveSnapshot;
 use crate::material::Variable;
+use crate::mesh::kinematics::Kinematics;
+use crate::rotation::unit_matrix;
 use crate::tensor::Dim;
 use kind::{FieldKind, Location, Needs};
 
@@ -50,6 +52,24 @@ pub(crate) struct Cell<'a> {
     pub(crate) state: &'a ElementState,
     /// Whether it has not been eroded.
     pub(crate) is_alive: bool,
+    /// Its group and its number in that.
+    pub(crate) place: (usize, usize),
+    /// What knows how it moves.
+    pub(crate) within: &'a dyn Moving,
+}
+
+impl Cell<'_> {
+    /// How it has deformed; undeformed where its nodes don't say.
+    pub(crate) fn kinematics(&self) -> Kinematics {
+        let at_rest = Kinematics { gradient: unit_matrix(), rate: [[0.0; 3]; 3] };
+        self.within.kinematics(self.place, self.state).unwrap_or(at_rest)
+    }
+}
+
+/// A system whose elements move.
+pub(crate) trait Moving {
+    /// How an element in a state has deformed.
+    fn kinematics(&self, place: (usize, usize), state: &ElementState) -> Option<Kinematics>;
 }
 
 /// Gives the values of a field at a cell.
@@ -59,6 +79,21 @@ pub(crate) enum OfCell {
     Function(fn(&Cell<'_>, &mut [f64])),
     /// A history variable of the element's law, 0 where it has none such.
     History(&'static Variable),
+}
+
+impl OfCell {
+    /// Writes the values at a cell, with the place of a history variable in the law of its block.
+    pub(crate) fn write(self, cell: &Cell<'_>, index: Option<usize>, values: &mut [f64]) {
+        match self {
+            Self::Function(of_cell) => of_cell(cell, values),
+            Self::History(_) => values[0] = index.map_or(0.0, |index| cell.state.variables[index]),
+        }
+    }
+
+    /// The variable whose place in the law it needs.
+    pub(crate) fn variable(self) -> Option<&'static Variable> {
+        if let Self::History(variable) = self { Some(variable) } else { None }
+    }
 }
 
 /// Where the values of a field come from.
@@ -95,8 +130,12 @@ pub(crate) enum Components {
     Section,
     /// Across a section of a shell: a number (in 3D 1 2).
     Across,
-    /// Of a cross-section of a beam: along it, y, z.
+    /// Three numbers: of a cross-section of a beam along it, y, z.
     Profile,
+    /// A vector of 3D models and of what stands out of the plane: x y z.
+    Direction,
+    /// A gradient of a vector: xx xy yx yy (nine).
+    Gradient,
 }
 
 impl Components {
@@ -105,7 +144,9 @@ impl Components {
         match (self, dimension) {
             (Self::Scalar, _) | (Self::Across, ..=2) => &[],
             (Self::Across, _) => &["1", "2"],
-            (Self::Vector, 3) => &["x", "y", "z"],
+            (Self::Direction, _) | (Self::Vector, 3) => &["x", "y", "z"],
+            (Self::Gradient, 3) => &["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"],
+            (Self::Gradient, _) => &["xx", "xy", "yx", "yy"],
             (Self::Vector, _) => &["x", "y"],
             (Self::Profile, _) => &["1", "2", "3"],
             (Self::Section, 3) => &["11", "22", "12"],
@@ -176,6 +217,8 @@ fields! {
     motion;
     contact;
     stress;
+    invariants;
+    strain;
     laws;
     erosion;
     shells;

@@ -7,8 +7,10 @@ use super::kind::FieldKind;
 use crate::block::ElementState;
 use crate::contact::traces::{State, Traces, Tractions};
 use crate::dimension::Dimension;
-use crate::field::{Cell, NodeFields, OfCell, OfNode, Source};
+use crate::field::{Cell, Moving, NodeFields, OfCell, OfNode, Source};
 use crate::mesh::ElementGroup;
+use crate::mesh::kinematics::{Across, Kinematics};
+use crate::model::in_3d;
 use crate::rotation::applied;
 use crate::skins::RotatedArm;
 use crate::step::System;
@@ -154,19 +156,37 @@ where
             let cells: [Cell<'_>; STATES] = std::array::from_fn(|at| Cell {
                 state: &states[at],
                 is_alive: elements.get(at).is_some_and(|&element| groups[own].is_alive(element as usize)),
+                place: (own, elements.get(at).map_or(0, |&element| element as usize)),
+                within: self.system,
             });
             for Column { width, of_cell, values } in &mut *columns {
                 let places = values[*width * first..][..*width * elements.len()].chunks_exact_mut(*width).zip(&cells);
-                match *of_cell {
-                    OfCell::Function(of_cell) => places.for_each(|(values, cell)| of_cell(cell, values)),
-                    OfCell::History(variable) => {
-                        let index = blocks[own].index_of(variable);
-                        places.for_each(|(values, cell)| values[0] = index.map_or(0.0, |index| cell.state.variables[index]));
-                    }
-                }
+                let index = of_cell.variable().and_then(|variable| blocks[own].index_of(variable));
+                places.for_each(|(values, cell)| of_cell.write(cell, index, values));
             }
             first += elements.len();
         }
+    }
+}
+
+impl<const D: usize> Moving for System<D>
+where
+    Dim<D>: Dimension<D>,
+{
+    fn kinematics(&self, (group, element): (usize, usize), state: &ElementState) -> Option<Kinematics> {
+        let group = &self.mesh.groups[group];
+        let nodes = group.nodes_of(element);
+        let node = |&node: &u32| {
+            let node = node as usize;
+            [self.mesh.positions[node], self.positions[node], self.velocities[node]].map(in_3d)
+        };
+        let nodes: Vec<[[f64; 3]; 3]> = nodes.iter().map(node).collect();
+        let mean = |which: usize| nodes.iter().map(|node| node[which][0]).sum::<f64>();
+        let (mut out_of_plane, mut hoop_rate) = (1.0, 0.0);
+        if self.of_revolution && mean(0) > 0.0 && mean(1) > 0.0 {
+            (out_of_plane, hoop_rate) = (mean(1) / mean(0), mean(2) / mean(1));
+        }
+        Kinematics::new(group.kind, D, &nodes, Across { thickness: 1.0 - state.thinning, out_of_plane, hoop_rate })
     }
 }
 

@@ -8,8 +8,8 @@ use crate::contact::{formulation, law, search};
 use crate::failure::CRITERIA;
 use crate::model::values::Datum;
 use crate::model::{
-    CAVITY, CONSTRAINT, CONTACT, CURVE, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS, PROBE, RUN,
-    SPRING, SYMMETRY, Values, WELD,
+    CAVITY, CHANNEL, CONSTRAINT, CONTACT, CURVE, CUT, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS,
+    PROBE, RUN, SPRING, SYMMETRY, Values, WELD,
 };
 use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
@@ -49,6 +49,8 @@ pub static SECTIONS: &[&Section] = &[
     &POINT_MASS,
     &CURVE,
     &PROBE,
+    &CUT,
+    &CHANNEL,
     &OUTPUT,
 ];
 

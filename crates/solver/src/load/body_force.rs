@@ -35,8 +35,12 @@ struct Acting<const D: usize> {
     factor: f64,
     /// Share of the load's parts in the mass of each node.
     shares: Vec<f64>,
+    /// Sum of these parts of the masses of the nodes, kg/m.
+    whole: f64,
     /// Whether it acts on all parts, and so on free obstacles too.
     everywhere: bool,
+    /// Place in the model.
+    index: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +79,7 @@ where
     /// each node, all in their initial positions.
     #[must_use]
     pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
-        let load = |load: &Load| {
+        let load = |(index, load): (usize, &Load)| {
             let (parts, curve, field) = match load {
                 Load::Gravity { parts, acceleration, curve } => (parts, curve, Field::Uniform(first(*acceleration))),
                 Load::Centrifugal { parts, speed, curve, .. } if model.is_axisymmetric() => (parts, curve, Field::Axial { speed: *speed }),
@@ -95,9 +99,10 @@ where
                 }
             }
             let curve = curve.as_ref().and_then(|name| curves.find(name));
-            Some(Acting { field, curve, factor: 1.0, shares, everywhere: parts.is_empty() })
+            let whole = shares.iter().zip(mass).map(|(share, mass)| share * mass).sum();
+            Some(Acting { field, curve, factor: 1.0, shares, whole, everywhere: parts.is_empty(), index })
         };
-        let mut forces = Self { loads: model.loads.iter().filter_map(load).collect(), now: Vec::new() };
+        let mut forces = Self { loads: model.loads.iter().enumerate().filter_map(load).collect(), now: Vec::new() };
         forces.prepare(curves, [0.0; 2], &mesh.positions);
         forces
     }
@@ -142,6 +147,17 @@ where
     pub(crate) fn persist_shares(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         self.loads.iter_mut().try_for_each(|load| load.shares[..].persist(archive))?;
         self.now[..].persist(archive)
+    }
+
+    /// Sum of the forces on nodes of the load at a place of the model now, N/m; `mass` of the nodes, kg/m,
+    /// and their positions, m.
+    pub(crate) fn resultant(&self, index: usize, mass: &[f64], positions: &[[f64; D]]) -> [f64; D] {
+        let Some(load) = self.loads.iter().find(|load| load.index == index) else { return [0.0; D] };
+        if let Field::Uniform(acceleration) = load.field {
+            return times(load.factor * load.whole, acceleration);
+        }
+        let force = |((&m, &share), &x): ((&f64, &f64), &[f64; D])| times(m * share, load.field.at(load.factor, x));
+        mass.iter().zip(&load.shares).zip(positions).map(force).fold([0.0; D], plus)
     }
 
     /// Acceleration of every node now, m/s²; empty when the model has no such load.

@@ -21,6 +21,8 @@ use std::collections::BTreeMap;
 pub struct NodeConstraint<const D: usize> {
     /// Unit direction and prescribed velocity along it in v^{n+½}, m/s.
     directions: Vec<([f64; D], f64)>,
+    /// The direction that the condition gave, of which the one above is what is across the earlier ones.
+    given: Vec<[f64; D]>,
     /// What prescribes the velocity of each direction.
     speeds: Vec<Speed>,
     /// Which condition gave each direction: index into [`Constraints::conditions`].
@@ -38,15 +40,31 @@ struct Contradiction {
 }
 
 impl<const D: usize> NodeConstraint<D> {
-    /// Adds a direction of rest; nothing where all of it rests already.
-    pub(crate) fn rest(&mut self, direction: [f64; D]) {
+    /// Adds a direction of rest for a condition; nothing where all of it rests already.
+    pub(crate) fn rest(&mut self, direction: [f64; D], source: u32) {
         // Rest contradicts nothing that rests.
-        let _ = self.add(direction, &Speed::constant(0.0), 0);
+        let _ = self.add(direction, &Speed::constant(0.0), source);
     }
 
-    /// Prescribes a velocity along a direction, as far as no other one is there.
-    pub(crate) fn prescribe(&mut self, direction: [f64; D], velocity: &Speed) {
-        let _ = self.add(direction, velocity, 0);
+    /// Prescribes a velocity along a direction for a condition, as far as no other one is there.
+    pub(crate) fn prescribe(&mut self, direction: [f64; D], velocity: &Speed, source: u32) {
+        let _ = self.add(direction, velocity, source);
+    }
+
+    /// The parts of a reaction R (N/m, N) that each condition takes: along its own direction a_k, with Σ µ_k
+    /// a_k = R. What two conditions hold alike goes to the first.
+    pub(crate) fn share_out(&self, reaction: [f64; D], mut add: impl FnMut(u32, [f64; D])) {
+        let mut along: [f64; D] = [0.0; D];
+        along.iter_mut().zip(&self.directions).for_each(|(along, (direction, _))| *along = dot(reaction, *direction));
+        // a_k = Σ_{i ≤ k} (a_k · d_i) d_i of orthonormal d: from the last one back.
+        for k in (0..self.directions.len()).rev() {
+            let given = self.given[k];
+            let share = along[k] / dot(given, self.directions[k].0);
+            for i in 0..k {
+                along[i] -= share * dot(given, self.directions[i].0);
+            }
+            add(self.sources[k], given.map(|component| share * component));
+        }
     }
 
     /// Takes the velocities that change with time, as their mean between two times, s.
@@ -80,6 +98,7 @@ impl<const D: usize> NodeConstraint<D> {
         if length > 1e-9 {
             let speed = speed.times(1.0 / length);
             self.directions.push((rest.map(|r| r / length), speed.as_constant().unwrap_or(0.0)));
+            self.given.push(direction);
             self.speeds.push(speed);
             self.sources.push(source);
             Ok(())
@@ -152,14 +171,16 @@ pub struct Constraints<const D: usize> {
     /// Index into `held` per node; `u32::MAX`: free. Empty when nothing is held.
     index: Vec<u32>,
     held: Vec<NodeConstraint<D>>,
+    /// The node of each: of joined nodes the leader.
+    nodes: Vec<u32>,
     /// Those in `held` whose velocity changes with time, and their nodes.
     driven: Vec<(u32, u32)>,
     /// Nodes on symmetry lines, ascending.
     mirrors: Vec<Mirror<D>>,
     /// Rotations about points.
     turns: Vec<Turn<D>>,
-    /// Nodes with prescribed spins: axis and angular velocity, rad/s.
-    spins: BTreeMap<u32, Vec<([f64; 3], Speed)>>,
+    /// Nodes with prescribed spins: axis, angular velocity (rad/s), and the condition that gave it.
+    spins: BTreeMap<u32, Vec<([f64; 3], Speed, u32)>>,
     /// What the conditions are called in messages.
     conditions: Vec<String>,
 }
@@ -310,6 +331,7 @@ where
         if *slot == u32::MAX {
             *slot = self.held.len() as u32;
             self.held.push(NodeConstraint::default());
+            self.nodes.push(node);
         }
         &mut self.held[*slot as usize]
     }
@@ -338,14 +360,15 @@ where
     /// Prescribes the spin of a node about an axis.
     fn spin(&mut self, node: u32, axis: [f64; 3], speed: &Speed, place: Place<'_, D>, found: &mut Telling) {
         let rests = speed.as_constant() == Some(0.0);
-        let is_other = |(other, before): ([f64; 3], &Speed)| dot(other, axis).abs() > 1e-9 && before != speed;
+        let is_other = |(other, before, _): ([f64; 3], &Speed, u32)| dot(other, axis).abs() > 1e-9 && before != speed;
         let x = place.mesh.positions[node as usize];
         if !rests && self.mirror_normals(node).next().is_some() {
             found.note(x, "shall spin", "a symmetry", "keeps it from rotating");
         } else if self.spins_of(node).any(is_other) {
             found.note(x, "shall spin", "another constraint", "already says how it rotates");
         } else {
-            self.spins.entry(node).or_default().push((axis, speed.clone()));
+            let source = self.conditions.len() as u32 - 1;
+            self.spins.entry(node).or_default().push((axis, speed.clone(), source));
         }
     }
 
@@ -373,6 +396,7 @@ where
         }
         if held.sources.is_empty() {
             held.directions = unit_matrix::<D>().map(|direction| (direction, 0.0)).into();
+            held.given = unit_matrix::<D>().into();
             held.speeds = vec![Speed::default(); D];
             held.sources = vec![source; D];
             held.turn = Some(turn);
@@ -482,9 +506,19 @@ impl<const D: usize> Constraints<D> {
         self.mirrors_of(node).map(|mirror| mirror.normal)
     }
 
-    /// Prescribed spins of `node`: axis and angular velocity, rad/s.
-    pub(crate) fn spins_of(&self, node: u32) -> impl Iterator<Item = ([f64; 3], &Speed)> {
-        self.spins.get(&node).into_iter().flatten().map(|(axis, speed)| (*axis, speed))
+    /// Symmetry lines that `node` lies on: the condition and the normal.
+    pub(crate) fn mirrors_at(&self, node: u32) -> impl Iterator<Item = (u32, [f64; D])> {
+        self.mirrors_of(node).map(|mirror| (mirror.line as u32, mirror.normal))
+    }
+
+    /// Prescribed spins of `node`: axis, angular velocity (rad/s), and condition.
+    pub(crate) fn spins_of(&self, node: u32) -> impl Iterator<Item = ([f64; 3], &Speed, u32)> {
+        self.spins.get(&node).into_iter().flatten().map(|(axis, speed, source)| (*axis, speed, *source))
+    }
+
+    /// Nodes that are held, and what holds them: of joined nodes the leader.
+    pub(crate) fn held(&self) -> impl Iterator<Item = (u32, &NodeConstraint<D>)> {
+        self.nodes.iter().copied().zip(&self.held)
     }
 
     fn mirrors_of(&self, node: u32) -> impl Iterator<Item = &Mirror<D>> {

@@ -5,15 +5,14 @@
 //! its curve. Means and moments of what has no closed form are taken by four Gauss points between the
 //! corners: exact for lines and smooth steps, of eighth order in the step for formulas.
 
-pub mod expression;
 pub mod sine;
 pub mod table;
 
 use crate::archive::{Archive, ArchiveResult, Persist};
+use crate::expression::Expression;
 use crate::model::in_3d;
 use crate::model::{self, CurveShape, Drive, Model, Sine};
 use crate::vector::{dot, plus, times};
-use expression::Expression;
 use table::Table;
 
 /// Points and weights of Gauss' rule on −1..1.

@@ -17,7 +17,7 @@ use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Load, Model};
 use crate::rotation::Rotate;
 use crate::tensor::Dim;
-use crate::vector::{first, plus, times};
+use crate::vector::{first, minus, plus, times};
 
 /// The forces on nodes of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,6 +41,51 @@ where
 {
     what: What<D>,
     curve: Option<usize>,
+    /// Place in the model.
+    index: usize,
+    /// Mean of the nodes at the start, m.
+    point: [f64; D],
+    /// What it sums up to now.
+    resultant: Resultant<D>,
+}
+
+/// What a load sums up to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Resultant<const D: usize> {
+    /// Force, N/m.
+    pub(crate) force: [f64; D],
+    /// Moment about the mean of the load's nodes at the start, N (N m); in 2D about z alone.
+    pub(crate) moment: [f64; 3],
+}
+
+impl<const D: usize> Default for Resultant<D> {
+    fn default() -> Self {
+        Self { force: [0.0; D], moment: [0.0; 3] }
+    }
+}
+
+impl<const D: usize> Resultant<D>
+where
+    Dim<D>: Rotate<D>,
+{
+    /// Adds a force at an arm, m.
+    fn add(&mut self, arm: [f64; D], force: [f64; D]) {
+        self.force = plus(self.force, force);
+        self.moment = plus(self.moment, <Dim<D>>::moment_vector(arm, force));
+    }
+}
+
+impl<const D: usize> What<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    /// Its nodes, with repetitions.
+    fn nodes(&self) -> Vec<u32> {
+        match self {
+            Self::Given(forces) => forces.iter().map(|&(node, _)| node).collect(),
+            Self::Pressure(facets, _) => facets.iter().flat_map(Corners::corners).copied().collect(),
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +122,13 @@ where
                 | Load::Moment { .. } => continue,
             };
             match what {
-                Ok(what) => loads.push(Acting { what, curve: curve.as_ref().and_then(|name| curves.find(name)) }),
+                Ok(what) => loads.push(Acting {
+                    curve: curve.as_ref().and_then(|name| curves.find(name)),
+                    index: i,
+                    point: mesh.mean_place(&what.nodes()),
+                    resultant: Resultant::default(),
+                    what,
+                }),
                 Err(fault) => faults.push(Fault { path: format!("load[{i}].on"), ..fault }),
             }
         }
@@ -99,19 +150,21 @@ where
         }
         self.now.clear();
         self.now.resize(positions.len(), [0.0; D]);
-        for load in &self.loads {
-            let factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
+        for Acting { what, curve, point, resultant, .. } in &mut self.loads {
+            let factor = curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
+            *resultant = Resultant::default();
             let mut add = |node: u32, force: [f64; D], factor: f64| {
-                let sum = &mut self.now[node as usize];
-                *sum = plus(*sum, times(factor, force));
+                let (sum, force) = (&mut self.now[node as usize], times(factor, force));
+                *sum = plus(*sum, force);
+                resultant.add(minus(positions[node as usize], *point), force);
             };
-            match &load.what {
+            match what {
                 What::Given(forces) => forces.iter().for_each(|&(node, force)| add(node, force, factor)),
                 What::Pressure(facets, pressure) => {
                     for facet in facets {
                         let presses = Dim::<D>::presses(self.depth, *facet, positions);
                         for (&node, &(inward, share)) in facet.corners().iter().zip(presses.as_ref()).filter(|(_, press)| press.1 > 0.0) {
-                            add(node, inward, factor * pressure * share);
+                            add(node, inward, factor * *pressure * share);
                         }
                     }
                 }
@@ -182,6 +235,11 @@ where
                 What::Pressure(facets, _) => facets.retain(|&facet| is_outside(facet)),
             }
         }
+    }
+
+    /// What each load sums up to now, with its place in the model.
+    pub(crate) fn resultants(&self) -> impl Iterator<Item = (usize, Resultant<D>)> {
+        self.loads.iter().map(|load| (load.index, load.resultant))
     }
 
     /// Force on every node now, N/m; empty when the model has no such load.

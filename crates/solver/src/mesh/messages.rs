@@ -20,6 +20,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &TINY_STEP,
     &NOT_ON_SHELLS,
     &ABOUT_NORMAL,
+    &NOTHING_CUT,
 ];
 
 pub(crate) static SHAPE: Message = Message {
@@ -192,6 +193,18 @@ pub(crate) static NOT_ON_SHELLS: Message = Message {
     cause: "Shells and beams have no bulk viscosity, are evaluated in every step with `subcycling` too, and get no mass in the run; \
         nodes of solids have no rotations that could be held.",
     remedy: "Nothing, where it is meant for other parts; else leave it out.",
+};
+
+pub(crate) static NOTHING_CUT: Message = Message {
+    code: "E0215",
+    title: "a cut that goes through no element whose forces are known",
+    example: Example::Model(
+        "[run]\nend = \"1 us\"\n\n[[part]]\nname = \"bar\"\nmaterial = \"steel\"\nvelocity = [\"1 m/s\", 0]\n\
+         rectangle = { corner = [0, 0], size = [\"10 mm\", \"2 mm\"], elements = [4, 1] }\n\n[[cut]]\nname = \"middle\"\n\
+         point = [\"50 mm\", 0]\nnormal = [1, 0]\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "The plane of a `[[cut]]` lies beside the parts, or these are rigid: there is no force in elements to report.",
+    remedy: "Move `point` into a deformable part; of rigid parts the forces of contacts and drives are in the history.",
 };
 
 pub(crate) static ABOUT_NORMAL: Message = Message {

@@ -5,6 +5,7 @@
 
 pub mod cell;
 pub mod geometry;
+pub(crate) mod kinematics;
 pub mod placement;
 pub mod shapes;
 pub(crate) mod messages;
@@ -24,6 +25,7 @@ use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY};
 use crate::model::messages::{NOTHING, UNKNOWN_NAME};
 use crate::model::{ImportedMesh, MeshGroup, Model, Part, Shape, Sweep};
 use crate::tensor::Dim;
+use crate::vector::{minus, plus, times};
 use cell::{Cell, CellKind, MOST_NODES};
 use shapes::Body;
 use shapes::sweep::SweptMesh;
@@ -548,6 +550,14 @@ where
             return Some(sorted(facets.iter().flat_map(Corners::corners).map(|&node| self.leader_of(node))));
         }
         self.points.get(name).cloned()
+    }
+
+    /// Mean of the places of nodes at the start, m; seen from the first of them, so that far from the origin
+    /// no digits are lost.
+    pub(crate) fn mean_place(&self, nodes: &[u32]) -> [f64; D] {
+        let Some(from) = nodes.first().map(|&node| self.positions[node as usize]) else { return [0.0; D] };
+        let sum = nodes.iter().fold([0.0; D], |sum, &node| plus(sum, minus(self.positions[node as usize], from)));
+        plus(from, times(1.0 / nodes.len() as f64, sum))
     }
 
     /// Whether each node has an element that has not been eroded.

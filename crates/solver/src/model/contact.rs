@@ -338,7 +338,7 @@ section! {
             the left of its lines.",
         form: Form::Repeated,
         groups: &[&INTERFACE],
-        rules: &[Rule::OneOf(&["between", "bodies"]), Rule::Only { keys: &["tie_strength"], by: "tied", value: "true" }],
+        rules: &[Rule::OneOf(&["between", "bodies"]), Rule::Needs("pairs", "bodies"), Rule::Only { keys: &["tie_strength"], by: "tied", value: "true" }],
         ..Section::EMPTY
     };
     name: String = Name, Optional("the names of the surfaces or parts joined by `-`, or `all`"), "Unique name.";
@@ -355,6 +355,8 @@ section! {
             `segment` both surfaces over what they have in common.";
     "tie_strength" = Quantity(Dimension::PRESSURE, Positive), Optional("it never breaks"),
         "Traction above which a tie breaks.";
+    pairs: Option<bool> = Flag, Optional("up to four bodies"),
+        "Whether the history has the forces of `bodies` by pair, as `contact.force_x[NAME:ONE-OTHER]`: of the second on the first.";
     search: String = Choice(Choices::Searches), Optional("`grid`"), "How near pairs are found; changes no result.";
     /// The surfaces.
     partners: Partners, read Partners::read;

@@ -7,7 +7,7 @@ use super::values::Course;
 use super::{Drive, Motion, Values, in_3d, section};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
-use crate::vocabulary::Kind::{Angle, Quantity, Reference, References, Spatial, Table};
+use crate::vocabulary::Kind::{Angle, Name, Quantity, Reference, References, Spatial, Table};
 use crate::vocabulary::Need::Optional;
 use crate::vocabulary::{Choices, Form, Kind, Rule, Section, key};
 
@@ -20,6 +20,7 @@ section! {
         form: Form::Repeated,
         ..Section::EMPTY
     };
+    name: String = Name, Optional("`symmetry`, `symmetry2`, ..."), "Unique name, by which the history has its reaction.";
     normal: [f64; 3] = Spatial(Dimension::NONE, Finite), Required, "Normal of the line; any length but zero.";
     point: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "A point of the line.";
     parts: Vec<String> = References(None), Optional("all parts"), "Parts that it holds.";
@@ -42,6 +43,7 @@ section! {
         ],
         ..Section::EMPTY
     };
+    name: String = Name, Optional("the name of the set"), "Unique name, by which the history has its reaction.";
     on: String = Reference, Required, "The set.";
     "fixed" = Kind::Choices(Choices::Words(&["x", "y", "z", "rotation"])), Optional("none"),
         "Components that don't move; `rotation`: nodes of shells and beams don't rotate either, so that they are clamped.";
@@ -213,6 +215,12 @@ pub(crate) static LOAD: Section = Section {
     form: Form::Repeated,
     keys: &[
         key(
+            "name",
+            Name,
+            Optional("the name of the set, or `gravity`, `centrifugal`"),
+            "Unique name, by which the history has its resultant.",
+        ),
+        key(
             "gravity",
             Spatial(Dimension::ACCELERATION, Finite),
             Optional("another load"),
@@ -324,6 +332,19 @@ impl Load {
             Self::StiffnessDamping { parts, time: values.get("damping_stiffness") }
         } else {
             Self::Gravity { parts, acceleration: values.get("gravity"), curve }
+        }
+    }
+}
+
+impl Load {
+    /// What it is called where it has no name: by the set that it acts on, or what it is.
+    #[must_use]
+    pub fn usual_name(&self) -> &str {
+        match self {
+            Self::Force { on, .. } | Self::Moment { on, .. } | Self::Pressure { on, .. } => on,
+            Self::Gravity { .. } => "gravity",
+            Self::Centrifugal { .. } => "centrifugal",
+            Self::Damping { .. } | Self::StiffnessDamping { .. } => "damping",
         }
     }
 }

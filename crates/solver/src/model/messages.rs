@@ -18,6 +18,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NOTHING,
     &NOT_IN_SPACE,
     &THIRD,
+    &FORMULA,
+    &COARSE_CHANNEL,
 ];
 
 /// A number is out of its range.
@@ -149,4 +151,29 @@ pub(crate) static THIRD: Message = Message {
     example: Example::Model("[[load]]\ngravity = [0, -9.81, 1]\n"),
     cause: "All parts are 2D, but a vector has a component along z, or something is held, moved or turned out of the plane.",
     remedy: "Leave it out, or make the parts solid: `extrude` them, or give them a 3D shape.",
+};
+
+pub(crate) static FORMULA: Message = Message {
+    code: "E0127",
+    title: "a formula of a channel that can't be read",
+    example: Example::Model(
+        "[run]\nend = \"1 us\"\n\n[[part]]\nname = \"bar\"\nmaterial = \"steel\"\nvelocity = [\"1 m/s\", 0]\n\
+         rectangle = { corner = [0, 0], size = [\"10 mm\", \"2 mm\"], elements = [4, 1] }\n\n[[probe]]\nname = \"bar\"\nset = \"bar\"\n\n\
+         [[channel]]\nname = \"c\"\nexpression = \"bar.q\"\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "The formula names a column that the history does not have, or a function that there is not, or is not written as one.",
+    remedy: "Take names from the first line of `history.csv`; `docs/output.md` lists the columns and functions.",
+};
+
+pub(crate) static COARSE_CHANNEL: Message = Message {
+    code: "W0127",
+    title: "a filter for which the rows of the history are too far apart",
+    example: Example::Model(
+        "[run]\nend = \"0.1 s\"\n\n[[part]]\nname = \"bar\"\nmaterial = \"steel\"\nvelocity = [\"1 m/s\", 0]\n\
+         rectangle = { corner = [0, 0], size = [\"10 mm\", \"2 mm\"], elements = [4, 1] }\n\n[[probe]]\nname = \"bar\"\nset = \"bar\"\n\n\
+         [[channel]]\nname = \"c\"\nexpression = \"bar.ax\"\nfilter = \"CFC 1000\"\n\n[output]\nhistory = 10\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "A filter of a channel frequency class needs ten rows in the time 1/CFC, one with a corner six in its period (SAE J211).",
+    remedy: "Write rows of the history more often, as the message proposes.",
 };

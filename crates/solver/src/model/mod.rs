@@ -33,7 +33,7 @@ pub use initial::InitialStress;
 pub use load::{Axis, Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 pub use motion::{Curve, CurveShape, Drive, Motion, Sine};
 pub use obstacle::{Obstacle, ObstacleShape};
-pub use output::{Cadence, Camera, Output, PictureView, Probe, ProbeAt};
+pub use output::{Cadence, Camera, Channel, Cut, Extreme, Forces, Output, PictureView, Probe, ProbeAt};
 pub use part::Part;
 pub use placement::{Copies, Mirror, Placement};
 pub use profile::{BOX, GIVEN, I, PROFILES, Profile, RECTANGLE, ROUND, TUBE};
@@ -57,7 +57,7 @@ pub(crate) use discrete::{POINT_MASS, SPRING};
 pub(crate) use load::{CONSTRAINT, JOIN, LOAD, NON_REFLECTING, SYMMETRY};
 pub(crate) use motion::CURVE;
 pub(crate) use obstacle::OBSTACLE;
-pub(crate) use output::{OUTPUT, PROBE};
+pub(crate) use output::{CHANNEL, CUT, OUTPUT, PROBE};
 pub(crate) use part::PART;
 pub(crate) use run::RUN;
 pub(crate) use section::section;
@@ -99,6 +99,8 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     /// `[[load]]`.
     pub loads: Vec<Load>,
+    /// Names of the loads, by which the history has their resultants; what is left out is numbered.
+    pub load_names: Vec<String>,
     /// `[[cavity]]`.
     pub cavities: Vec<Cavity>,
     /// `[[non_reflecting]]`.
@@ -115,6 +117,10 @@ pub struct Model {
     pub point_masses: Vec<PointMass>,
     /// `[[probe]]`.
     pub probes: Vec<Probe>,
+    /// `[[cut]]`.
+    pub cuts: Vec<Cut>,
+    /// `[[channel]]`.
+    pub channels: Vec<Channel>,
     /// `[output]`.
     pub output: Output,
 }

@@ -170,7 +170,7 @@ pub enum CurveShape {
     },
     /// A wave.
     Sine(Sine),
-    /// A formula of the time `t`: see [`crate::load::curve::expression`].
+    /// A formula of the time `t`: see [`crate::expression`].
     Expression(String),
 }
 

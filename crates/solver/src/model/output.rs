@@ -1,9 +1,10 @@
 //! What a run of a [`super::Model`] writes: `[output]` and `[[probe]]`.
 
 use super::{Values, section};
+use crate::channel::filter::Filter;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
-use crate::vocabulary::Kind::{Choice, Flag, Integer, Name, Quantity, Reference, Spatial, Table, Vector};
+use crate::vocabulary::Kind::{Choice, Flag, Integer, Name, Quantity, Reference, References, Spatial, Table, Text, Vector};
 use crate::vocabulary::{Choices, Form, Kind, Rule, Section};
 
 /// How often something is recorded.
@@ -28,6 +29,10 @@ section! {
         "How often the fields are written: a count, or an interval such as `\"0.1 ms\"`.";
     history: Cadence = Kind::Cadence, Default("1000"),
         "How often a row of the history is written: a count or an interval.";
+    forces: Forces = Choice(Choices::Words(&["mean", "sample"])), Default("\"mean\""),
+        "What rows of the history have of forces, moments and accelerations: the mean over the interval since the row before, \
+            of which nothing is missed, or the value at the row's time.",
+        read Forces::read;
     hash_steps: Option<u64> = Integer(0), Default("100"),
         "Steps between two lines of `hashes.csv`, by which `embate diff` finds where two runs diverge; 0: none are written.",
         read |values| values.get::<Option<u64>>("hash_steps").filter(|&steps| steps > 0);
@@ -43,6 +48,22 @@ section! {
         "What pictures and animation show; `embate check` draws the whole mesh all the same.";
     camera: Option<Camera> = Table(&CAMERA), Optional("three sides are seen"),
         "From where pictures of a 3D model look at it.";
+}
+
+/// What rows of the history have of forces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Forces {
+    /// The mean over the interval since the row before: impulse by time.
+    #[default]
+    Mean,
+    /// The value at the row's time.
+    Sample,
+}
+
+impl Forces {
+    fn read(values: &dyn Values) -> Self {
+        if values.get::<String>("forces") == "sample" { Self::Sample } else { Self::Mean }
+    }
 }
 
 /// Which axes the output is mirrored along.
@@ -86,26 +107,102 @@ section! {
     #[derive(Clone, Debug, PartialEq)]
     pub struct Probe in PROBE = Section {
         name: "probe",
-        doc: "A place whose position and velocity are written to the history as `NAME.x`, `NAME.y`, `NAME.vx`, \
-            `NAME.vy`: the node of `part` nearest to `point`, node number `node` of `part`, or the mean over `set`.",
+        doc: "A place whose position, velocity and acceleration are written to the history as `NAME.x`, `NAME.vx`, \
+            `NAME.ax` and so on: the node of `part` nearest to `point`, node number `node` of `part`, or the mean over `set`, \
+            which has its `NAME.spin` too. With `fields` also values of fields, such as `NAME.von_mises`, `NAME.stress_xx`: \
+            those of elements as the mean over the elements at the node, or of `element` alone, or the `extreme` in a set.",
         form: Form::Repeated,
         rules: &[
-            Rule::OneOf(&["point", "node", "set"]),
+            Rule::OneOf(&["point", "node", "element", "set"]),
             Rule::Needs("point", "part"),
             Rule::Needs("node", "part"),
+            Rule::Needs("element", "part"),
             Rule::NotBoth("set", "part"),
+            Rule::Needs("extreme", "set"),
+            Rule::Needs("extreme", "fields"),
         ],
         ..Section::EMPTY
     };
     name: String = Name, Required, "Unique name.";
-    "part" = Reference, Optional("only with `set`"), "Part of `point` or `node`.";
-    "point" = Spatial(Dimension::LENGTH, Finite), Optional("`node` or `set`"),
+    "part" = Reference, Optional("only with `set`"), "Part of `point`, `node` or `element`.";
+    "point" = Spatial(Dimension::LENGTH, Finite), Optional("`node`, `element` or `set`"),
         "Initial position; the nearest node is taken.";
-    "node" = Integer(0), Optional("`point` or `set`"), "Number of the node in its part, from 0.";
-    "set" = Reference, Optional("`point` or `node`"),
+    "node" = Integer(0), Optional("`point`, `element` or `set`"), "Number of the node in its part, from 0.";
+    "element" = Integer(0), Optional("`point`, `node` or `set`"), "Number of the element in its part, from 0: its fields alone.";
+    "set" = Reference, Optional("`point`, `node` or `element`"),
         "A part, a side such as `plate.top`, or a group of a mesh file.";
+    fields: Vec<String> = Kind::Choices(Choices::Fields), Optional("none; of `element` stress and plastic strain"),
+        "Fields whose values are written, of whole tensors and vectors all components.";
+    extreme: Option<Extreme> = Choice(Choices::Words(&["max", "min"])), Optional("the mean"),
+        "Whether the largest or the smallest value of each field in the set is written, of elements that are there.",
+        read Extreme::read;
     /// Where.
     at: ProbeAt, read ProbeAt::read;
+}
+
+/// Which value of a field in a set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extreme {
+    /// The largest.
+    Max,
+    /// The smallest.
+    Min,
+}
+
+impl Extreme {
+    fn read(values: &dyn Values) -> Option<Self> {
+        let word: Option<String> = values.get("extreme");
+        word.map(|word| if word == "min" { Self::Min } else { Self::Max })
+    }
+}
+
+section! {
+    /// `[[cut]]`: a plane through parts, and what it transmits.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Cut in CUT = Section {
+        name: "cut",
+        doc: "A plane (in 2D a line) through deformable parts at the start, which moves with the elements that it cuts: the history \
+            has the force and the moment that the side to which the normal points exerts on the other one. Springs across it, \
+            contacts and loads do not count.",
+        form: Form::Repeated,
+        ..Section::EMPTY
+    };
+    name: String = Name, Required, "Unique name.";
+    point: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Required, "A point of the plane.";
+    normal: [f64; 3] = Spatial(Dimension::NONE, Finite), Required, "Its normal; any length but zero. Tension is a force along it.";
+    parts: Vec<String> = References(None), Optional("all deformable parts that it cuts"), "Parts that it cuts, from end to end.";
+}
+
+section! {
+    /// `[[channel]]`: a formula of the history's columns.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Channel in CHANNEL = Section {
+        name: "channel",
+        doc: "A formula of the history's columns, found after the run: `channels.csv` has its values, `summary.json` its largest, \
+            smallest and last one. Later channels may use earlier ones.",
+        form: Form::Repeated,
+        rules: &[Rule::NotBoth("filter", "corner")],
+        ..Section::EMPTY
+    };
+    name: String = Name, Required, "Unique name.";
+    expression: String = Text, Required,
+        "A formula, such as `\"A.y - B.y\"`: names of columns, `t`, numbers, `+ - * / ^`, parentheses, the functions of curves, and \
+            those of whole columns that [results](output.md#channels) lists, such as `cfc60(A.ax)`, `integral`, `hic15`.";
+    "filter" = Choice(Choices::Words(&["CFC 60", "CFC 180", "CFC 600", "CFC 1000"])), Optional("none"),
+        "Channel frequency class of SAE J211 and ISO 6487 by which the values are filtered, without phase.";
+    "corner" = Quantity(Dimension::RATE, Positive), Optional("none"),
+        "Frequency at which a Butterworth filter of fourth order without phase damps the values by 3 dB.";
+    /// What filters the values.
+    filter: Option<Filter>, read filter;
+}
+
+/// The filter of a channel.
+fn filter(values: &dyn Values) -> Option<Filter> {
+    if values.has("corner") {
+        return Some(Filter::Corner(values.get("corner")));
+    }
+    let class = values.get::<Option<String>>("filter")?;
+    class.strip_prefix("CFC ").and_then(|class| class.parse().ok()).map(Filter::Class)
 }
 
 /// Where a probe sits.
@@ -125,6 +222,13 @@ pub enum ProbeAt {
         /// Number within the part.
         node: usize,
     },
+    /// Element number `element` (from 0) of `part`.
+    Element {
+        /// Part name.
+        part: String,
+        /// Number within the part.
+        element: usize,
+    },
     /// Mass-weighted mean over a part, `part.side` or group.
     Set {
         /// Set name.
@@ -138,6 +242,8 @@ impl ProbeAt {
             Self::Point { part: values.get("part"), point: values.get("point") }
         } else if values.has("node") {
             Self::Node { part: values.get("part"), node: values.get("node") }
+        } else if values.has("element") {
+            Self::Element { part: values.get("part"), element: values.get("element") }
         } else {
             Self::Set { set: values.get("set") }
         }

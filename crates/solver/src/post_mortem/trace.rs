@@ -135,7 +135,7 @@ impl<const D: usize> AfterStep<D> for Tracer<D>
 where
     Dim<D>: Runs<D>,
 {
-    fn note(&mut self, system: &System<D>, recorded: &Recorded, error: Option<&Error>) {
+    fn note(&mut self, system: &System<D>, recorded: &Recorded<D>, error: Option<&Error>) {
         // These are looked for when the ledger are closed.
         let is_late = |error| matches!(error, &Error::EnergyDrift { .. } | &Error::TooDeep { .. } | &Error::Runaway { .. });
         let is_closed = error.is_none_or(is_late);
@@ -165,7 +165,7 @@ impl<const D: usize> System<D>
 where
     Dim<D>: Runs<D>,
 {
-    fn moment(&self, failure_entity: &FailureEntity, near: &Near, recorded: &Recorded, is_closed: bool) -> Moment {
+    fn moment(&self, failure_entity: &FailureEntity, near: &Near, recorded: &Recorded<D>, is_closed: bool) -> Moment {
         let field = |&(g, element): &(usize, usize)| {
             let (block, state) = (&self.blocks[g], self.blocks[g].state(element));
             if near.is_plastic { block.variable(&state, &PLASTIC_STRAIN).unwrap_or(0.0) } else { von_mises(&state.stress) }
@@ -175,7 +175,7 @@ where
             time: self.time,
             time_step: self.time_step_old,
             drift: self.ledger.drift(),
-            row: if is_closed { recorded.row(self) } else { Vec::new() },
+            row: if is_closed { recorded.samples(self) } else { Vec::new() },
             vitals: self.vitals(failure_entity),
             positions: near.nodes.iter().map(|&node| in_3d(self.positions[node as usize])).collect(),
             forces: near.nodes.iter().map(|&node| in_3d(self.contact_force(node as usize))).collect(),

@@ -7,6 +7,7 @@ use super::{
     Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Runs, State, TimeStepCosts, time_step_costs, tiny,
 };
 use crate::build;
+use crate::channel::{self, Channels};
 use crate::contact::initial::{self, Inside, Penetration};
 use crate::contact::messages::INSIDE_AT_START;
 use crate::contact::{ContactKind, search};
@@ -31,7 +32,7 @@ where
     Dim<D>: Runs<D>,
 {
     /// Looks at it after a step, or after one that failed.
-    fn note(&mut self, system: &System<D>, recorded: &Recorded, error: Option<&Error>);
+    fn note(&mut self, system: &System<D>, recorded: &Recorded<D>, error: Option<&Error>);
 }
 
 /// A model of one dimension made ready to step: what a [`Simulation`] of it does.
@@ -40,7 +41,7 @@ where
     Dim<D>: Runs<D>,
 {
     pub(crate) system: System<D>,
-    pub(crate) recorded: Recorded,
+    pub(crate) recorded: Recorded<D>,
     pub(crate) momentum: Option<Momentum<D>>,
     pub(super) shortest: Shortest,
     pub(super) monitor: RunMonitor,
@@ -101,6 +102,7 @@ where
         let threads = options.thread_count();
         let (system, model_warnings) = build::system(model, mesh, level, threads).map_err(Error::Model)?;
         let recorded = Recorded::new(model, &system).map_err(Error::Model)?;
+        Channels::new(model, &recorded.columns(&system)).map_err(Error::Model)?;
         let pool = if system.team.threads() > 1 { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
         let mut simulation = Self {
             momentum: None,
@@ -126,6 +128,7 @@ where
         };
         within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
         simulation.model_warnings.extend(tiny::warnings(&simulation.system));
+        simulation.model_warnings.extend(channel::warnings(model));
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
         simulation.check_obstacles(model)?;
@@ -235,6 +238,7 @@ where
                     tracer.note(system, recorded, stepped.as_ref().err());
                 }
                 stepped?;
+                recorded.note(system);
                 shortest.note(system);
                 hashing.note(system);
             }
@@ -281,7 +285,7 @@ where
             self.report_hashes(observer)?;
             if (rows.due(time) || over) && time > output_cursor.last_row {
                 self.note_momentum();
-                observer.row(&self.history_row()).map_err(output)?;
+                self.report_row(observer)?;
                 output_cursor.last_row = time;
             }
             if (frames.due(time) || over) && output_cursor.last_frame != Some(self.system.step) {
@@ -339,7 +343,7 @@ where
                 // before.
                 self.monitor.look(&self.system, &self.shortest, true);
                 if self.system.time > output_cursor.last_row {
-                    observer.row(&self.history_row()).map_err(output)?;
+                    self.report_row(observer)?;
                 }
                 self.show(observer)?;
                 return Err(error);
@@ -370,7 +374,7 @@ where
             let time = self.system.time;
             let over = self.is_over() || time >= to * (1.0 - 1e-12);
             if (time >= from * (1.0 - 1e-12) && outputs.due(time - from)) || over {
-                observer.row(&self.history_row()).map_err(output)?;
+                self.report_row(observer)?;
                 self.show(observer)?;
             }
             let governor = self.system.governor_name(self.system.governor);
@@ -379,7 +383,7 @@ where
             }
             let until = (from + outputs.next()).min(to);
             if let Err(error) = self.advance(until * (1.0 - 1e-12), PROGRESS) {
-                observer.row(&self.history_row()).map_err(output)?;
+                self.report_row(observer)?;
                 self.show(observer)?;
                 return Err(error);
             }
@@ -466,7 +470,13 @@ where
 
     /// Values of the history's columns now.
     pub(crate) fn history_row(&self) -> Vec<f64> {
-        self.recorded.row(&self.system)
+        self.recorded.samples(&self.system)
+    }
+
+    /// Gives the row of the interval that ends now to an observer.
+    fn report_row(&mut self, observer: &mut dyn Observer) -> Result<(), Error> {
+        let row = self.recorded.take_row(&self.system);
+        observer.row(&row).map_err(output)
     }
 
     /// What the stable step costs.

@@ -28,11 +28,12 @@ where
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            recorded: _, threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, hash_steps: _, hashing: _, search_names: _, pool: _,
+            threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, hash_steps: _, hashing: _, search_names: _, pool: _,
             known_cells: _, memory: _, tracer: _,
-            system, momentum, shortest, monitor, output_cursor,
+            system, recorded, momentum, shortest, monitor, output_cursor,
         } = self;
         archive.section("run")?;
+        recorded.persist(archive)?;
         shortest.persist(archive)?;
         monitor.persist(archive)?;
         let mut so_far = output_cursor.unwrap_or_else(|| OutputCursor::new(system.step));

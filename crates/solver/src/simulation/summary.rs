@@ -165,6 +165,7 @@ where
             penetration_max: system.penetration_max,
             contact: self.certificate(),
             erosion: self.erosion(),
+            forces: self.recorded.peaks(),
             mass_added: system.mass_added[0] + mass_in_run.map_or(0.0, |brought| brought.mass),
             mass_added_in_run: mass_in_run,
             element_evaluations: system.subcycling.as_ref().map(|own| own.evaluations),

@@ -217,6 +217,11 @@ where
         self.loads.is_empty() && self.gravity.is_empty() && !self.damping.acts()
     }
 
+    /// Force (N/m) of what holds a node or leads its group, with its velocity after the update.
+    pub(crate) fn reaction(&self, leader: usize, v: [f64; D]) -> [f64; D] {
+        self.pull_on(leader).reaction(self.dt, v)
+    }
+
     /// The same as [`Nodes::update`] for nodes that coast, with the sums of their last step; `None` where a
     /// contact pushes one. `has_coasted`: in the last step too, so that their velocities are in place.
     pub(crate) fn coast(
@@ -258,19 +263,30 @@ impl<const D: usize> Pull<'_, D>
 where
     Dim<D>: Dimension<D>,
 {
+    /// v^{n+½} after Δt without what is prescribed.
+    #[inline(always)]
+    fn unheld(&self, dt: f64) -> [f64; D] {
+        let scale = dt / self.mass;
+        let mut v = plus(self.old, times(scale, plus(self.internal, self.contact)));
+        if let Some(load) = self.load {
+            v = plus(v, times(scale, load));
+        }
+        if let Some(g) = self.gravity {
+            v = plus(v, times(dt, g));
+        }
+        self.slowed(v)
+    }
+
+    /// Force (N/m) with which what is prescribed has led to the velocity `v` in Δt.
+    pub(super) fn reaction(&self, dt: f64, v: [f64; D]) -> [f64; D] {
+        times(1.0 / dt, applied(&self.inertia(), minus(v, self.unheld(dt))))
+    }
+
     /// v^{n+½} after Δt, and its part in the ledger.
     pub(super) fn advance(&self, dt: f64, sums: &mut Sums) -> [f64; D] {
         let (pull, m, old) = (self, self.mass, self.old);
-        let scale = dt / m;
-        let mut v = plus(old, times(scale, plus(pull.internal, pull.contact)));
-        if let Some(load) = pull.load {
-            v = plus(v, times(scale, load));
-        }
-        if let Some(g) = pull.gravity {
-            v = plus(v, times(dt, g));
-        }
-        let free = pull.slowed(v);
-        v = pull.held(free);
+        let free = pull.unheld(dt);
+        let v = pull.held(free);
         let mean = times(0.5, plus(old, v));
         sums.kinetic_half += 0.5 * m * dot(v, v);
         sums.kinetic += 0.5 * m * dot(old, v);

@@ -72,6 +72,10 @@ struct MomentLoad {
     /// On each of them, N (N m).
     moment: [f64; 3],
     curve: Option<usize>,
+    /// Its value now.
+    factor: f64,
+    /// Place of the load in the model.
+    index: usize,
 }
 
 /// Nodes that rotate as one, or one that is held.
@@ -178,10 +182,11 @@ impl NodalRotations {
             for (place, turn) in &members {
                 let node = now.nodes[*place];
                 // Contradictions are faults of the model.
-                let normals: Vec<[f64; D]> = constraints.mirror_normals(node).collect();
-                held_by(&normals).for_each(|direction| held.rest(back(*turn, direction)));
-                for (axis, speed) in constraints.spins_of(node) {
-                    held.prescribe(back(*turn, axis), speed);
+                for (source, normal) in constraints.mirrors_at(node) {
+                    held_by(normal).into_iter().for_each(|direction| held.rest(back(*turn, direction), source));
+                }
+                for (axis, speed, source) in constraints.spins_of(node) {
+                    held.prescribe(back(*turn, axis), speed, source);
                 }
             }
             let whole = members.iter().map(|&(place, _)| inertia[place]).sum();
@@ -213,12 +218,13 @@ impl NodalRotations {
         }
     }
 
-    /// Lets the moments of a model's loads act: of each its nodes, the whole of it (N, N m) and its curve.
-    pub(super) fn load<'a>(&mut self, loads: impl Iterator<Item = (Vec<u32>, [f64; 3], Option<usize>)> + 'a) {
-        for (nodes, moment, curve) in loads {
+    /// Lets the moments of a model's loads act: of each its place in the model, its nodes, the whole of it
+    /// (N, N m) and its curve.
+    pub(super) fn load<'a>(&mut self, loads: impl Iterator<Item = (usize, Vec<u32>, [f64; 3], Option<usize>)> + 'a) {
+        for (index, nodes, moment, curve) in loads {
             let places: Vec<usize> = nodes.iter().filter_map(|&node| self.now.place(node)).collect();
             let moment = times(1.0 / places.len().max(1) as f64, moment);
-            self.loads.push(MomentLoad { places, moment, curve });
+            self.loads.push(MomentLoad { places, moment, curve, factor: 1.0, index });
         }
         self.now_loads = vec![[0.0; 3]; if self.loads.is_empty() { 0 } else { self.inertia.len() }];
     }
@@ -303,12 +309,28 @@ impl NodalRotations {
     pub(super) fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], step: [f64; 2]) {
         self.groups.iter_mut().filter_map(|group| group.held.as_mut()).for_each(|held| held.drive(curves, step));
         self.now_loads.fill([0.0; 3]);
-        for load in &self.loads {
-            let factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
+        for load in &mut self.loads {
+            load.factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
             for &place in &load.places {
-                self.now_loads[place] = plus(self.now_loads[place], times(factor, load.moment));
+                self.now_loads[place] = plus(self.now_loads[place], times(load.factor, load.moment));
             }
         }
+    }
+
+    /// Hands over the reactions of held places: the node, what holds it, and the moment of that in the last
+    /// update of `mean_step` (s), N (N m).
+    pub(super) fn reactions(&self, mean_step: f64, damping: &Damping, mut see: impl FnMut(u32, &NodeConstraint<3>, [f64; 3])) {
+        for group in &self.groups {
+            let Some(held) = &group.held else { continue };
+            let pull = self.pull(group, &self.spins_old, [true, true], |node| damping.factor(node));
+            let first = group.members[0].0;
+            see(self.now.nodes[first], held, pull.reaction(mean_step, self.now.spins[first]));
+        }
+    }
+
+    /// Moments of loads now, each with the load's place in the model, N (N m).
+    pub(crate) fn load_moments(&self) -> impl Iterator<Item = (usize, [f64; 3])> {
+        self.loads.iter().map(|load| (load.index, times(load.factor * load.places.len() as f64, load.moment)))
     }
 
     /// Moment of the elements on a node; `None`: it has no rotation.
@@ -410,14 +432,12 @@ impl NodalRotations {
     }
 }
 
-/// Directions about which a node of symmetry planes with these normals can't rotate: those in the planes. In
-/// 2D all planes are normal to the plane of the model.
-fn held_by<const D: usize>(normals: &[[f64; D]]) -> impl Iterator<Item = [f64; 3]> {
-    normals.iter().flat_map(|&normal| {
-        let n: [f64; 3] = in_3d(normal);
-        let first = any_tangent(n);
-        [first, cross(n, first)]
-    })
+/// Directions about which a node of a symmetry plane can't rotate: those in the plane. In 2D all planes are
+/// normal to the plane of the model.
+fn held_by<const D: usize>(normal: [f64; D]) -> [[f64; 3]; 2] {
+    let n: [f64; 3] = in_3d(normal);
+    let first = any_tangent(n);
+    [first, cross(n, first)]
 }
 
 impl<const D: usize> System<D>
@@ -436,13 +456,13 @@ where
 {
     /// Lets the moments of the model act on the nodes that rotate.
     pub(crate) fn load_rotations(&mut self, model: &Model) {
-        let of = |load: &Load| match load {
+        let of = |(index, load): (usize, &Load)| match load {
             Load::Moment { on, moment, curve } => {
-                Some((self.mesh.nodes(on)?, *moment, curve.as_ref().and_then(|name| self.curves.find(name))))
+                Some((index, self.mesh.nodes(on)?, *moment, curve.as_ref().and_then(|name| self.curves.find(name))))
             }
             _ => None,
         };
-        self.rotations.load(model.loads.iter().filter_map(of));
+        self.rotations.load(model.loads.iter().enumerate().filter_map(of));
     }
 }
 

@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 fn rod(model: &mut Model, name: &str, line: Vec<Vector>, elements: usize, profile: Profile, velocity: Vector) {
     beams(model, name, line, elements, profile);
     model.parts.last_mut().unwrap().velocity = velocity;
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() }, ..Probe::default() });
 }
 
 fn all_touch(model: &mut Model, friction: f64) {
@@ -206,7 +206,7 @@ fn turns_of_a_coil_meet_each_other() {
     rod(&mut model, "coil", (0..=per_turn * turns).map(at).collect(), 1, round(diameter), [0.0; 3]);
     // Two places of the middle turns that are above each other.
     for (name, node) in [("one", 35), ("other", 55)] {
-        model.probes.push(Probe { name: name.into(), at: ProbeAt::Node { part: "coil".into(), node } });
+        model.probes.push(Probe { name: name.into(), at: ProbeAt::Node { part: "coil".into(), node }, ..Probe::default() });
     }
     all_touch(&mut model, 0.1);
     let height = 1.6 * diameter * turns as f64;
@@ -308,7 +308,7 @@ fn a_rod_pierces_a_sheet_and_is_stopped_by_a_rigid_block() {
     let still = || Some(Drive::from(0.0));
     stiffen(&mut model, "wall", Motion { velocity: [still(), still(), still()], spin: still() });
     rod(&mut model, "rod", vec![[0.001, 0.001, 0.002], [0.001, 0.001, 0.082]], 8, round(0.01), [0.0, 0.0, -250.0]);
-    model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: "rod.point0".into() } });
+    model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: "rod.point0".into() }, ..Probe::default() });
     all_touch(&mut model, 0.1);
     let (simulation, history) = run(&model);
     let z = history.column("rod.z").into_iter().fold(f64::INFINITY, f64::min);
@@ -325,9 +325,13 @@ fn half_of_a_rod_at_a_symmetry_plane_moves_as_the_whole() {
         let from = if whole { -0.1 } else { 0.0 };
         rod(&mut model, "rod", vec![[from, 0.0, 0.0101], [0.1, 0.0, 0.0101]], if whole { 10 } else { 5 }, round(0.02), [0.0, 0.0, -5.0]);
         model.obstacles.push(Obstacle::wall("floor", [0.0; 3], [0.0, 0.0, 1.0]));
-        model.probes.push(Probe { name: "end".into(), at: ProbeAt::Point { part: "rod".into(), point: [0.1, 0.0, 0.0201] } });
+        model.probes.push(Probe {
+            name: "end".into(),
+            at: ProbeAt::Point { part: "rod".into(), point: [0.1, 0.0, 0.0201] },
+            ..Probe::default()
+        });
         if !whole {
-            model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], point: [0.0; 3], parts: Vec::new() });
+            model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], point: [0.0; 3], parts: Vec::new(), name: String::new() });
         }
         let simulation = to_end(&model);
         is_sound(&simulation, "half");

@@ -309,7 +309,7 @@ fn cantilever(length: f64, elements: usize, profile: Profile, material: Material
     let shape = CurveShape::Table { times: vec![0.0, 0.5 * end], values: vec![0.0, 1.0], smooth: true };
     model.curves.insert("slowly".into(), Curve { shape, dimension: None });
     model.loads.push(Load::Damping { parts: vec![], rate: damping, active: [0.0, f64::INFINITY] });
-    model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: "arm.point1".into() } });
+    model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: "arm.point1".into() }, ..Probe::default() });
     (model, Some("slowly".into()))
 }
 
@@ -350,7 +350,7 @@ fn a_round_bar_is_twisted_by_its_torsion_constant() {
     model.parts[0].shape = Shape::SpaceTruss(SpaceTruss { lines, elements: 4 });
     let torque = 0.1;
     model.loads.push(Load::Moment { on: "arm.point1".into(), moment: [torque, 0.0, 0.0], curve });
-    model.probes.push(Probe { name: "hand".into(), at: ProbeAt::Set { set: "arm.point2".into() } });
+    model.probes.push(Probe { name: "hand".into(), at: ProbeAt::Set { set: "arm.point2".into() }, ..Probe::default() });
     let simulation = to_end(&model);
     let angle = torque * length / (young / (2.0 * (1.0 + poisson)) * PI * diameter.powi(4) / 32.0);
     let [y, z] = ["hand.y", "hand.z"].map(|column| value(&simulation, column));

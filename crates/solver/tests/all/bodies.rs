@@ -66,11 +66,15 @@ pub(crate) fn add(model: &mut Model, name: &str, shape: Shape, velocity: [f64; 2
         velocity: embate_solver::model::in_3d(velocity),
         ..Part::default()
     });
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() }, ..Probe::default() });
 }
 
 pub(crate) fn probe(model: &mut Model, name: &str, part: &str, point: [f64; 2]) {
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point: embate_solver::model::in_3d(point) } });
+    model.probes.push(Probe {
+        name: name.into(),
+        at: ProbeAt::Point { part: part.into(), point: embate_solver::model::in_3d(point) },
+        ..Probe::default()
+    });
 }
 
 pub(crate) fn touch(model: &mut Model, first: &str, second: &str) {

@@ -81,7 +81,7 @@ fn halves(dimension: usize) -> Model {
     }
     fix(&mut model, "solid.left", [true, true, dimension == 3, false]);
     let end = if dimension == 2 { "shell.end" } else { "shell.right" };
-    model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: end.into() } });
+    model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: end.into() }, ..Probe::default() });
     model
 }
 
@@ -178,7 +178,7 @@ fn a_lap_joint_carries_the_load_and_no_moment_in_its_middle() {
         radius: Some(7.2e-3),
         ..Joint::default()
     });
-    model.probes.push(Probe { name: "left".into(), at: ProbeAt::Set { set: "a.left".into() } });
+    model.probes.push(Probe { name: "left".into(), at: ProbeAt::Set { set: "a.left".into() }, ..Probe::default() });
     let simulation = to_end(&model);
     let of = |column: &str| value(&simulation, &format!("joint.{column}[spot]"));
     let (force, moment) = (["force_x", "force_y", "force_z"].map(of), ["moment_x", "moment_y", "moment_z"].map(of));
@@ -250,7 +250,11 @@ fn a_door_swings_about_its_leaning_hinge_with_the_period_of_a_pendulum() {
         at: [0.0, 0.0, 1.0],
         ..Joint::default()
     });
-    model.probes.push(Probe { name: "edge".into(), at: ProbeAt::Point { part: "door".into(), point: [width, 0.5 * breadth, 0.0] } });
+    model.probes.push(Probe {
+        name: "edge".into(),
+        at: ProbeAt::Point { part: "door".into(), point: [width, 0.5 * breadth, 0.0] },
+        ..Probe::default()
+    });
     // With the masses of the nodes: per mass width²/3 + (width/n)²/6, (breadth/2)².
     let inertia = width * width / 3.0 + (width / n as f64).powi(2) / 6.0 + 0.25 * breadth * breadth;
     let period = TAU * (inertia / (0.5 * width * g * alpha.sin())).sqrt() * (1.0 + phi * phi / 16.0);
@@ -345,7 +349,7 @@ fn the_end_of_a_beam_that_is_welded_to_a_block_is_clamped() {
     let curve = ramp(&mut model, 4.0);
     let force = 1e-3;
     model.loads.push(Load::Force { on: "beam.point1".into(), force: [0.0, force, force], curve });
-    model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: "beam.point1".into() } });
+    model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: "beam.point1".into() }, ..Probe::default() });
     let simulation = to_end(&model);
     let area = 0.06 * 0.1;
     let deflection = |inertia: f64| force * length.powi(3) / (3.0 * young * inertia) + force * length / (5.0 / 6.0 * 0.5 * young * area);

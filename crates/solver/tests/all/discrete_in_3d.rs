@@ -219,7 +219,7 @@ fn a_tripod_of_bars_has_the_energy_of_the_closed_form_through_its_snap() {
     model.curves.insert("down".into(), Curve { shape, dimension: None });
     let displacement = [None, None, Some(Drive::Curve("down".into()))];
     model.constraints.push(Constraint { on: "point0".into(), displacement, ..Constraint::default() });
-    model.probes.push(Probe { name: "apex".into(), at: ProbeAt::Set { set: "point0".into() } });
+    model.probes.push(Probe { name: "apex".into(), at: ProbeAt::Set { set: "point0".into() }, ..Probe::default() });
     let steps = every_step(&model);
     let rest = 1.01f64.sqrt();
     let most = 3.0 * young * area * (rest - 1.0 + (1.0 / rest).ln());
@@ -248,7 +248,7 @@ fn a_brick_hangs_on_bars_of_its_own_mesh() {
     hold(&mut model, "ceiling");
     model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, 0.0, -9.81], curve: None });
     model.loads.push(Load::Damping { parts: vec![], rate: 60.0, active: [0.0, f64::INFINITY] });
-    model.probes.push(Probe { name: "corner".into(), at: ProbeAt::Set { set: "point4".into() } });
+    model.probes.push(Probe { name: "corner".into(), at: ProbeAt::Set { set: "point4".into() }, ..Probe::default() });
     let simulation = to_end(&model);
     let weight = 1e3 * (0.5 * 0.4 * 0.3 + 4.0 * 0.5 * area) * 9.81;
     let expected = weight / (4.0 * young * area);

@@ -61,7 +61,7 @@ impl Block {
             velocity,
             ..Part::default()
         });
-        model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
+        model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() }, ..Probe::default() });
     }
 
     /// How deep a place is in it, were it with its middle `here`, m: negative outside.
@@ -365,7 +365,7 @@ fn a_layer_between_edges_presses_on_half_of_what_their_four_nodes_stand_for_and_
             } else {
                 [0.05, 0.0, HALF]
             };
-            model.probes.push(Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point: near } });
+            model.probes.push(Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point: near }, ..Probe::default() });
         }
         let mut simulation = simulation(&model);
         let (area, mut worst, mut most) = (0.5 * WIDTH * 0.1, 0.0f64, 0.0f64);

@@ -27,7 +27,7 @@ fn crossed(across: usize, speed: f64) -> Model {
         bar("above", [-half, -5.0 * WIDTH, 0.05 * WIDTH], [WIDTH, 10.0 * WIDTH, WIDTH], -speed),
     ];
     touch(&mut model, "below", "above");
-    model.probes.push(Probe { name: "above".into(), at: ProbeAt::Set { set: "above".into() } });
+    model.probes.push(Probe { name: "above".into(), at: ProbeAt::Set { set: "above".into() }, ..Probe::default() });
     model
 }
 

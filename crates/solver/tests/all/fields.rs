@@ -27,7 +27,8 @@ fn kind(dimension: usize, name: &str) -> &'static FieldKind {
 
 /// Whether a unit is made of SI symbols: products, quotients and powers.
 fn is_unit(unit: &str) -> bool {
-    let symbol = |part: &str| ["m", "s", "kg", "K", "N", "Pa", "J", "W", "Hz", "1"].contains(&part.split('^').next().unwrap_or_default());
+    let symbol =
+        |part: &str| ["m", "s", "kg", "K", "N", "Pa", "J", "W", "Hz", "rad", "1"].contains(&part.split('^').next().unwrap_or_default());
     unit.is_empty() || unit.split(['/', ' ']).all(symbol)
 }
 

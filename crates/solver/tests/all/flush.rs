@@ -18,7 +18,10 @@ fn pair(parts: [Part; 2], sides: Option<[&str; 2]>, poisson: f64, end: f64) -> M
         name: "flush".into(),
         run: Run { end, ..Run::default() },
         materials: [("m".to_string(), material("elastic", poisson))].into(),
-        probes: parts.iter().map(|part| Probe { name: part.name.clone(), at: ProbeAt::Set { set: part.name.clone() } }).collect(),
+        probes: parts
+            .iter()
+            .map(|part| Probe { name: part.name.clone(), at: ProbeAt::Set { set: part.name.clone() }, ..Probe::default() })
+            .collect(),
         parts: parts.into(),
         contacts: vec![Contact { name: "joint".into(), partners, ..Contact::default() }],
         ..Model::default()
@@ -35,7 +38,7 @@ fn blocks_of_unlike_meshes_that_end_flush_bear_each_other_to_their_rims() {
         model.loads.push(Load::Pressure { on: "upper.front".into(), pressure, curve: None });
         model.loads.push(Load::Damping { parts: Vec::new(), rate: 15.0, active: [0.0, f64::INFINITY] });
         model.constraints.push(Constraint { on: "lower.back".into(), velocity: [None, None, Some(0.0.into())], ..Constraint::default() });
-        model.probes.push(Probe { name: "top".into(), at: ProbeAt::Set { set: "upper.front".into() } });
+        model.probes.push(Probe { name: "top".into(), at: ProbeAt::Set { set: "upper.front".into() }, ..Probe::default() });
         let simulation = to_end(&model);
         let sunk = 1.0 - value(&simulation, "top.z");
         let (internal, lost) = (value(&simulation, "energy.internal"), value(&simulation, "energy.contact_damping"));
@@ -61,7 +64,7 @@ fn a_stiffness_given_for_each_node_is_that_of_its_spring() {
     model.loads.push(Load::Pressure { on: "upper.front".into(), pressure, curve: None });
     model.loads.push(Load::Damping { parts: Vec::new(), rate: 15.0, active: [0.0, f64::INFINITY] });
     model.constraints.push(Constraint { on: "lower.back".into(), velocity: [None, None, Some(0.0.into())], ..Constraint::default() });
-    model.probes.push(Probe { name: "top".into(), at: ProbeAt::Set { set: "upper.front".into() } });
+    model.probes.push(Probe { name: "top".into(), at: ProbeAt::Set { set: "upper.front".into() }, ..Probe::default() });
     let sunk = 1.0 - value(&to_end(&model), "top.z");
     // Four springs of either side.
     let expected = pressure / YOUNG + pressure / (8.0 * stiffness);

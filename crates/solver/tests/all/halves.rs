@@ -202,7 +202,7 @@ fn bars(is_half: bool, interface: Interface, fails: bool) -> Model {
     let parts: Vec<String> = model.parts.iter().map(|part| part.name.clone()).collect();
     for normal in [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
         for side in [1.0, -1.0] {
-            model.symmetries.push(Symmetry { parts: parts.clone(), point: normal.map(|c| 0.002 * side * c), normal });
+            model.symmetries.push(Symmetry { parts: parts.clone(), point: normal.map(|c| 0.002 * side * c), normal, name: String::new() });
         }
     }
     anchor(&mut model, [is_half, false], 0.002, [0.0, 0.02, 0.0]);

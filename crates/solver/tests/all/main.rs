@@ -54,6 +54,7 @@ mod numbering;
 mod obstacles;
 mod offset;
 mod orthotropy;
+mod quantities;
 mod pressed;
 mod prestress;
 mod pinball_in_3d;

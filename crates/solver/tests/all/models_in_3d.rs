@@ -195,7 +195,7 @@ fn forces_pressures_and_gravity_accelerate_a_body_by_their_sum_over_its_mass() {
     let moved = |load: Load| {
         let mut model = model("hex8", "elastic", shape.clone(), 0.05);
         model.loads.push(load);
-        model.probes.push(Probe { name: "P".into(), at: ProbeAt::Set { set: "body".into() } });
+        model.probes.push(Probe { name: "P".into(), at: ProbeAt::Set { set: "body".into() }, ..Probe::default() });
         let simulation = to_end(&model);
         ["P.vx", "P.vy", "P.vz"].map(|column| value(&simulation, column) / 0.05)
     };

@@ -63,7 +63,7 @@ pub(crate) fn add_grid(
         velocity,
         ..Part::default()
     });
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() }, ..Probe::default() });
 }
 
 fn segments(name: &str, first: &str, second: &str, interface: Interface) -> Contact {

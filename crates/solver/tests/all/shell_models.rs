@@ -31,7 +31,7 @@ fn straight(length: f64, elements: usize) -> Line {
 }
 
 fn set(model: &mut Model, name: &str, of: &str) {
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: of.into() } });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: of.into() }, ..Probe::default() });
 }
 
 /// Loads that grow smoothly until half of the run.
@@ -415,7 +415,7 @@ fn models_of_shells_that_make_no_sense_are_told_what_is_wrong() {
     };
     told(&pushed, "pushed out one by one");
     let spun = |model: &mut Model| {
-        model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], point: [0.0; 3], parts: vec![] });
+        model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], point: [0.0; 3], parts: vec![], name: String::new() });
         model.constraints.push(Constraint { on: "strip.start".into(), spin: [None, None, Some(1.0.into())], ..Constraint::default() });
     };
     told(&spun, "keeps it from rotating");

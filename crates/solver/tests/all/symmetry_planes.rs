@@ -23,7 +23,11 @@ fn ring_on_strip(interface: Interface) -> Model {
         velocity: [0.0, speed, 0.0],
         ..Part::default()
     };
-    let probe = |name: &str, part: &str, point: [f64; 3]| Probe { name: name.into(), at: ProbeAt::Point { part: part.into(), point } };
+    let probe = |name: &str, part: &str, point: [f64; 3]| Probe {
+        name: name.into(),
+        at: ProbeAt::Point { part: part.into(), point },
+        ..Probe::default()
+    };
     let mut contact = Contact::between("hit", "ring", "strip");
     contact.interface = interface;
     Model {

@@ -13,7 +13,7 @@ const FORMULATIONS: [Formulation; 3] = [Formulation::DoublePass, Formulation::Si
 fn block(model: &mut Model, name: &str, corner: [f64; 3], size: [f64; 3], elements: [usize; 3], velocity: [f64; 3]) {
     let shape = Shape::Cuboid(Cuboid { corner, size, elements, ..Cuboid::default() });
     model.parts.push(Part { name: name.into(), material: "soft".into(), element: "hex8".into(), shape, velocity, ..Part::default() });
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() } });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: name.into() }, ..Probe::default() });
 }
 
 /// Two tied bars that fly apart at 2 v: the tie is pulled with ρ c v. Turned as a whole by an angle (rad)

@@ -160,7 +160,7 @@ fn truss(model: &mut Model, name: &str, lines: Vec<Vec<[f64; 2]>>, elements: usi
 }
 
 fn see(model: &mut Model, name: &str, set: &str) {
-    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: set.into() } });
+    model.probes.push(Probe { name: name.into(), at: ProbeAt::Set { set: set.into() }, ..Probe::default() });
 }
 
 fn hold(model: &mut Model, on: &str, held: [bool; 2]) {

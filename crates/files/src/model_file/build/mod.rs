@@ -20,8 +20,8 @@ use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
 use embate_solver::model::{
-    Cavity, Constraint, Curve, Drive, ImportedMesh, Join, Joint, Load, Material, Model, NonReflecting, Obstacle, ObstacleShape, Output,
-    Part, Partners, Placement, PointMass, Probe, Run, Shape, Spring, Symmetry, TriangleSurface, Values, Weld,
+    Cavity, Channel, Constraint, Curve, Cut, Drive, ImportedMesh, Join, Joint, Load, Material, Model, NonReflecting, Obstacle,
+    ObstacleShape, Output, Part, Partners, Placement, PointMass, Probe, Run, Shape, Spring, Symmetry, TriangleSurface, Values, Weld,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -48,6 +48,7 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         symmetries: all(document, "symmetry", Symmetry::read),
         constraints: document.section("constraint").iter().map(|record| constraint(record, faults)).collect(),
         loads: all(document, "load", Load::read),
+        load_names: all(document, "load", |values| values.get("name")),
         cavities: all(document, "cavity", Cavity::read),
         non_reflecting: all(document, "non_reflecting", NonReflecting::read),
         joins: all(document, "join", Join::read),
@@ -56,6 +57,8 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         springs: all(document, "spring", Spring::read),
         point_masses: all(document, "point_mass", PointMass::read),
         probes: all(document, "probe", Probe::read),
+        cuts: all(document, "cut", Cut::read),
+        channels: all(document, "channel", Channel::read),
         output: all(document, "output", Output::read).pop().unwrap_or_default(),
     };
     name_the_nameless(&mut model);
@@ -239,17 +242,23 @@ fn name_the_nameless(model: &mut Model) {
     }
     name_in_turn("weld", model.welds.iter_mut().map(|weld| &mut weld.name).collect());
     name_in_turn("joint", model.joints.iter_mut().map(|joint| &mut joint.name).collect());
-    let mut taken: BTreeSet<String> = model.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect();
-    for obstacle in model.obstacles.iter_mut().filter(|obstacle| obstacle.name.is_empty()) {
-        obstacle.name = free("obstacle", &taken);
-        taken.insert(obstacle.name.clone());
-    }
+    name_in_turn("obstacle", model.obstacles.iter_mut().map(|obstacle| &mut obstacle.name).collect());
+    name_in_turn("symmetry", model.symmetries.iter_mut().map(|symmetry| &mut symmetry.name).collect());
+    let words: Vec<String> = model.constraints.iter().map(|constraint| plain(&constraint.on)).collect();
+    name_each(&words, model.constraints.iter_mut().map(|constraint| &mut constraint.name).collect());
+    let words: Vec<String> = model.loads.iter().map(|load| plain(load.usual_name())).collect();
+    name_each(&words, model.load_names.iter_mut().collect());
 }
 
 /// Names those that have none: `word`, `word2`, ...
-fn name_in_turn(word: &str, mut names: Vec<&mut String>) {
+fn name_in_turn(word: &str, names: Vec<&mut String>) {
+    name_each(&vec![word.to_string(); names.len()], names);
+}
+
+/// Names those that have none by a word each, with a number where it is taken.
+fn name_each(words: &[String], mut names: Vec<&mut String>) {
     let mut taken: BTreeSet<String> = names.iter().map(|name| name.to_string()).collect();
-    for name in names.iter_mut().filter(|name| name.is_empty()) {
+    for (name, word) in names.iter_mut().zip(words).filter(|(name, _)| name.is_empty()) {
         **name = free(word, &taken);
         taken.insert(name.to_string());
     }

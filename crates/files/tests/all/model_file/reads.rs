@@ -49,7 +49,7 @@ fn the_tube_plate_example_has_exactly_the_values_that_it_shows() {
     assert_eq!(contact.partners, Partners::Between(["tube".into(), "plate".into()]));
     let wall = Obstacle { parts: vec!["plate".into()], ..Obstacle::wall("wall", [0.0; 3], [1.0, 0.0, 0.0]) };
     assert_eq!(model.obstacles, [wall]);
-    assert_eq!(model.symmetries, [Symmetry { parts: vec![], point: [0.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0] }]);
+    assert_eq!(model.symmetries, [Symmetry { parts: vec![], point: [0.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0], name: "symmetry".into() }]);
     let probes: Vec<_> = model.probes.iter().map(|probe| (probe.name.as_str(), probe.at.clone())).collect();
     let point = |part: &str, point| ProbeAt::Point { part: part.to_string(), point };
     assert_eq!(

@@ -25,7 +25,7 @@ use crate::error::Fault;
 use crate::failure;
 use crate::material::messages::{EQUATION_OF_STATE, PARAMETER_MISSING, PARAMETER_UNKNOWN};
 use crate::material::{self, Parameters};
-use crate::mesh::messages::BARS;
+use crate::mesh::messages::{BARS, NOTHING_CUT};
 use crate::message::Message;
 use crate::model::messages::{CLASH, LIST_LENGTH, NAME, NO_DIRECTION, OUTPUT_TOO_MUCH, PERIOD, RANGE, TWICE, UNKNOWN_NAME};
 use crate::model::reference::{Reference, Wanted};
@@ -70,6 +70,9 @@ impl Model {
         check.springs();
         check.point_masses();
         check.probes();
+        check.cuts();
+        check.channels();
+        check.names_of_conditions();
         check.output();
         if self.dimension() == 2 {
             check.nothing_out_of_2d();
@@ -449,9 +452,48 @@ impl Check<'_> {
         }
     }
 
+    /// Planes that cut parts.
+    fn cuts(&mut self) {
+        let model = self.model;
+        self.names("cut", model.cuts.iter().map(|cut| cut.name.as_str()));
+        for (index, cut) in model.cuts.iter().enumerate() {
+            let path = format!("cut[{index}]");
+            self.part_list(&format!("{path}.parts"), &cut.parts);
+            self.vector(&format!("{path}.point"), cut.point);
+            self.direction(&format!("{path}.normal"), cut.normal);
+            for (place, name) in cut.parts.iter().enumerate() {
+                if model.parts.iter().any(|part| part.name == *name && part.rigid.is_some()) {
+                    let message = format!("part `{}` is rigid: nothing is known of the forces in it", excerpt(name));
+                    self.fault(&NOTHING_CUT, format!("{path}.parts[{place}]"), message, "name deformable parts");
+                }
+            }
+        }
+    }
+
+    /// Formulas of columns; what they name is found when the history is known.
+    fn channels(&mut self) {
+        self.names("channel", self.model.channels.iter().map(|channel| channel.name.as_str()));
+    }
+
+    /// Names of conditions whose reactions the history has; those without are numbered.
+    fn names_of_conditions(&mut self) {
+        let model = self.model;
+        let all: [(&str, Vec<&str>); 3] = [
+            ("symmetry", model.symmetries.iter().map(|it| it.name.as_str()).collect()),
+            ("constraint", model.constraints.iter().map(|it| it.name.as_str()).collect()),
+            ("load", model.load_names.iter().map(String::as_str).collect()),
+        ];
+        for (section, names) in all {
+            if names.iter().all(|name| !name.is_empty()) {
+                self.names(section, names.into_iter());
+            }
+        }
+    }
+
     fn probe(&mut self, path: &str, probe: &Probe) {
         let known: Vec<&str> = self.model.parts.iter().map(|part| part.name.as_str()).collect();
         match &probe.at {
+            ProbeAt::Element { part, .. } => self.known(&format!("{path}.part"), "part", part, &known),
             ProbeAt::Point { part, point } => {
                 self.known(&format!("{path}.part"), "part", part, &known);
                 self.vector(&format!("{path}.point"), *point);

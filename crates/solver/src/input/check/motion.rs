@@ -3,8 +3,8 @@
 
 use super::Check;
 use crate::contact::messages::OBSTACLE;
+use crate::expression::Expression;
 use crate::load::curve::Curve;
-use crate::load::curve::expression::Expression;
 use crate::load::messages::{BEGINNING, CURVE, CURVE_DIMENSION, EXPRESSION, INERTIA, JUMP, NO_EFFECT, PRESCRIBED_TWICE, RIGID};
 use crate::mesh::messages::SHELLS;
 use crate::model::Sine;

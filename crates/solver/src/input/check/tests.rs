@@ -41,7 +41,7 @@ fn sound() -> Model {
     model.symmetries = vec![Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() }];
     model.constraints = vec![Constraint { on: "upper".into(), velocity: [Some(0.0.into()), None, None], ..Constraint::default() }];
     model.loads = vec![Load::Gravity { parts: vec![], acceleration: [0.0, -9.81, 0.0], curve: None }];
-    model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 3] } }];
+    model.probes = vec![Probe { name: "A".into(), at: ProbeAt::Point { part: "ring".into(), point: [0.0; 3] }, ..Probe::default() }];
     model
 }
 

@@ -183,7 +183,7 @@ fn short_elements_at_a_sharp_bend_do_not_fold() {
 fn a_beam_ends_on_a_symmetry_plane() {
     for end in [[1.0, 0.0, 0.0], [1.0, 0.5, 0.2]] {
         let mut model = model(&[(vec![vec![[0.0; 3], end]], round())], 4);
-        model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], point: [0.0; 3], parts: Vec::new() });
+        model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], point: [0.0; 3], parts: Vec::new(), name: String::new() });
         let mesh = Mesh::<3>::new(&model).unwrap();
         let at_plane = mesh.skins.iter().filter(|skin| mesh.positions[skin.owner as usize] == [0.0; 3]);
         assert_eq!(at_plane.clone().count(), 13);

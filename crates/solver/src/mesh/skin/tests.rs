@@ -97,7 +97,7 @@ fn mesh(elements: &Sheet, symmetries: &[(Place, Place)]) -> Mesh<3> {
 
 /// The same, whatever is wrong with it. Corners in one place have one node.
 fn unchecked(elements: &Sheet, symmetries: &[(Place, Place)]) -> Mesh<3> {
-    let symmetries = symmetries.iter().map(|&(point, normal)| Symmetry { normal, point, parts: Vec::new() }).collect();
+    let symmetries = symmetries.iter().map(|&(point, normal)| Symmetry { normal, point, parts: Vec::new(), name: String::new() }).collect();
     let section = ShellSection { thickness: THICKNESS, fold_angle: PI / 6.0, ..ShellSection::default() };
     let part = Part { name: "part".into(), section: Some(section), ..Part::default() };
     let model = Model { parts: vec![part], symmetries, ..Model::default() };

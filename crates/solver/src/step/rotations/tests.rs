@@ -386,7 +386,7 @@ fn half_a_frame_with_a_symmetry_does_what_the_whole_does() {
 fn in_3d_a_symmetry_leaves_the_spin_about_its_normal_alone() {
     fn held<const D: usize>(normals: &[[f64; D]]) -> NodeConstraint<3> {
         let mut held = NodeConstraint::default();
-        held_by(normals).for_each(|direction| held.rest(direction));
+        normals.iter().flat_map(|&normal| held_by(normal)).for_each(|direction| held.rest(direction, 0));
         held
     }
     let spin = held(&[[0.0, 0.6, 0.8]]).apply([1.0, 2.0, 3.0]);

@@ -1,13 +1,15 @@
-//! `expression`: a curve as a formula of the time `t`, such as `2*sin(3*t) + exp(-t)`.
+//! Formulas: of the time `t` for curves, such as `2*sin(3*t) + exp(-t)`, and of columns of the history, such
+//! as `cfc60(A.ax) - B.ax`.
 //!
 //! Text comes from the model; a small parser by precedence makes a list of operations for a stack, which is
 //! all that is left at run time. Sine, cosine, exponential and logarithm are the project's own: the
 //! platform's differ in the last bits from machine to machine.
 //!
 //! sum = product { (+|-) product }, product = sign { (*|/) sign }, sign = -sign | power, power = atom [ ^
-//! sign ], atom = number | t | pi | name(sum, ...) | (sum)
+//! sign ], atom = number | variable | pi | name(sum, ...) | (sum)
 
 use crate::angle::cos_sin;
+use crate::vocabulary::nearest;
 use embate_lanes::math;
 
 /// Deepest nesting of an expression, and most values that wait on the stack.
@@ -15,10 +17,36 @@ const DEPTH_MAX: usize = 64;
 /// Longest text, bytes.
 const LENGTH_MAX: usize = 4096;
 
-/// A formula of time.
+/// A formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     program: Vec<Operation>,
+}
+
+/// What names in a formula may be, besides `pi` and the functions of numbers.
+pub trait Words {
+    /// The variable at the beginning of a text: how many bytes its name has, and its number.
+    fn variable(&self, text: &str) -> Option<(usize, usize)>;
+    /// Names of the variables, for messages.
+    fn variables(&self) -> Vec<&str>;
+    /// Functions of whole series, each with its number of arguments.
+    fn functions(&self) -> &[(&'static str, usize)] {
+        &[]
+    }
+}
+
+/// The time `t` alone.
+struct Time;
+
+impl Words for Time {
+    fn variable(&self, text: &str) -> Option<(usize, usize)> {
+        let ends = |c: char| !(c.is_alphanumeric() || c == '_');
+        (text.starts_with('t') && text[1..].chars().next().is_none_or(ends)).then_some((1, 0))
+    }
+
+    fn variables(&self) -> Vec<&str> {
+        vec!["t"]
+    }
 }
 
 /// What is wrong with a formula.
@@ -33,7 +61,10 @@ pub struct Wrong {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Operation {
     Number(f64),
-    Time,
+    /// By its number.
+    Variable(usize),
+    /// A function of series, by its number among [`Words::functions`], and its number of arguments.
+    Series(usize, usize),
     Negate,
     Add,
     Subtract,
@@ -63,12 +94,20 @@ const ONE: &[(&str, Unary)] = &[
 const TWO: &[(&str, Binary)] = &[("min", |a, b| if b < a { b } else { a }), ("max", |a, b| if b > a { b } else { a })];
 
 impl Expression {
-    /// Reads a formula.
+    /// Reads a formula of the time `t`.
     ///
     /// # Errors
     /// The first thing that is wrong, with its place.
     pub fn parse(text: &str) -> Result<Self, Wrong> {
-        let mut parser = Parser { text, at: 0, program: Vec::new(), depth: 0, waiting: 0 };
+        Self::parse_with(text, &Time)
+    }
+
+    /// Reads a formula of other variables, and with functions of series.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, with its place.
+    pub fn parse_with(text: &str, words: &dyn Words) -> Result<Self, Wrong> {
+        let mut parser = Parser { words, text, at: 0, program: Vec::new(), depth: 0, waiting: 0 };
         if text.len() > LENGTH_MAX {
             return parser.wrong(0, format!("the expression is longer than {LENGTH_MAX} bytes"));
         }
@@ -79,6 +118,35 @@ impl Expression {
             Some(c) if c.is_alphanumeric() || c == '(' => parser.wrong(parser.at, "an operator is missing here, such as `*`"),
             Some(c) => parser.wrong(parser.at, format!("`{c}` is no operator; there are + - * / ^")),
         }
+    }
+
+    /// Values of a formula of series, row by row; `call` gives those of a function of series.
+    #[must_use]
+    pub fn series(&self, rows: usize, variables: &[&[f64]], call: &dyn Fn(usize, Vec<Vec<f64>>) -> Vec<f64>) -> Vec<f64> {
+        let mut stack: Vec<Vec<f64>> = Vec::new();
+        for operation in &self.program {
+            let mut two = |f: fn(f64, f64) -> f64| {
+                let (second, first) = (stack.pop().unwrap_or_default(), stack.pop().unwrap_or_default());
+                stack.push(first.into_iter().zip(second).map(|(a, b)| f(a, b)).collect());
+            };
+            match *operation {
+                Operation::Add => two(|a, b| a + b),
+                Operation::Subtract => two(|a, b| a - b),
+                Operation::Multiply => two(|a, b| a * b),
+                Operation::Divide => two(|a, b| a / b),
+                Operation::Power => two(power),
+                Operation::Two(f) => two(TWO[f].1),
+                Operation::One(f) => stack.last_mut().into_iter().flatten().for_each(|value| *value = ONE[f].1(*value)),
+                Operation::Negate => stack.last_mut().into_iter().flatten().for_each(|value| *value = -*value),
+                Operation::Number(value) => stack.push(vec![value; rows]),
+                Operation::Variable(index) => stack.push(variables[index].to_vec()),
+                Operation::Series(function, takes) => {
+                    let arguments = stack.split_off(stack.len().saturating_sub(takes));
+                    stack.push(call(function, arguments));
+                }
+            }
+        }
+        stack.pop().unwrap_or_default()
     }
 
     /// Value at `time`, s.
@@ -104,10 +172,12 @@ impl Expression {
                     stack[top] = value;
                     top += 1;
                 }
-                Operation::Time => {
+                Operation::Variable(_) => {
                     stack[top] = time;
                     top += 1;
                 }
+                // Curves have none.
+                Operation::Series(..) => {}
             }
         }
         stack[0]
@@ -157,6 +227,7 @@ fn power(x: f64, y: f64) -> f64 {
 }
 
 struct Parser<'a> {
+    words: &'a dyn Words,
     text: &'a str,
     /// Byte of the text.
     at: usize,
@@ -300,18 +371,22 @@ impl Parser<'_> {
     fn name(&mut self) -> Result<(), Wrong> {
         let start = self.at;
         let rest = &self.text[start..];
+        if let Some((length, index)) = self.words.variable(rest) {
+            self.at += length;
+            return self.add(Operation::Variable(index), 0);
+        }
         let name = &rest[..rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len())];
         self.at += name.len();
-        match name {
-            "t" => return self.add(Operation::Time, 0),
-            "pi" => return self.add(Operation::Number(std::f64::consts::PI), 0),
-            _ => {}
+        if name == "pi" {
+            return self.add(Operation::Number(std::f64::consts::PI), 0);
+        }
+        if let Some(index) = self.words.functions().iter().position(|(known, _)| *known == name) {
+            return self.call_series(name, index, start);
         }
         let one = ONE.iter().position(|(known, _)| *known == name);
         let two = TWO.iter().position(|(known, _)| *known == name);
         if one.is_none() && two.is_none() {
-            let functions: Vec<&str> = ONE.iter().map(|(name, _)| *name).chain(TWO.iter().map(|(name, _)| *name)).collect();
-            return self.wrong(start, format!("there is no `{name}`; there are t, pi, {}", functions.join(", ")));
+            return self.unknown(start, rest);
         }
         let open = self.at;
         if !self.next_is('(') {
@@ -332,6 +407,38 @@ impl Parser<'_> {
         }
         self.close(open)?;
         if count < 2 { self.wrong(start, format!("`{name}` needs two or more arguments, divided by commas")) } else { Ok(()) }
+    }
+
+    /// A function of series, with as many arguments as it takes.
+    fn call_series(&mut self, name: &str, index: usize, start: usize) -> Result<(), Wrong> {
+        let (open, takes) = (self.at, self.words.functions()[index].1);
+        if !self.next_is('(') {
+            return self.wrong(self.at, format!("`{name}` needs its argument in parentheses"));
+        }
+        let mut count = 1;
+        self.sum()?;
+        while self.next_is(',') {
+            self.sum()?;
+            count += 1;
+        }
+        self.close(open)?;
+        if count != takes {
+            return self.wrong(start, format!("`{name}` takes {takes} argument(s), not {count}"));
+        }
+        self.add(Operation::Series(index, takes), takes)
+    }
+
+    /// A name that means nothing: of many variables those that are like it.
+    fn unknown(&self, start: usize, rest: &str) -> Result<(), Wrong> {
+        let end = rest.find(|c: char| !(c.is_alphanumeric() || "_.[]:".contains(c))).unwrap_or(rest.len());
+        let (name, variables) = (&rest[..end], self.words.variables());
+        if let Some(near) = nearest(name, variables.iter().copied()).filter(|_| variables.len() > 1) {
+            return self.wrong(start, format!("there is no `{name}`; did you mean `{near}`?"));
+        }
+        let functions = ONE.iter().map(|(name, _)| *name).chain(TWO.iter().map(|(name, _)| *name));
+        let functions = functions.chain(self.words.functions().iter().map(|(name, _)| *name));
+        let known = if variables.len() == 1 { variables[0] } else { "columns of the history" };
+        self.wrong(start, format!("there is no `{name}`; there are {known}, pi, {}", functions.collect::<Vec<_>>().join(", ")))
     }
 }
 

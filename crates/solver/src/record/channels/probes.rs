@@ -1,0 +1,314 @@
+//! Probes: places, velocities, accelerations, and values of fields, of nodes, elements and sets.
+
+use super::{AXES, Channel, Column, changes, samples};
+use crate::body_columns::BodyColumns;
+use crate::dimension::Dimension;
+use crate::error::Fault;
+use crate::field::kind::{FieldKind, fields_of};
+use crate::field::snapshot::LiveSnapshot;
+use crate::field::{Cell, NodeFields, OfNode, Source};
+use crate::material::variable::PLASTIC_STRAIN;
+use crate::mesh::{ElementGroup, Mesh};
+use crate::model::messages::UNKNOWN_NAME;
+use crate::model::{self, Extreme, Model, ProbeAt};
+use crate::rotation::{Rotate, inverse};
+use crate::step::System;
+use crate::tensor::Dim;
+use crate::vector::{self, dot, first, minus, plus, times};
+
+/// The group.
+pub(crate) struct Probes(Vec<Probe>);
+
+struct Probe {
+    name: String,
+    /// Nodes and their weights, which sum to one; none where an element alone is asked.
+    nodes: Vec<(u32, f64)>,
+    /// Whether its place and velocity are written.
+    moves: bool,
+    /// Whether it has a spin.
+    spins: bool,
+    fields: Vec<&'static FieldKind>,
+    /// Elements of whose fields it has the mean: group, number in it, weight; the weights sum to one.
+    elements: Vec<(usize, u32, f64)>,
+    extreme: Option<Extreme>,
+    /// What `embate check` reports of it.
+    line: String,
+}
+
+impl Probes {
+    /// # Errors
+    /// Probes of nothing.
+    pub(crate) fn new<const D: usize>(model: &Model, system: &System<D>) -> Result<Self, Vec<Fault>>
+    where
+        Dim<D>: Dimension<D> + BodyColumns<D> + NodeFields<D>,
+    {
+        let (mut probes, mut faults) = (Vec::new(), Vec::new());
+        for (i, probe) in model.probes.iter().enumerate() {
+            match Probe::new(probe, system) {
+                Ok(found) => probes.push(found),
+                Err(message) => {
+                    faults.push(Fault::new(&UNKNOWN_NAME, format!("probe[{i}]"), message, "name a part, a side as part.side, or a group"))
+                }
+            }
+        }
+        if faults.is_empty() { Ok(Self(probes)) } else { Err(faults) }
+    }
+
+    /// What `embate check` reports of each.
+    pub(crate) fn lines(&self) -> Vec<String> {
+        self.0.iter().map(|probe| format!("{}: {}", probe.name, probe.line)).collect()
+    }
+}
+
+impl Probe {
+    fn new<const D: usize>(probe: &model::Probe, system: &System<D>) -> Result<Self, String>
+    where
+        Dim<D>: Dimension<D> + BodyColumns<D> + NodeFields<D>,
+    {
+        let (nodes, line) = resolve(&probe.at, system)?;
+        let kind = |name: &String| fields_of(D).iter().find(|kind| kind.name == *name);
+        let mut fields: Vec<&FieldKind> = probe.fields.iter().filter_map(kind).collect();
+        let of_element = matches!(probe.at, ProbeAt::Element { .. });
+        let elements = match &probe.at {
+            ProbeAt::Element { part, element } => vec![element_of(&system.mesh, part, *element)?],
+            _ if fields.iter().all(|kind| matches!(kind.source, Source::Nodes(..))) => Vec::new(),
+            ProbeAt::Point { part, .. } | ProbeAt::Node { part, .. } => elements_at(&system.mesh, Some(part), &nodes),
+            ProbeAt::Set { set } => {
+                elements_at(&system.mesh, system.mesh.parts.iter().find(|it| it.name == *set).map(|it| &it.name), &nodes)
+            }
+        };
+        if of_element && fields.is_empty() {
+            let flows = system.blocks[elements[0].0].has(&PLASTIC_STRAIN);
+            let usual = ["stress", "von_mises", "plastic_strain"].map(String::from);
+            fields = usual[..if flows { 3 } else { 2 }].iter().filter_map(kind).collect();
+        }
+        Ok(Self {
+            name: probe.name.clone(),
+            moves: !of_element && probe.extreme.is_none(),
+            spins: matches!(probe.at, ProbeAt::Set { .. }) && nodes.len() > 1 && !system.of_revolution,
+            nodes,
+            fields,
+            elements,
+            extreme: probe.extreme,
+            line,
+        })
+    }
+
+    /// Weighted sum over its nodes.
+    fn mean<const D: usize>(&self, value: impl Fn(usize) -> [f64; D]) -> [f64; D] {
+        self.nodes.iter().fold([0.0; D], |sum, &(node, weight)| plus(sum, times(weight, value(node as usize))))
+    }
+
+    /// Angular velocity ω of its nodes as if they were rigid, I ω = Σ m (x − c) × v, rad/s; zero about an axis
+    /// on which all of them lie.
+    fn spin<const D: usize>(&self, system: &System<D>) -> [f64; 3]
+    where
+        Dim<D>: Dimension<D>,
+    {
+        let centre = self.mean(|node| system.positions[node]);
+        let (mut momentum, mut inertia) = ([0.0; 3], [[0.0; 3]; 3]);
+        for &(node, weight) in &self.nodes {
+            let arm = minus(system.positions[node as usize], centre);
+            momentum = plus(momentum, times(weight, <Dim<D>>::moment_vector(arm, system.velocity(node as usize))));
+            let arm = model::in_3d(arm);
+            for i in 0..3 {
+                inertia[i][i] += weight * dot(arm, arm);
+                (0..3).for_each(|j| inertia[i][j] -= weight * arm[i] * arm[j]);
+            }
+        }
+        if D == 2 {
+            return [0.0, 0.0, if inertia[2][2] > 0.0 { momentum[2] / inertia[2][2] } else { 0.0 }];
+        }
+        // What lies on a line has no inertia about it: a trace of some finds the spin across.
+        let trace = inertia[0][0] + inertia[1][1] + inertia[2][2];
+        (0..3).for_each(|d| inertia[d][d] += 1e-12 * trace);
+        if trace > 0.0 { inverse::<3>(&inertia).map(|row| dot(row, momentum)) } else { [0.0; 3] }
+    }
+
+    /// Adds the values of a field.
+    fn add_field<const D: usize>(&self, kind: &FieldKind, snapshot: &LiveSnapshot<'_, D>, row: &mut Vec<f64>)
+    where
+        Dim<D>: Dimension<D> + NodeFields<D>,
+    {
+        let (width, system) = (kind.width(), snapshot.system);
+        let mut join = Joined::new(self.extreme, width);
+        let mut own = vec![0.0; width];
+        match kind.source {
+            Source::Nodes(plane, space) => {
+                let OfNode(of_node) = <Dim<D>>::of_node(plane, space);
+                for &(node, weight) in &self.nodes {
+                    of_node(snapshot, node as usize, &mut own);
+                    join.add(&own, weight);
+                }
+            }
+            Source::Cells(of_cell) => {
+                for &(group, element, weight) in &self.elements {
+                    let (block, element) = (&system.blocks[group], element as usize);
+                    let is_alive = system.mesh.groups[group].is_alive(element);
+                    if self.extreme.is_some() && !is_alive {
+                        continue;
+                    }
+                    let cell = Cell { state: &block.state(element), is_alive, place: (group, element), within: system };
+                    of_cell.write(&cell, of_cell.variable().and_then(|variable| block.index_of(variable)), &mut own);
+                    join.add(&own, weight);
+                }
+            }
+        }
+        row.extend(join.values);
+    }
+}
+
+/// Values of several places as one.
+struct Joined {
+    extreme: Option<Extreme>,
+    values: Vec<f64>,
+}
+
+impl Joined {
+    /// Of no places: zero, and not a number for an extreme.
+    fn new(extreme: Option<Extreme>, width: usize) -> Self {
+        Self { extreme, values: vec![if extreme.is_some() { f64::NAN } else { 0.0 }; width] }
+    }
+
+    fn add(&mut self, own: &[f64], weight: f64) {
+        for (sum, &value) in self.values.iter_mut().zip(own) {
+            *sum = match self.extreme {
+                None => *sum + weight * value,
+                Some(Extreme::Max) => sum.max(value),
+                Some(Extreme::Min) => sum.min(value),
+            };
+        }
+    }
+}
+
+impl<const D: usize> Channel<D> for Probes
+where
+    Dim<D>: Dimension<D> + BodyColumns<D> + NodeFields<D>,
+{
+    fn columns(&self, _: &System<D>) -> Vec<Column> {
+        let mut columns = Vec::new();
+        for Probe { name, moves, spins, fields, .. } in &self.0 {
+            let of_axes = |what: &str| AXES[..D].iter().map(|axis| format!("{name}.{what}{axis}")).collect::<Vec<_>>();
+            if *moves {
+                columns.extend(samples(of_axes("").into_iter().chain(of_axes("v"))));
+                columns.extend(changes(of_axes("a")));
+            }
+            if *moves && *spins {
+                let spin = if D == 2 { vec![format!("{name}.spin")] } else { of_axes("spin_") };
+                columns.extend(samples(spin));
+            }
+            for field in fields {
+                let component = |component: &&str| format!("{name}.{}_{component}", field.name);
+                let names: Vec<String> = field.components.iter().map(component).collect();
+                columns.extend(samples(if names.is_empty() { vec![format!("{name}.{}", field.name)] } else { names }));
+            }
+        }
+        columns
+    }
+
+    fn samples(&self, system: &System<D>, row: &mut Vec<f64>) {
+        let snapshot = LiveSnapshot::new(system, &[]);
+        for probe in &self.0 {
+            if probe.moves {
+                row.extend(probe.mean(|node| system.positions[node]));
+                row.extend(probe.mean(|node| system.velocity(node)));
+                row.extend(probe.mean(|node| acceleration(system, node)));
+            }
+            if probe.moves && probe.spins {
+                row.extend(super::moment::<D>(probe.spin(system)));
+            }
+            probe.fields.iter().for_each(|kind| probe.add_field(kind, &snapshot, row));
+        }
+    }
+
+    fn levels(&self, system: &System<D>, row: &mut Vec<f64>) {
+        for probe in self.0.iter().filter(|probe| probe.moves) {
+            row.extend(probe.mean(|node| system.velocities_around(node)[1]));
+        }
+    }
+}
+
+/// Change of the velocity of a node by the time of the last update, m/s².
+fn acceleration<const D: usize>(system: &System<D>, node: usize) -> [f64; D]
+where
+    Dim<D>: Dimension<D>,
+{
+    let ([old, new], time) = (system.velocities_around(node), system.mean_step());
+    if time > 0.0 { times(1.0 / time, minus(new, old)) } else { [0.0; D] }
+}
+
+/// Where an element is stored, by the user's number in its part.
+fn element_of<const D: usize>(mesh: &Mesh<D>, part: &str, number: usize) -> Result<(usize, u32, f64), String>
+where
+    Dim<D>: Dimension<D>,
+{
+    let index = mesh.parts.iter().position(|it| it.name == part).ok_or_else(|| format!("there is no part \"{part}\""))?;
+    let own = |(_, group): &(usize, &ElementGroup)| group.part == index;
+    for (place, group) in mesh.groups.iter().enumerate().filter(own) {
+        if let Some(element) = (0u32..).zip(&group.user_elements).find(|(_, user)| **user as usize == number) {
+            return Ok((place, element.0, 1.0));
+        }
+    }
+    Err(format!("part \"{part}\" has {} elements, numbered from 0", mesh.elements_of(index)))
+}
+
+/// Elements at weighted nodes, of a part or of all: each node shares its weight out to its elements alike.
+fn elements_at<const D: usize>(mesh: &Mesh<D>, part: Option<&String>, nodes: &[(u32, f64)]) -> Vec<(usize, u32, f64)>
+where
+    Dim<D>: Dimension<D>,
+{
+    let mut weights = vec![0.0; mesh.positions.len()];
+    nodes.iter().for_each(|&(node, weight)| weights[mesh.leader_of(node) as usize] += weight);
+    let own = |group: &ElementGroup| part.is_none_or(|name| mesh.parts[group.part].name == *name);
+    let cells = || {
+        let own = mesh.groups.iter().enumerate().filter(move |(_, group)| own(group));
+        own.flat_map(|(place, group)| (0..group.elements()).map(move |element| (place, element, group.nodes_of(element))))
+    };
+    let mut counts = vec![0.0; mesh.positions.len()];
+    cells().flat_map(|(_, _, nodes)| nodes).for_each(|&node| counts[node as usize] += 1.0);
+    let share = |&node: &u32| weights[node as usize] / counts[node as usize];
+    let mut found: Vec<(usize, u32, f64)> =
+        cells().map(|(place, element, nodes)| (place, element as u32, nodes.iter().map(share).sum())).filter(|it| it.2 > 0.0).collect();
+    let sum: f64 = found.iter().map(|it| it.2).sum();
+    found.iter_mut().for_each(|it| it.2 /= sum);
+    found
+}
+
+type Resolved = (Vec<(u32, f64)>, String);
+
+fn resolve<const D: usize>(at: &ProbeAt, system: &System<D>) -> Result<Resolved, String>
+where
+    Dim<D>: Dimension<D> + BodyColumns<D> + NodeFields<D>,
+{
+    let part_of =
+        |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
+    let place = |node: u32| format!("{} m", vector::place(system.positions[node as usize]));
+    match at {
+        ProbeAt::Point { part, point } => {
+            let distance = |node: &u32| {
+                let way = minus(system.positions[*node as usize], first(*point));
+                dot(way, way).sqrt()
+            };
+            let nearest = part_of(part)?.with_faces().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });
+            let node = nearest.ok_or_else(|| format!("part \"{part}\" has no nodes"))?;
+            Ok((vec![(node, 1.0)], format!("node of \"{part}\" at {}, {:.3e} m from the wanted point", place(node), distance(&node))))
+        }
+        ProbeAt::Node { part, node } => {
+            let nodes = &part_of(part)?.nodes;
+            let index = *nodes.get(*node).ok_or_else(|| format!("part \"{part}\" has {} nodes, numbered from 0", nodes.len()))?;
+            Ok((vec![(index, 1.0)], format!("node {node} of \"{part}\" at {}", place(index))))
+        }
+        ProbeAt::Element { part, element } => {
+            let (group, stored, _) = element_of(&system.mesh, part, *element)?;
+            let middle = system.mesh.mean_place(system.mesh.groups[group].nodes_of(stored as usize));
+            Ok((Vec::new(), format!("element {element} of \"{part}\" at {} m", vector::place(middle))))
+        }
+        ProbeAt::Set { set } => {
+            let nodes =
+                system.mesh.nodes(set).filter(|nodes| !nodes.is_empty()).ok_or_else(|| format!("there is nothing called \"{set}\""))?;
+            let total: f64 = nodes.iter().map(|&node| system.mass[node as usize]).sum();
+            let line = format!("mass-weighted mean of {} nodes of \"{set}\"", nodes.len());
+            Ok((nodes.into_iter().map(|node| (node, system.mass[node as usize] / total)).collect(), line))
+        }
+    }
+}

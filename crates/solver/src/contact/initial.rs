@@ -62,8 +62,8 @@ fn summed<const D: usize>(found: &[Penetration<D>]) -> Option<String> {
     Some(format!("{} are up to {depth:.3e} m inside at the start, the deepest at {at} m", counted.join(" and ")))
 }
 
-/// The fault of a contact or obstacle at `path` with these penetrations, if there are any; `model` says whether
-/// nodes can be pushed out, `hint` what else may be wrong.
+/// The fault of a contact or obstacle at `path` with these penetrations, if there are any; `model` says
+/// whether nodes can be pushed out, `hint` what else may be wrong.
 #[must_use]
 pub fn fault<const D: usize>(model: &Model, path: &str, name: &str, found: &[Penetration<D>], hint: Option<String>) -> Option<Fault> {
     // Nodes on the faces of shells can not.

@@ -76,20 +76,26 @@ impl UnitSystem {
         [density * self.density_in_si, modulus * self.pressure_in_si]
     }
 
+    /// Whether something with this density and modulus in the system may be so.
+    #[must_use]
+    pub fn is_usual(&self, numbers: [f64; 2]) -> bool {
+        let [density, modulus] = self.in_si(numbers);
+        is_usual(density, modulus)
+    }
+
     /// Its units by commas, as `embate import --units` takes them.
     #[must_use]
     pub fn words(&self) -> String {
         self.units.join(",")
     }
 
-    /// The one system in which materials, each a density and a modulus as they were written, are such as there
-    /// are; `None` where there is none, or several that fit alike.
+    /// The one system in which materials, each a density and a modulus as they were written, are such as
+    /// there are; `None` where there is none, or several that fit alike.
     #[must_use]
     pub fn of(materials: &[[f64; 2]]) -> Option<&'static Self> {
         let fits = |system: &UnitSystem, is_so: fn(f64, f64) -> bool| {
-            let in_si = materials.iter().map(|it| system.in_si(*it));
-            in_si.clone().all(|[density, modulus]| is_usual(density, modulus))
-                && in_si.clone().any(|[density, modulus]| is_so(density, modulus))
+            let some_so = materials.iter().map(|it| system.in_si(*it)).any(|[density, modulus]| is_so(density, modulus));
+            some_so && materials.iter().all(|it| system.is_usual(*it))
         };
         let only = |is_so: fn(f64, f64) -> bool| {
             let mut fitting = SYSTEMS.iter().filter(|system| fits(system, is_so));

@@ -132,7 +132,7 @@ fn pulled(model: &Model) -> impl Iterator<Item = &str> {
 }
 
 impl<const D: usize> Gathered<D> {
-    /// Some of its nodes are led, or all of them where the constraint `is_whole`.
+    /// Something is prescribed of some of its nodes, or of all where the constraint `is_whole`.
     fn hold(&mut self, constraint: &Constraint, is_whole: bool) {
         let Constraint { velocity, displacement, acceleration, rotation, .. } = constraint;
         self.is_known &= rotation.is_none();

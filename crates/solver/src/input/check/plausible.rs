@@ -6,11 +6,13 @@
 
 use super::warnings::parameters;
 use crate::error::Warning;
+use crate::load::messages::SPEED;
 use crate::material::messages::{IMPLAUSIBLE, OTHER_UNITS};
 use crate::material::unit_system::{SYSTEMS, UnitSystem, is_stiff, is_usual, speed};
 use crate::material::{self, DENSITY, points, young_and_poisson};
-use crate::model::{Material, Model, Part, Shape};
+use crate::model::{Drive, Material, Model, Part, Shape};
 use crate::quantity::{Dimension, Parameter};
+use crate::vector::length;
 
 /// Densities from a rare gas to more than osmium, kg/m³.
 const DENSITIES: [f64; 2] = [1e-2, 25_000.0];
@@ -30,6 +32,9 @@ const FLOWS: [f64; 2] = [1e-7, 0.2];
 /// Other units in which densities and moduli are typed, and what they are in SI.
 const DENSITY_UNITS: [(&str, f64); 4] = [("g/cm^3", 1e3), ("g/mm^3", 1e6), ("kg/mm^3", 1e9), ("t/mm^3", 1e12)];
 const MODULUS_UNITS: [(&str, f64); 3] = [("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
+
+/// Faster than what guns shoot by ten times, m/s.
+const FAST: f64 = 2e4;
 
 /// What is looked at.
 struct Facts<'a> {
@@ -67,6 +72,32 @@ pub(super) fn warnings(model: &Model) -> Vec<Warning> {
         help,
     };
     wrong.into_iter().map(one).collect()
+}
+
+/// A warning for each velocity that solids do not have, of models whose materials have no equation of state.
+pub(super) fn speeds(model: &Model) -> Vec<Warning> {
+    if model.materials.values().any(|it| !it.eos.is_empty()) {
+        return Vec::new();
+    }
+    let constant = |drive: &Option<Drive>| if let Some(Drive::Constant(speed)) = drive { *speed } else { 0.0 };
+    let of = |drives: &[Option<Drive>; 3]| drives.each_ref().map(constant);
+    let initial = model.parts.iter().enumerate().map(|(index, part)| (format!("part[{index}].velocity"), part.velocity));
+    let rigid = model
+        .parts
+        .iter()
+        .enumerate()
+        .filter_map(|(index, part)| Some((format!("part[{index}].rigid"), of(&part.rigid.as_ref()?.velocity))));
+    let led = model.constraints.iter().enumerate().map(|(index, it)| (format!("constraint[{index}].velocity"), of(&it.velocity)));
+    let obstacles = model.obstacles.iter().enumerate().map(|(index, it)| (format!("obstacle[{index}].motion"), of(&it.motion.velocity)));
+    let all = initial.chain(rigid).chain(led).chain(obstacles).map(|(path, velocity)| (path, length(velocity)));
+    let warning = |(path, speed): (String, f64)| Warning {
+        kind: &SPEED,
+        path,
+        message: format!("{speed:.3e} m/s is faster than any body"),
+        consequence: "no solid bears what it meets at such a speed: elements fold, and the run ends".into(),
+        help: "look at the unit: a number without one is in m/s; of what is meant so fast, give the material an `eos`".into(),
+    };
+    all.filter(|(_, speed)| *speed > FAST).map(warning).collect()
 }
 
 impl<'a> Facts<'a> {
@@ -188,7 +219,7 @@ impl<'a> Facts<'a> {
             2 => format!(" (and those of `{}`)", wrong[1].0.name),
             more => format!(" (and those of {} more materials)", more - 1),
         };
-        let value = |key: &str| self.it.parameters.get(key).map_or("...".to_string(), |value| format!("{value}"));
+        let value = |key: &str| self.it.parameters.get(key).map_or("...".to_string(), |value| written(*value));
         let mut help = format!(
             "write the units: `density = \"{} {}\"`, `{} = \"{} {}\"`, lengths in \"{length}\", times in \"{time}\", velocities in \"{}\"",
             value(DENSITY.name),
@@ -218,9 +249,14 @@ impl<'a> Facts<'a> {
 
 /// What to do about a number that fits if it is in one of these units.
 fn suggested<'u>(value: f64, units: impl Iterator<Item = &'u str>, usual: &str) -> String {
-    let texts: Vec<String> = units.map(|unit| format!("\"{value} {unit}\"")).collect();
+    let texts: Vec<String> = units.map(|unit| format!("\"{} {unit}\"", written(value))).collect();
     match texts.len() {
         0 => format!("a number without a unit is in SI: write it with its unit, such as \"{usual}\""),
         _ => format!("a number without a unit is in SI: if {} was meant, write that", texts.join(" or ")),
     }
+}
+
+/// A number as people write it.
+fn written(value: f64) -> String {
+    if (1e-3..1e7).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }

@@ -25,6 +25,7 @@ impl Model {
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = plausible::warnings(self);
+        warnings.extend(plausible::speeds(self));
         for (name, it) in &self.materials {
             warnings.extend(self.softening(name, it));
         }

@@ -107,10 +107,10 @@ where
 {
     let with_axis = <Dim<D>>::with_axis(model, &mesh)?;
     let mut builder = Builder::new(with_axis.as_ref().unwrap_or(model), mesh)?;
-    let passing = passing::warnings(&builder);
+    let (passing, of_pairs) = passing::warnings(&builder);
     let mut warnings = idle::warnings(builder.model, &builder.mesh, &builder.body_of_node);
     // Of what others go through it is said already.
-    warnings.retain(|idle| passing.iter().all(|passing| passing.path != idle.path));
+    warnings.retain(|idle| of_pairs.iter().all(|part| idle.path != format!("part[{part}]")));
     warnings.extend(passing);
     warnings.extend(sizes::warnings(builder.model, &builder.mesh));
     warnings.extend(normals::warnings(builder.model, &builder.mesh));

@@ -40,8 +40,9 @@ where
     outsides: BTreeMap<usize, Vec<Piece>>,
 }
 
-/// A warning for each pair of parts, and of a part and an obstacle, that will go through each other.
-pub(super) fn warnings<const D: usize>(builder: &Builder<'_, D>) -> Vec<Warning>
+/// A warning for each pair of parts, and of a part and an obstacle, that will go through each other; and the
+/// parts of these pairs.
+pub(super) fn warnings<const D: usize>(builder: &Builder<'_, D>) -> (Vec<Warning>, BTreeSet<usize>)
 where
     Dim<D>: Builds<D>,
 {
@@ -51,12 +52,12 @@ where
     let all_stop = model.obstacles.iter().all(|obstacle| obstacle.parts.is_empty());
     let count = builder.body_of_node.iter().max().map_or(0, |last| *last as usize + 1);
     if (all_meet && all_stop) || model.run.relaxation.is_some() || count > BODIES_MOST {
-        return Vec::new();
+        return Default::default();
     }
     let mut bodies = Bodies::new(builder, count);
-    let mut warnings = if all_meet { Vec::new() } else { bodies.through_each_other() };
+    let (mut warnings, parts) = if all_meet { Default::default() } else { bodies.through_each_other() };
     warnings.extend(bodies.through_obstacles());
-    warnings
+    (warnings, parts)
 }
 
 impl<'a, 'b, const D: usize> Bodies<'a, 'b, D>
@@ -158,7 +159,7 @@ where
         })
     }
 
-    fn through_each_other(&mut self) -> Vec<Warning> {
+    fn through_each_other(&mut self) -> (Vec<Warning>, BTreeSet<usize>) {
         let mut found: BTreeMap<[usize; 2], f64> = BTreeMap::new();
         for a in 0..self.parts.len() {
             for b in a + 1..self.parts.len() {
@@ -169,7 +170,8 @@ where
                 if self.may_be_stopped(a, time) || self.may_be_stopped(b, time) {
                     continue;
                 }
-                let first = found.entry([self.parts[a][0], self.parts[b][0]]).or_insert(time);
+                let [one, other] = [self.parts[a][0], self.parts[b][0]];
+                let first = found.entry([one.min(other), one.max(other)]).or_insert(time);
                 *first = first.min(time);
             }
         }
@@ -186,7 +188,8 @@ where
                 help: format!("add a [[contact]] with `bodies = \"all\"`{pair}"),
             }
         };
-        found.into_iter().map(warning).collect()
+        let parts = found.keys().flatten().copied().collect();
+        (found.into_iter().map(warning).collect(), parts)
     }
 
     fn through_obstacles(&mut self) -> Vec<Warning> {

@@ -12,6 +12,7 @@ use crate::contact::{ContactKind, search};
 use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
 use crate::field::snapshot::LiveSnapshot;
 use crate::hashes::{self, Hashes, Hashing};
+use crate::material::messages::{IMPLAUSIBLE, OTHER_UNITS};
 use crate::mesh::Mesh;
 use crate::model::{self, Cadence, Model};
 use crate::monitor::RunMonitor;
@@ -127,7 +128,11 @@ where
         };
         within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
         simulation.model_warnings.extend(tiny::warnings(&simulation.system));
-        simulation.model_warnings.extend(few::warning(model, &simulation.system));
+        // Where materials are wrong the step is, too.
+        let is_of_materials = |warning: &Warning| [IMPLAUSIBLE.code, OTHER_UNITS.code].contains(&warning.kind.code);
+        if !simulation.model_warnings.iter().any(is_of_materials) {
+            simulation.model_warnings.extend(few::warning(model, &simulation.system));
+        }
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
         simulation.check_obstacles(model)?;

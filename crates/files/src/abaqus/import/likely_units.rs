@@ -31,7 +31,7 @@ impl Importer<'_> {
         }
         let [in_si, modulus_in_si] = system.in_si([density, modulus]);
         format!(
-            "  but its materials are those of a deck in {}: a density of {} and a modulus of {} are {in_si:.4} kg/m^3 and {modulus_in_si:.3e} Pa \
+            "  but its materials are those of a deck in {}: a density of {} and a modulus of {} are {in_si:.0} kg/m^3 and {modulus_in_si:.3e} Pa \
              there;\n  if so, import it with --units \"{}\"\n",
             system.units.join(", "),
             number(density),

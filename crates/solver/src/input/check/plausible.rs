@@ -16,8 +16,8 @@ use crate::vector::length;
 
 /// Densities from a rare gas to more than osmium, kg/m³.
 const DENSITIES: [f64; 2] = [1e-2, 25_000.0];
-/// Young's moduli from the softest gel to more than diamond, Pa.
-const MODULI: [f64; 2] = [1e3, 2e12];
+/// Young's moduli from the softest gel, a bit below 1 kPa, to more than diamond, Pa.
+const MODULI: [f64; 2] = [999.0, 2e12];
 /// Faster than the waves of diamond, m/s.
 const FASTEST: f64 = 25_000.0;
 /// Slower than √(E/ρ) of anything heavy, m/s; and from what density on, kg/m³: metals and stones.
@@ -50,8 +50,16 @@ struct Facts<'a> {
     key: &'static str,
 }
 
-/// What is wrong: the key, what it is, what to do.
-type Wrong = (String, String, String);
+/// What is wrong.
+struct Wrong {
+    key: &'static str,
+    message: String,
+    consequence: &'static str,
+    help: String,
+}
+
+/// What follows from a wrong density or modulus.
+const OTHER_BODY: &str = "no material is like this: masses, stiffnesses and the time step are those of something else";
 
 /// A warning for each material with such a number, or one for all that are in another system of units.
 pub(super) fn warnings(model: &Model) -> Vec<Warning> {
@@ -59,16 +67,18 @@ pub(super) fn warnings(model: &Model) -> Vec<Warning> {
     let all: Vec<Facts<'_>> = model.materials.iter().filter(|(name, _)| used(name)).filter_map(|(name, it)| Facts::of(name, it)).collect();
     let wrong: Vec<(&Facts<'_>, Wrong)> = all.iter().filter_map(|facts| Some((facts, facts.wrong()?))).collect();
     let numbers: Vec<[f64; 2]> = wrong.iter().map(|(facts, _)| [facts.density, facts.modulus]).collect();
+    // One number that is wrong is likelier than that all are.
+    let may_be_others = wrong.iter().all(|(facts, _)| !facts.is_fluid && !facts.is_one_number());
     if let (Some((first, _)), Some(system)) = (wrong.first(), UnitSystem::of(&numbers).filter(|system| **system != SYSTEMS[0]))
-        && wrong.iter().all(|(facts, _)| !facts.is_fluid)
+        && may_be_others
     {
         return vec![first.of_other_units(system, &wrong, model)];
     }
-    let one = |(facts, (key, message, help)): (&Facts<'_>, Wrong)| Warning {
+    let one = |(facts, Wrong { key, message, consequence, help }): (&Facts<'_>, Wrong)| Warning {
         kind: &IMPLAUSIBLE,
         path: format!("material.{}.{key}", facts.name),
         message,
-        consequence: "no material is like this: masses, stiffnesses and the time step are those of something else".into(),
+        consequence: consequence.into(),
         help,
     };
     wrong.into_iter().map(one).collect()
@@ -100,10 +110,21 @@ pub(super) fn speeds(model: &Model) -> Vec<Warning> {
     all.filter(|(_, speed)| *speed > FAST).map(warning).collect()
 }
 
+/// Whether a density (kg/m³) is a round one, as of a model without units, or of one that is heavy for the sake of
+/// its steps: a power of ten, but for that of water in any unit.
+fn is_chosen(density: f64) -> bool {
+    let power = density.log10().round();
+    let is_power = (density / 10f64.powf(power) - 1.0).abs() < 1e-12;
+    is_power && power > -6.0 && power != 3.0
+}
+
 impl<'a> Facts<'a> {
     fn of(name: &'a str, it: &'a Material) -> Option<Self> {
         let kind = material::LAWS.iter().find(|kind| kind.name == it.law)?;
         let density = parameters(it)?.value(DENSITY.name);
+        if is_chosen(density) {
+            return None;
+        }
         let [bulk, shear] = points::plane(it)?.stiffness();
         let is_fluid = shear <= 0.0;
         let own = material::eos::kind(&it.eos).map_or(&[][..], |own| own.parameters);
@@ -117,6 +138,12 @@ impl<'a> Facts<'a> {
         (density.is_finite() && modulus.is_finite() && wave.is_finite()).then_some(Self { name, it, density, modulus, is_fluid, wave, key })
     }
 
+    /// Whether it is a usual stiff solid with another unit of its density alone, or of its modulus.
+    fn is_one_number(&self) -> bool {
+        DENSITY_UNITS.iter().any(|(_, factor)| is_stiff(self.density * factor, self.modulus))
+            || MODULUS_UNITS.iter().any(|(_, factor)| is_stiff(self.density, self.modulus * factor))
+    }
+
     fn wrong(&self) -> Option<Wrong> {
         self.wrong_density().or_else(|| self.wrong_modulus()).or_else(|| self.wrong_speed()).or_else(|| self.wrong_yield())
     }
@@ -128,11 +155,11 @@ impl<'a> Facts<'a> {
             return None;
         }
         let message = if rho < low {
-            format!("a density of {rho:.4e} kg/m^3 is less than that of any gas")
+            format!("a density of {} kg/m^3 is less than that of any gas", shown(rho))
         } else {
-            format!("a density of {rho:.4e} kg/m^3 is more than that of any metal")
+            format!("a density of {} kg/m^3 is more than that of any metal", shown(rho))
         };
-        Some((DENSITY.name.into(), message, self.other_density()))
+        Some(Wrong { key: DENSITY.name, message, consequence: OTHER_BODY, help: self.other_density() })
     }
 
     /// The units of density in which the number would be one of a material.
@@ -152,13 +179,17 @@ impl<'a> Facts<'a> {
         let what = if self.is_fluid { "a bulk modulus" } else { "a Young's modulus" };
         let bar = speed(self.density, modulus);
         let message = if modulus > high {
-            format!("{what} of {modulus:.4e} Pa is more than that of diamond")
+            format!("{what} of {} Pa is more than that of diamond", shown(modulus))
         } else if self.is_fluid {
             return None;
         } else if modulus < low {
-            format!("{what} of {modulus:.4e} Pa is less than that of any gel")
+            format!("{what} of {} Pa is less than that of any gel", shown(modulus))
         } else if self.density > HEAVY && bar < SLOWEST {
-            format!("{what} of {modulus:.4e} Pa at a density of {:.4e} kg/m^3 is as soft as a gel and as heavy as stone", self.density)
+            format!(
+                "{what} of {} Pa at a density of {} kg/m^3 is as soft as a gel and as heavy as stone",
+                shown(modulus),
+                shown(self.density)
+            )
         } else {
             return None;
         };
@@ -174,7 +205,7 @@ impl<'a> Facts<'a> {
             let only_stiff = self.density > HEAVY && fitting(true).next().is_some();
             suggested(value, fitting(only_stiff), "210 GPa")
         };
-        Some((self.key.into(), message, help))
+        Some(Wrong { key: self.key, message, consequence: OTHER_BODY, help })
     }
 
     fn wrong_speed(&self) -> Option<Wrong> {
@@ -182,10 +213,12 @@ impl<'a> Facts<'a> {
             return None;
         }
         let message = format!(
-            "a density of {:.4e} kg/m^3 with a modulus of {:.4e} Pa makes waves of {:.3e} m/s, faster than those of diamond",
-            self.density, self.modulus, self.wave
+            "a density of {} kg/m^3 with a modulus of {} Pa makes waves of {} m/s, faster than those of diamond",
+            shown(self.density),
+            shown(self.modulus),
+            shown(self.wave)
         );
-        Some((DENSITY.name.into(), message, self.other_density()))
+        Some(Wrong { key: DENSITY.name, message, consequence: OTHER_BODY, help: self.other_density() })
     }
 
     fn wrong_yield(&self) -> Option<Wrong> {
@@ -194,9 +227,11 @@ impl<'a> Facts<'a> {
         let message = if self.is_fluid || !flow.is_finite() || flow == 0.0 {
             return None;
         } else if ratio > high {
-            format!("it flows at {flow:.4e} Pa, {ratio:.3} of its Young's modulus of {:.4e} Pa: nothing bears so much", self.modulus)
+            let modulus = shown(self.modulus);
+            format!("it flows at {} Pa, {ratio:.3} of its Young's modulus of {modulus} Pa: nothing bears so much", shown(flow))
         } else if ratio < low {
-            format!("it flows at {flow:.4e} Pa, {ratio:.1e} of its Young's modulus of {:.4e} Pa: nothing solid flows so soon", self.modulus)
+            let modulus = shown(self.modulus);
+            format!("it flows at {} Pa, {ratio:.1e} of its Young's modulus of {modulus} Pa: nothing solid flows so soon", shown(flow))
         } else {
             return None;
         };
@@ -207,7 +242,8 @@ impl<'a> Facts<'a> {
         } else {
             suggested(self.it.parameters.get(key).copied().unwrap_or(flow), fitting, "300 MPa")
         };
-        Some((key.into(), message, help))
+        let consequence = if ratio > high { "it never flows" } else { "it flows under its own weight, as a fluid" };
+        Some(Wrong { key, message, consequence, help })
     }
 
     /// All materials are such as there are in another system.
@@ -237,9 +273,12 @@ impl<'a> Facts<'a> {
             kind: &OTHER_UNITS,
             path: format!("material.{}.{}", self.name, DENSITY.name),
             message: format!(
-                "a density of {:.4e} kg/m^3 with a modulus of {:.4e} Pa is that of no material{others}, but in {length}, {mass}, {time} it \
-                 is {rho:.4} kg/m^3 and {modulus:.4e} Pa",
-                self.density, self.modulus
+                "a density of {} kg/m^3 with a modulus of {} Pa is that of no material{others}, but in {length}, {mass}, {time} it is {} kg/m^3 \
+                 and {} Pa",
+                shown(self.density),
+                shown(self.modulus),
+                shown(rho),
+                shown(modulus)
             ),
             consequence: "numbers without a unit are in SI (m, kg, s, Pa), so all of these are wrong by powers of ten".into(),
             help,
@@ -259,4 +298,9 @@ fn suggested<'u>(value: f64, units: impl Iterator<Item = &'u str>, usual: &str) 
 /// A number as people write it.
 fn written(value: f64) -> String {
     if (1e-3..1e7).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// Four digits of a number.
+fn shown(value: f64) -> String {
+    written(format!("{value:.3e}").parse().unwrap_or(value))
 }

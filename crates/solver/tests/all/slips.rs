@@ -29,8 +29,8 @@ fn elastic_block(density: f64, young: f64) -> Model {
 
 #[test]
 fn what_there_is_has_no_warning() {
-    // Aerogel, foam, soft rubber, gel, cork, wood, ice, concrete, aluminium, steel, lead, tungsten, diamond, osmium; the fluid
-    // below is air.
+    // Aerogel, foam, soft rubber, gel, cork, wood, ice, concrete, aluminium, steel, lead, tungsten, diamond,
+    // osmium; the fluid below is air.
     let materials = [
         (3.0, 1e5),
         (30.0, 1e6),

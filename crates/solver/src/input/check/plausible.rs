@@ -110,8 +110,8 @@ pub(super) fn speeds(model: &Model) -> Vec<Warning> {
     all.filter(|(_, speed)| *speed > FAST).map(warning).collect()
 }
 
-/// Whether a density (kg/m³) is a round one, as of a model without units, or of one that is heavy for the sake of
-/// its steps: a power of ten, but for that of water in any unit.
+/// Whether a density (kg/m³) is a round one, as of a model without units, or of one that is heavy for the
+/// sake of its steps: a power of ten, but for that of water in any unit.
 fn is_chosen(density: f64) -> bool {
     let power = density.log10().round();
     let is_power = (density / 10f64.powf(power) - 1.0).abs() < 1e-12;

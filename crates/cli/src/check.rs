@@ -30,7 +30,7 @@ const WORST: usize = 100;
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
     let loaded = input::load(&arguments.model)?;
     let model = &loaded.model;
-    let simulation = input::ready(model, &Options::default())?;
+    let simulation = input::ready(&loaded, &Options::default())?;
     input::warn(&loaded, &simulation);
     let mut text = overview_text(model, &simulation.overview());
     if arguments.time_step {
@@ -45,17 +45,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn overview_text(model: &Model, overview: &Overview) -> String {
-    let mut rows = vec![["part", "elements", "nodes", "mass", "stable step"].map(ToString::to_string).to_vec()];
-    rows.extend(overview.parts.iter().map(|part| {
-        vec![
-            part.name.clone(),
-            grouped(part.elements as u64),
-            grouped(part.nodes as u64),
-            if model.is_of_whole_bodies() { format!("{:.4e} kg", part.mass) } else { format!("{:.4} kg/m", part.mass) },
-            with_unit(part.stable_time_step, "s"),
-        ]
-    }));
-    let mut text = format!("{}\n{}", model.name, table(&rows, "  "));
+    let mut text = format!("{}\n{}", model.name, table(&parts_table(model, overview), "  "));
     text.push_str(&format!(
         "first time step {} (governed by {}), about {} steps to {}\n",
         with_unit(overview.stable_time_step, "s"),
@@ -74,6 +64,63 @@ fn overview_text(model: &Model, overview: &Overview) -> String {
         text.push_str("no initial penetrations\n");
     }
     text
+}
+
+/// A row for each part: its elements by kind, nodes, mass, size, wave speed and stable step, and who governs.
+fn parts_table(model: &Model, overview: &Overview) -> Vec<Vec<String>> {
+    let head = ["part", "elements", "nodes", "mass", "size", "waves", "stable step"];
+    let unit = if model.is_of_whole_bodies() { "kg" } else { "kg/m" };
+    let mut rows = vec![head.map(ToString::to_string).to_vec()];
+    rows.extend(overview.parts.iter().map(|part| {
+        let kinds: Vec<String> = part.kinds.iter().map(|(kind, count)| format!("{} {kind}", grouped(*count as u64))).collect();
+        let step = match (part.is_rigid, part.governs) {
+            (true, _) => "rigid".to_string(),
+            (_, true) => format!("{}, governs", with_unit(part.stable_time_step, "s")),
+            _ => with_unit(part.stable_time_step, "s"),
+        };
+        vec![
+            part.name.clone(),
+            kinds.join(" + "),
+            grouped(part.nodes as u64),
+            mass(part.mass, unit),
+            sides(&part.size),
+            with_unit(part.wave_speed, "m/s"),
+            step,
+        ]
+    }));
+    rows
+}
+
+/// Four digits of a mass, in a unit that is near.
+fn mass(value: f64, unit: &str) -> String {
+    match value.abs() {
+        size if size >= 1e6 || (size < 1e-6 && size > 0.0) => format!("{value:.3e} {unit}"),
+        size if size >= 1.0 || size == 0.0 => format!("{} {unit}", significant_digits(value)),
+        _ => with_unit(1e3 * value, &unit.replacen("kg", "g", 1)),
+    }
+}
+
+/// The sides of a box in one unit: `94 x 20 x 300 mm`.
+fn sides(size: &[f64]) -> String {
+    let longest = size.iter().copied().fold(0.0, f64::max);
+    const UNITS: [(f64, &str); 5] = [(1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")];
+    // Up to 10 m in mm, as drawings have it.
+    let (scale, unit) = match longest {
+        longest if longest >= 1e4 => UNITS[0],
+        longest if longest >= 10.0 => UNITS[1],
+        longest if longest >= 1e-3 => UNITS[2],
+        longest if longest >= 1e-6 => UNITS[3],
+        _ => UNITS[4],
+    };
+    let sides: Vec<String> = size.iter().map(|side| significant_digits(side / scale)).collect();
+    format!("{} {unit}", sides.join(" x "))
+}
+
+/// Four significant digits at most.
+fn significant_digits(value: f64) -> String {
+    let whole = if value.abs() >= 1.0 { 1 + value.abs().log10().floor() as usize } else { 1 };
+    let text = format!("{value:.*}", 4usize.saturating_sub(whole));
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
 
 /// The worst elements, and the first step by nodes and by the assembled mesh.

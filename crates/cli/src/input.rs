@@ -59,8 +59,16 @@ pub(crate) fn origin(arguments: &ModelArguments) -> Origin {
 }
 
 /// Makes a model ready to step.
-pub(crate) fn ready(model: &Model, options: &Options) -> Result<Simulation, Failure> {
-    simulation(model, options).map_err(|error| Failure::Input(CliError::from(&error)))
+pub(crate) fn ready(loaded: &Loaded, options: &Options) -> Result<Simulation, Failure> {
+    simulation(&loaded.model, options).map_err(|error| Failure::Input(not_ready(loaded, &error)))
+}
+
+/// Why a model can't be made ready, with the places in its file.
+pub(crate) fn not_ready(loaded: &Loaded, error: &Error) -> CliError {
+    match error {
+        Error::Model(faults) => CliError::from(&loaded.faulty(faults)),
+        other => CliError::from(other),
+    }
 }
 
 /// The simulation of a model, if the machine has the memory.

@@ -61,7 +61,7 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
             refuse_changes(&Identity::of(model).differences_in_steps(&past.identity), "limits, checkpoints and output may change")?;
             ready(model, &options, past)?
         }
-        None => input::ready(model, &options)?,
+        None => input::ready(&loaded, &options)?,
     };
     input::warn(&loaded, &simulation);
     let folder = ResultFolder::create(&path, arguments.force).map_err(in_the_way)?;

@@ -45,8 +45,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     refuse(&path)?;
     let options = arguments.manner.options();
     let mut simulation = input::simulation(model, &options).map_err(|error| match &error {
-        Error::Model(faults) => with_page(CliError::from(&error), arguments, &loaded, faults),
-        _ => Failure::Input(CliError::from(&error)),
+        Error::Model(faults) => with_page(input::not_ready(&loaded, &error), arguments, &loaded, faults),
+        _ => Failure::Input(input::not_ready(&loaded, &error)),
     })?;
     // Also of a quiet run, and before it: who reads them late has waited for nothing.
     input::warn(&loaded, &simulation);

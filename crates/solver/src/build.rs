@@ -11,6 +11,7 @@ mod failure;
 mod hinges;
 mod node_elements;
 mod idle;
+pub(crate) mod inside_out;
 mod normals;
 mod limits;
 mod mass;
@@ -18,6 +19,8 @@ mod mirrors;
 mod obstacles;
 mod outline;
 pub(crate) mod plane;
+mod passing;
+mod sizes;
 mod space;
 mod space_obstacles;
 mod stages;
@@ -69,13 +72,29 @@ where
 {
     let faults = model.check();
     if !faults.is_empty() {
-        return Err(faults);
+        let of_mesh = model.check_mesh(&faults);
+        return Err(faults.into_iter().chain(of_mesh).collect());
     }
     let mut warnings = model.warnings();
     let mesh = mesh.map_or_else(|| Mesh::new(model), Ok)?;
     let (system, of_mesh) = system_of(model, mesh, level, threads)?;
     warnings.extend(of_mesh);
     Ok((system, warnings))
+}
+
+impl Model {
+    /// Faults of the mesh of a model that has other `faults`: as far as none of those keeps it from being
+    /// meshed, so that all are reported at once.
+    #[must_use]
+    pub fn check_mesh(&self, faults: &[Fault]) -> Vec<Fault> {
+        let is_of_parts = |fault: &Fault| fault.path.is_empty() || (fault.path.starts_with("part") && !fault.path.ends_with(".material"));
+        let is_there = self.parts.iter().all(|part| !self.lacks_mesh(part));
+        if self.parts.is_empty() || faults.iter().any(is_of_parts) || !is_there {
+            return Vec::new();
+        }
+        let of_mesh = if self.dimension() == 3 { Mesh::<3>::new(self).err() } else { Mesh::<2>::new(self).err() };
+        of_mesh.unwrap_or_default()
+    }
 }
 
 /// The system of a checked model on a mesh of it, at time zero; with it come the warnings that need the mesh.
@@ -88,12 +107,21 @@ where
 {
     let with_axis = <Dim<D>>::with_axis(model, &mesh)?;
     let mut builder = Builder::new(with_axis.as_ref().unwrap_or(model), mesh)?;
+    let (passing, of_pairs) = passing::warnings(&builder);
     let mut warnings = idle::warnings(builder.model, &builder.mesh, &builder.body_of_node);
+    // Of what others go through it is said already.
+    warnings.retain(|idle| of_pairs.iter().all(|part| idle.path != format!("part[{part}]")));
+    warnings.extend(passing);
+    warnings.extend(sizes::warnings(builder.model, &builder.mesh));
     warnings.extend(normals::warnings(builder.model, &builder.mesh));
     warnings.extend(hinges::warnings(builder.model, &builder.mesh, &builder.joins));
-    let start = builder.start()?;
-    let elements = builder.elements(level)?;
-    let conditions = builder.conditions(&elements)?;
+    // What is wrong at the start and what is wrong with conditions has nothing to do with each other.
+    let start = builder.start();
+    let conditions = builder.elements(level).and_then(|elements| Ok((builder.conditions(&elements)?, elements)));
+    let (start, (conditions, elements)) = match (start, conditions) {
+        (Ok(start), Ok(conditions)) => (start, conditions),
+        (start, conditions) => return Err(start.err().into_iter().chain(conditions.err()).flatten().collect()),
+    };
     let outside = builder.outside_of(start.outside, &conditions.contacts)?;
     Ok((builder.assembled(elements, conditions, outside, start.penetrations, level, threads), warnings))
 }

@@ -25,6 +25,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &RELAXED,
     &SQUEEZED,
     &OPENED,
+    &FEW_STEPS,
+    &FAR_PROBE,
 ];
 
 static INVERTED: Message = Message {
@@ -202,6 +204,25 @@ pub(crate) static OPENED: Message = Message {
     cause: "A piece of the surface that encloses the gas was eroded. From then on the gas has the pressure outside: it pushes \
         no more, and its values in the history stay as they were.",
     remedy: "Nothing, where the wall is meant to burst; the gas that would blow out through the hole for a while is not modelled.",
+};
+
+pub(crate) static FEW_STEPS: Message = Message {
+    code: "W0605",
+    title: "a run of a few steps, or of far too many",
+    example: Example::Model("[run]\nend = \"1 us\"\n"),
+    cause: "The end is less than ten stable steps away, in which no wave crosses more than a few elements, or more than 1e9. \
+        Most often the end, or the size of the elements, is in another unit than it was meant in.",
+    remedy: "Look at the units of `run.end` and of lengths; of a mesh file `scale` is the unit of its lengths. Fix what makes \
+        the step short, which `embate check --time-step` shows.",
+};
+
+pub(crate) static FAR_PROBE: Message = Message {
+    code: "W0703",
+    title: "a probe far from its point",
+    example: Example::Model("[[probe]]\nname = \"tip\"\npart = \"block\"\npoint = [10, 5]\n"),
+    cause: "A probe watches the node of its part that is nearest to the point. That is farther away than the elements there are \
+        large, so the point is not in the part.",
+    remedy: "Look at the unit and the coordinates of the point, or name the part that is there.",
 };
 
 /// One fault of a model: where in the input, what is wrong, and what to do.

@@ -2,8 +2,10 @@
 //! loop is in `simulation/run.rs`, written once for both dimensions.
 
 mod clock;
+mod few;
 mod output_cursor;
 mod memory;
+mod parts;
 pub(crate) mod run;
 mod state;
 mod steering;
@@ -175,12 +177,22 @@ pub struct PartOverview {
     pub name: String,
     /// Number of elements.
     pub elements: usize,
+    /// How many there are of each kind.
+    pub kinds: Vec<(&'static str, usize)>,
     /// Number of nodes.
     pub nodes: usize,
     /// Mass per metre of depth, kg/m.
     pub mass: f64,
+    /// Sides of the box around it along x, y and, in 3D, z, m.
+    pub size: Vec<f64>,
+    /// Speed of the fastest waves in its material at rest, √((K + 4µ/3)/ρ), m/s.
+    pub wave_speed: f64,
+    /// Whether it is rigid: then its elements set no step.
+    pub is_rigid: bool,
     /// Stable step of its elements, s.
     pub stable_time_step: f64,
+    /// Whether one of its elements governs the first step.
+    pub governs: bool,
 }
 
 /// What `embate check` reports of a model.

@@ -1,8 +1,11 @@
 //! Warnings as a user meets them: printed once on standard error, the model accepted, and listed in the
 //! summary.
 
-use crate::{embate, fresh};
+use crate::{embate, fresh, root};
+use embate_files::model_file;
+use embate_solver::simulation::{Options, Simulation};
 use std::fs;
+use std::path::PathBuf;
 
 /// A block that falls onto a floor and softens, and one that was forgotten.
 const MODEL: &str = r#"
@@ -68,4 +71,32 @@ fn of_a_model_with_faults_those_alone_are_reported() {
     let answer = embate(&folder, ["check", "model.toml"]);
     assert_eq!(answer.code, Some(2));
     assert!(answer.err.contains("1 fault: nothing was run") && !answer.err.contains("warning"), "{}", answer.err);
+}
+
+/// Warnings of what is wrong beyond doubt: a model that is right has none of them.
+const SLIPS: [&str; 7] = ["W0204", "W0304", "W0305", "W0408", "W0502", "W0605", "W0703"];
+/// Larger models are made ready by the tests that run them.
+const ELEMENTS_MOST: u128 = 30_000;
+
+#[test]
+fn no_example_and_no_case_of_verification_looks_like_a_slip() {
+    let folders = ["examples", "verification"].map(|name| fs::read_dir(root().join(name)).unwrap());
+    let folders = folders.into_iter().flatten().map(|entry| entry.unwrap().path()).filter(|path| path.is_dir());
+    let files = folders.flat_map(|folder| fs::read_dir(folder).unwrap()).map(|entry| entry.unwrap().path());
+    let is_model = |path: &PathBuf| path.extension().is_some_and(|it| it == "toml") && !path.ends_with("expected.toml");
+    let (mut looked, mut found) = (0, Vec::new());
+    for path in files.filter(is_model) {
+        let Ok(model) = model_file::load(&path, &[]) else { continue };
+        let mut warnings = model.warnings();
+        if model.parts.iter().map(|part| model.element_count(part)).sum::<u128>() <= ELEMENTS_MOST {
+            let simulation =
+                Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+            warnings = simulation.model_warnings().to_vec();
+        }
+        looked += 1;
+        let slips = warnings.iter().filter(|warning| SLIPS.contains(&warning.kind.code));
+        found.extend(slips.map(|warning| format!("{}: {}: {warning}", path.display(), warning.kind.code)));
+    }
+    assert!(looked > 150, "{looked}");
+    assert!(found.is_empty(), "{}", found.join("\n"));
 }

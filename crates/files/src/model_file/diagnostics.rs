@@ -5,8 +5,9 @@
 
 use super::tree::{Node, Place};
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet, normalize_untrusted_str};
-use embate_solver::error::Warning;
+use embate_solver::error::{Fault, Warning};
 use embate_solver::message::{Message, SHOWN};
+use embate_solver::model::Model;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Lines longer than this are not shown, only named.
@@ -122,6 +123,16 @@ impl Faults {
     pub(crate) fn covers(&self, path: &str) -> bool {
         let above = path.char_indices().filter(|(_, c)| matches!(c, '.' | '[')).map(|(at, _)| &path[..at]);
         above.chain(std::iter::once(path)).any(|path| self.covered.contains(path))
+    }
+
+    /// Faults of the model's mesh, where there are others besides, and `found` of the model, that do not keep
+    /// it from being meshed.
+    pub(crate) fn of_mesh(&self, model: &Model, found: &[Fault]) -> Vec<Fault> {
+        let is_of_parts = |path: &str| path.is_empty() || path.starts_with("part");
+        if (self.is_empty() && found.is_empty()) || self.covered.iter().any(|path| is_of_parts(path)) {
+            return Vec::new();
+        }
+        if self.problems.iter().any(|problem| is_of_parts(&problem.path)) { Vec::new() } else { model.check_mesh(found) }
     }
 
     pub(crate) fn is_empty(&self) -> bool {

@@ -153,6 +153,13 @@ since they are no part of the summary that it leaves out; `summary.json` lists t
 | a Poisson's ratio above 0.49 in `tri3` or `quad4_full` | parts not in plane stress; rubbers by their bulk and shear modulus | the elements lock: several times too stiff |
 | a fluid without viscosity in `quad4` or `quad4_full` | parts of law `null`, but for a `rectangle` of one row | nothing holds shapes that keep the volume: elements fold where the fluid does not flow along the mesh |
 | nothing acts on a part | no contact, obstacle, join, spring, load, cavity or motion has to do with it, nor with what shares its nodes | it stays as it is, and others go through it |
+| numbers of materials in another system of units | densities and moduli that no material has in SI, and that are usual ones in mm, t, s, in mm, kg, ms or another system | masses and stiffnesses are wrong by powers of ten: write the units |
+| a number that no material has | a density below 0.01 or above 25,000 kg/m³; Young's modulus below 1 kPa or above 2 TPa, or so low that √(E/ρ) is below 20 m/s at more than 2500 kg/m³; waves above 25 km/s; a yield stress above a fifth or below 1e-7 of Young's modulus; not where the density is a power of ten other than 1000, as of models without units or with heavy bodies | most often a number without its unit: the message says which was meant |
+| a size in another unit | a model larger than 10 km or smaller than 1 µm; a part of a mesh file that is, with its elements, 300 times larger or smaller than all that is not of the file | the `scale` of the mesh is missing or wrong |
+| a run of less than 10 steps, or of more than 1e9 | `run.end` over the first stable step | nothing is to be seen, or it never ends: `end`, or lengths, are in another unit |
+| a probe far from its point | its part has no node within the size of the elements there | it watches a node that was not meant |
+| a speed that no body has | a velocity above 20 km/s in a model without an equation of state | no solid bears what it meets then: look at the unit |
+| bodies that will go through each other | bodies on straight ways that are known (free flight, gravity, prescribed constant velocities) that meet within the run, or meet an obstacle whose `parts` lack them, without a contact, join or anything else that has to do with both | nothing keeps them apart |
 
 ";
 

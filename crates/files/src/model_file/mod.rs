@@ -34,7 +34,7 @@ pub(crate) use tree::Node;
 use crate::PathPolicy;
 use crate::model_file::messages::{ENCODING, FILE, SYNTAX};
 use crate::plain;
-use embate_solver::error::Warning;
+use embate_solver::error::{Fault, Warning};
 use embate_solver::message::Message;
 use embate_solver::model::Model;
 use embate_solver::quantity::Dimension;
@@ -118,6 +118,16 @@ impl Loaded {
     #[must_use]
     pub fn reported(&self, warnings: &[Warning]) -> Diagnostics {
         Faults::warnings(warnings).into_diagnostics(&self.sources, Some(&self.root))
+    }
+
+    /// Faults that were found when a simulation was made of the model, with their lines and columns.
+    #[must_use]
+    pub fn faulty(&self, faults: &[Fault]) -> Diagnostics {
+        let mut all = Faults::default();
+        for Fault { kind, path, message, help } in faults {
+            all.beside(kind, path, None, (message.clone(), help.clone()));
+        }
+        all.into_diagnostics(&self.sources, Some(&self.root))
     }
 }
 

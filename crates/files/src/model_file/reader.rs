@@ -12,7 +12,7 @@ use embate_solver::element::registry;
 use embate_solver::input::sections::{MOVED, SECTIONS, TOP};
 use embate_solver::mesh::shapes::Shape;
 use embate_solver::model::Values;
-use embate_solver::model::messages::CLASH;
+use embate_solver::model::messages::{CLASH, LIST_LENGTH};
 use embate_solver::model::values::{Datum, Field};
 use embate_solver::quantity::Dimension;
 use embate_solver::stress_state::STRESS_STATES;
@@ -328,6 +328,14 @@ impl Reader<'_> {
 
     fn datum(&mut self, key: &Key, node: &Node, path: &str) -> Option<Datum> {
         let key = self.extent.of(key);
+        if let (Extent::Solid, Kind::Spatial(..), Value::List(components)) = (self.extent, key.kind, &node.value)
+            && components.len() == 2
+        {
+            let message = format!("`{}` has two components, but the model is 3D", key.name);
+            let help = "give the third too, along z: 0 where there is nothing along it".to_string();
+            self.faults.value(&LIST_LENGTH, path, node.place, (message, help));
+            return None;
+        }
         match value::read(&key, node, path) {
             Ok(datum) => Some(datum),
             Err(wrongs) => {

@@ -124,7 +124,10 @@ impl Template {
             let document = reader::read(&root, &reader::MODEL, true, &mut faults);
             model = build::model(&document, &self.name, &mut meshes, &mut faults);
         }
-        note(&mut faults, model.check());
+        let found = model.check();
+        let of_mesh = faults.of_mesh(&model, &found);
+        note(&mut faults, found);
+        note(&mut faults, of_mesh);
         (Loaded { model, sources: self.sources.clone(), root }, faults)
     }
 

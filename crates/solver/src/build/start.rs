@@ -4,6 +4,7 @@ mod plane;
 mod space;
 
 use super::contacts::search_of;
+use super::inside_out::turned;
 use super::{Builder, Builds};
 use crate::contact::formulation::{self, Surfaces};
 use crate::contact::initial::{self, Look, Movable, Penetration};
@@ -48,8 +49,8 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: Builds<D>,
 {
-    /// Notes penetrations at the start as faults, or gives lines for the overview; those that shall be pushed
-    /// out are, in the mesh.
+    /// Notes penetrations at the start as faults, or gives a line of each contact for the overview; those
+    /// that shall be pushed out are, in the mesh.
     pub(super) fn resolve_initial_penetration(&mut self) -> Vec<String> {
         let tolerance = crate::mesh::tolerance(&self.mesh.positions);
         let (model, mut lines, mut meetings) = (self.model, Vec::new(), Vec::new());
@@ -62,23 +63,33 @@ where
             let Some(mut look) = self.look(contact) else { continue };
             let found = look.penetrations(&self.mesh.positions, tolerance);
             match contact.interface.initial_penetration {
-                InitialPenetration::Error => self.faults.extend(initial::faults(model, &format!("contact[{i}]"), &contact.name, &found)),
-                InitialPenetration::Ignore => lines.extend(initial::lines(&contact.name, &found, IGNORED)),
+                InitialPenetration::Error => {
+                    self.faults.extend(initial::fault(model, &format!("contact[{i}]"), &contact.name, &found, None))
+                }
+                InitialPenetration::Ignore => lines.extend(initial::line(&contact.name, &found, IGNORED)),
                 InitialPenetration::PushOut => {
-                    lines.extend(initial::lines(&contact.name, &found, PUSHED));
+                    lines.extend(initial::line(&contact.name, &found, PUSHED));
                     meetings.push(Meeting::Surfaces { contact: Some(i), look, points: Vec::new() });
                 }
             }
         }
-        for obstacle in model.obstacles.iter().filter(|it| it.interface.active[0] <= 0.0) {
-            // Faults are reported when all springs are known: nothing can be seen better.
+        for (i, obstacle) in model.obstacles.iter().enumerate().filter(|(_, it)| it.interface.active[0] <= 0.0) {
             let what = match obstacle.interface.initial_penetration {
-                InitialPenetration::Error => continue,
+                // Faults are reported when all springs are known: nothing can be seen better. Beside others
+                // now, because then there will be no springs.
+                InitialPenetration::Error => {
+                    if !self.faults.is_empty() {
+                        let (found, _) = <Dim<D>>::obstacle_at_start(self, obstacle, tolerance);
+                        let hint = turned(obstacle, &self.mesh, found.len());
+                        self.faults.extend(initial::fault(model, &format!("obstacle[{i}]"), &obstacle.name, &found, hint));
+                    }
+                    continue;
+                }
                 InitialPenetration::Ignore => IGNORED,
                 InitialPenetration::PushOut => PUSHED,
             };
             let (found, met) = <Dim<D>>::obstacle_at_start(self, obstacle, tolerance);
-            lines.extend(initial::lines(&obstacle.name, &found, what));
+            lines.extend(initial::line(&obstacle.name, &found, what));
             meetings.extend(met);
         }
         // In 2D nodes go out of shapes first.
@@ -125,8 +136,8 @@ where
         for meeting in meetings {
             let Meeting::Surfaces { contact: Some(i), look, .. } = meeting else { continue };
             let left = look.penetrations(&self.mesh.positions, tolerance);
-            let faults = initial::faults(self.model, &format!("contact[{i}]"), &self.model.contacts[*i].name, &left);
-            self.faults.extend(faults.into_iter().map(stuck));
+            let fault = initial::fault(self.model, &format!("contact[{i}]"), &self.model.contacts[*i].name, &left, None);
+            self.faults.extend(fault.map(stuck));
         }
         if is_moved {
             self.positions.clone_from(&self.mesh.positions);

@@ -7,6 +7,7 @@
 //! stick out press back, each with as much as a node of the parts has. Surfaces as fine as the parts meet
 //! them half in each pass.
 
+use super::inside_out::turned;
 use super::start::{IGNORED, stuck};
 use super::{Builder, manner, search_by_name};
 use crate::contact::formulation::Side;
@@ -145,14 +146,15 @@ impl Builder<'_, 3> {
             let look = self.look_at_triangles(surface, outside, obstacle.interface.thickness);
             let found = self.penetrations_of_triangles(surface, look, tolerance);
             match obstacle.interface.initial_penetration {
-                InitialPenetration::Ignore => lines.extend(initial::lines(&obstacle.name, &found, IGNORED)),
+                InitialPenetration::Ignore => lines.extend(initial::line(&obstacle.name, &found, IGNORED)),
                 InitialPenetration::Error => {
-                    self.faults.extend(initial::faults(self.model, &format!("obstacle[{i}]"), &obstacle.name, &found))
+                    let hint = turned(obstacle, &self.mesh, found.len());
+                    self.faults.extend(initial::fault(self.model, &format!("obstacle[{i}]"), &obstacle.name, &found, hint));
                 }
                 // What is left: the rest was pushed out.
                 InitialPenetration::PushOut => {
-                    self.faults
-                        .extend(initial::faults(self.model, &format!("obstacle[{i}]"), &obstacle.name, &found).into_iter().map(stuck));
+                    let fault = initial::fault(self.model, &format!("obstacle[{i}]"), &obstacle.name, &found, None);
+                    self.faults.extend(fault.map(stuck));
                 }
             }
         }

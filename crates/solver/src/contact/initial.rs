@@ -19,8 +19,6 @@ use crate::model::{InitialPenetration, Interface, Model, Part};
 use crate::tensor::Dim;
 use crate::vector::{dot, place};
 
-/// At most so many are reported one by one.
-const REPORTED_MAX: usize = 20;
 /// Rounds of looking for penetrations, and sweeps over those that a round found.
 const ROUNDS: usize = 100;
 const SWEEPS: usize = 10;
@@ -47,42 +45,43 @@ pub enum Inside {
     Edge,
 }
 
-impl<const D: usize> Penetration<D> {
-    /// In words.
-    #[must_use]
-    pub fn line(&self) -> String {
-        let (at, depth) = (place(self.place), self.depth);
-        let what = if self.what == Inside::Node { "node" } else { "edge" };
-        format!("the {what} at {at} m is {depth:.3e} m inside at the start")
+/// Penetrations in one line: how many nodes and edges, how deep at most, and where that is.
+fn summed<const D: usize>(found: &[Penetration<D>]) -> Option<String> {
+    let deepest = found.iter().reduce(|best, it| if it.depth > best.depth { it } else { best })?;
+    let (at, depth) = (place(deepest.place), deepest.depth);
+    let edges = found.iter().filter(|it| it.what == Inside::Edge).count();
+    let words = [("node", found.len() - edges), ("edge", edges)];
+    if let ([only], Some((word, _))) = (found, words.into_iter().find(|(_, count)| *count > 0)) {
+        return Some(format!("the {word} at {} m is {depth:.3e} m inside at the start", place(only.place)));
     }
+    let counted = words
+        .into_iter()
+        .filter(|(_, count)| *count > 0)
+        .map(|(word, count)| format!("{count} {word}{}", if count > 1 { "s" } else { "" }));
+    let counted: Vec<String> = counted.collect();
+    Some(format!("{} are up to {depth:.3e} m inside at the start, the deepest at {at} m", counted.join(" and ")))
 }
 
-/// Faults of a contact or obstacle at `path` with these penetrations; the first 20 are reported, the rest is
-/// counted. `model` says whether nodes can be pushed out.
+/// The fault of a contact or obstacle at `path` with these penetrations, if there are any; `model` says
+/// whether nodes can be pushed out, `hint` what else may be wrong.
 #[must_use]
-pub fn faults<const D: usize>(model: &Model, path: &str, name: &str, found: &[Penetration<D>]) -> Vec<Fault> {
+pub fn fault<const D: usize>(model: &Model, path: &str, name: &str, found: &[Penetration<D>], hint: Option<String>) -> Option<Fault> {
     // Nodes on the faces of shells can not.
     let help = match model.parts.iter().any(Part::is_of_shells) {
         true => "move the bodies apart, or set `initial_penetration` to \"ignore\"; shells can't be pushed out",
         false => "move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\"",
     };
-    let one = |penetration: &Penetration<D>| Fault::new(&PENETRATION, path, format!("\"{name}\": {}", penetration.line()), help);
-    let mut faults: Vec<Fault> = found.iter().take(REPORTED_MAX).map(one).collect();
-    if found.len() > REPORTED_MAX {
-        faults.push(Fault::new(&PENETRATION, path, format!("\"{name}\": and {} more nodes are inside", found.len() - REPORTED_MAX), help));
-    }
-    faults
+    let (message, help) = match hint {
+        None => (format!("\"{name}\": {}", summed(found)?), help.to_string()),
+        Some(hint) => (format!("\"{name}\": {}: all of the bodies", summed(found)?), hint),
+    };
+    Some(Fault::new(&PENETRATION, path, message, help))
 }
 
-/// Lines of a contact or obstacle for the overview; the first 20 are reported, the rest is counted.
+/// The line of a contact or obstacle for the overview, if there are penetrations.
 #[must_use]
-pub fn lines<const D: usize>(name: &str, found: &[Penetration<D>], what_is_done: &str) -> Vec<String> {
-    let mut lines: Vec<String> =
-        found.iter().take(REPORTED_MAX).map(|penetration| format!("{name}: {}; {what_is_done}", penetration.line())).collect();
-    if found.len() > REPORTED_MAX {
-        lines.push(format!("{name}: and {} more nodes; {what_is_done}", found.len() - REPORTED_MAX));
-    }
-    lines
+pub fn line<const D: usize>(name: &str, found: &[Penetration<D>], what_is_done: &str) -> Option<String> {
+    Some(format!("{name}: {}; {what_is_done}", summed(found)?))
 }
 
 /// Whether gaps that are negative when an interface begins to act count as zero: where the model says so, or

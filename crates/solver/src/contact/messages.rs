@@ -23,6 +23,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &TIES_BROKE,
     &UNSOLVED,
     &MISSED,
+    &PASSING,
 ];
 
 pub(crate) static SHARED_SURFACE: Message = Message {
@@ -91,7 +92,8 @@ pub(crate) static PENETRATION: Message = Message {
     title: "bodies that are inside of each other at the start",
     example: Example::Model("[[obstacle]]\nname = \"ground\"\nplane = { point = [0, \"1 mm\"], normal = [0, 1] }\n"),
     cause: "Nodes lie behind the surface that they touch (with the thickness of the contact): its springs would shoot them out.",
-    remedy: "Move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\".",
+    remedy: "Move the bodies apart, or set `initial_penetration` to \"push_out\" or \"ignore\". Where all of the bodies is behind an \
+        obstacle its normal looks away from them: turn it.",
 };
 
 pub(crate) static TIE: Message = Message {
@@ -205,7 +207,7 @@ pub(crate) static INSIDE_AT_START: Message = Message {
          [[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\ninitial_penetration = \"ignore\"\n",
     ),
     cause: "`initial_penetration` lets the model be accepted: the nodes were pushed out, or the contact forgives what they began with.",
-    remedy: "`embate check` lists the nodes; move the bodies apart where results near the contact matter.",
+    remedy: "`embate check` says how many there are, and where the deepest is; move the bodies apart where results near the contact matter.",
 };
 
 pub(crate) static TIES_BROKE: Message = Message {
@@ -238,4 +240,17 @@ pub(crate) static MISSED: Message = Message {
         sixth of their thickness (in 2D a fifth).",
     remedy: "Look at the place that the message names. Let one contact of `bodies = \"all\"` watch all surfaces; \
         raise `penalty_scale` where a contact is too soft for what presses on it.",
+};
+
+pub(crate) static PASSING: Message = Message {
+    code: "W0408",
+    title: "bodies that will go through each other",
+    example: Example::Model(
+        "[run]\nend = \"100 us\"\n\n[[part]]\nname = \"ball\"\nmaterial = \"steel\"\nvelocity = [\"200 m/s\", 0]\ndisk = { centre = [0, 0], radius = \"4 mm\", elements = 2 }\n\n\
+         [[part]]\nname = \"plate\"\nmaterial = \"steel\"\nrectangle = { corner = [\"10 mm\", \"-10 mm\"], size = [\"2 mm\", \"20 mm\"], elements = [1, 10] }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = [\"plate\"]\n",
+    ),
+    cause: "Bodies move towards each other, or towards an obstacle, on straight ways that nothing changes before they meet, and no \
+        contact has to do with both: without a contact nothing keeps bodies apart.",
+    remedy: "Add a contact of both, such as `bodies = \"all\"`; name the part in the `parts` of the obstacle.",
 };

@@ -21,6 +21,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &HINGE,
     &OPEN_CAVITY,
     &WRONG_SIDE,
+    &SPEED,
 ];
 
 pub(crate) static CURVE: Message = Message {
@@ -188,4 +189,15 @@ pub(crate) static WRONG_SIDE: Message = Message {
     example: Example::Model("[[cavity]]\nname = \"gas\"\non = \"block\"\nambient = \"100 kPa\"\n"),
     cause: "The surface encloses the bodies instead of the gas, or nothing: the volume that it looks into is not positive.",
     remedy: "Name the inner sides of the walls: of a ring `ring.inner`, of a shell the side that looks into the gas.",
+};
+
+pub(crate) static SPEED: Message = Message {
+    code: "W0502",
+    title: "a speed that no body has",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [\"100 km/s\", 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "A body moves at more than 20 km/s, without an equation of state: guns reach a tenth, and no solid bears what it meets then.",
+    remedy: "Look at the unit of the velocity: a number without one is in m/s. Of what is that fast, give the material an equation of state.",
 };

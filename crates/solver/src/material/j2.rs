@@ -12,9 +12,10 @@
 use super::hardening::{Flow, Hardening, Linear, Ludwik, Rate, StoredFlow, Swift, Table, Voce};
 use super::trial::{LIMIT, Newton, Trial};
 use super::{
-    Family, Fibre, History, Kinematics, Law, LawKind, Layer, ParameterFault, Parameters, Response, Softening, bulk_and_shear, variable,
-    young_and_poisson,
+    Family, Fibre, History, Kinematics, Law, LawKind, Layer, ParameterFault, Parameters, Response, Softening, YOUNG, bulk_and_shear,
+    variable, young_and_poisson,
 };
+use crate::quantity::Dimension;
 use crate::tensor::SymmetricTensor;
 use embate_lanes::Lane;
 
@@ -61,6 +62,12 @@ impl<H: Hardening> Law for J2With<H> {
 
     fn table_end(parameters: &Parameters<'_>) -> Option<f64> {
         H::end(parameters)
+    }
+
+    fn first_flow(parameters: &Parameters<'_>) -> Option<(&'static str, f64)> {
+        let [_, shear] = bulk_and_shear(parameters);
+        let own = H::KIND.parameters.iter().find(|own| own.dimension == Dimension::PRESSURE && own.name != YOUNG.name)?;
+        Some((own.name, H::new(parameters, shear).flow(0.0).stress))
     }
 
     fn softening(parameters: &Parameters<'_>) -> Option<Softening> {

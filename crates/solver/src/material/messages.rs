@@ -15,6 +15,8 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &SOFTENING,
     &LOCKING,
     &FLUID,
+    &IMPLAUSIBLE,
+    &OTHER_UNITS,
 ];
 
 pub(crate) static PARAMETER_MISSING: Message = Message {
@@ -129,6 +131,26 @@ pub(crate) static FLUID: Message = Message {
     cause: "Without viscosity there is a pressure only, one for the whole element, which holds none of the shapes \
         that keep the volume: elements fold.",
     remedy: "Take `quad4_reduced`, whose hourglass control holds them, or give the fluid a `viscosity`.",
+};
+
+pub(crate) static IMPLAUSIBLE: Message = Message {
+    code: "W0304",
+    title: "a number that no material has",
+    example: Example::Model("[material.steel]\nlaw = \"elastic\"\ndensity = 7850\nyoung = 210\npoisson = 0.3\n"),
+    cause: "A density, a modulus, a wave speed or a yield stress is far from those of all materials: most often a number \
+        of another unit was written without it, or the power of ten slipped.",
+    remedy: "Write numbers with their units, such as `young = \"210 GPa\"` and `density = \"7.85 g/cm^3\"`. Nothing, where \
+        the number is meant.",
+};
+
+pub(crate) static OTHER_UNITS: Message = Message {
+    code: "W0305",
+    title: "materials in another system of units",
+    example: Example::Model("[material.steel]\nlaw = \"elastic\"\ndensity = 7.85e-9\nyoung = 210000\npoisson = 0.3\n"),
+    cause: "Numbers without a unit are in SI: m, kg, s, Pa. Density and modulus are those of no material there, and those of a \
+        usual one in the system that the message names, such as mm, t, s with stresses in MPa.",
+    remedy: "Write the numbers with the units that the message names, lengths and velocities too; of a mesh file `scale` is the \
+        unit of its lengths.",
 };
 
 pub(crate) static UNSTABLE_RUBBER: Message = Message {

@@ -15,6 +15,7 @@ mod softening;
 mod state;
 mod trial;
 mod stress_constrained;
+pub mod unit_system;
 pub mod variable;
 
 pub use j2::J2With;
@@ -166,6 +167,18 @@ pub trait Law: Copy + Send + Sync + 'static {
         None
     }
 
+    /// The parameter that says the flow stress (Pa) before anything has flown, and how much that is; `None`
+    /// where it does not flow by a flow stress.
+    fn first_flow(parameters: &Parameters<'_>) -> Option<(&'static str, f64)> {
+        let given = |parameter: &Parameter| match parameter.list {
+            0 => Some(parameters.value(parameter.name)),
+            _ => parameters.list(parameter.name).first().copied(),
+        };
+        let says = |parameter: &&Parameter| [hardening::YIELD.name, hardening::STRESS.name].contains(&parameter.name);
+        let own = Self::KIND.parameters.iter().find(says)?;
+        Some((own.name, given(own)?))
+    }
+
     /// Plastic strain at which the table of its flow stress ends; `None` where it has none.
     fn table_end(_parameters: &Parameters<'_>) -> Option<f64> {
         None
@@ -303,6 +316,20 @@ pub fn softening(name: &str, parameters: &Parameters<'_>) -> Option<Softening> {
         type Output = Option<Softening>;
         fn visit<M: Law>(self) -> Self::Output {
             M::softening(self.0)
+        }
+    }
+    with_law(name, Ask(parameters)).flatten()
+}
+
+/// The parameter and the flow stress (Pa) with which the law called `name` begins to flow; `None` where it
+/// does not. Parameters are sound.
+#[must_use]
+pub fn first_flow(name: &str, parameters: &Parameters<'_>) -> Option<(&'static str, f64)> {
+    struct Ask<'a>(&'a Parameters<'a>);
+    impl LawVisitor for Ask<'_> {
+        type Output = Option<(&'static str, f64)>;
+        fn visit<M: Law>(self) -> Self::Output {
+            M::first_flow(self.0)
         }
     }
     with_law(name, Ask(parameters)).flatten()

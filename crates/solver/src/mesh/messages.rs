@@ -21,6 +21,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NOT_ON_SHELLS,
     &ABOUT_NORMAL,
     &NOTHING_CUT,
+    &SIZES,
 ];
 
 pub(crate) static SHAPE: Message = Message {
@@ -231,4 +232,17 @@ pub(crate) static TINY_STEP: Message = Message {
     cause: "All elements wait for the one with the shortest stable step, which goes with its smallest height: a \
         corner or a node just beside an edge makes a sliver. Reported from a factor of 1000 on.",
     remedy: "Fix the outline or the mesh at the place that the message names; or make such elements heavier with `run.mass_scaling`.",
+};
+
+pub(crate) static SIZES: Message = Message {
+    code: "W0204",
+    title: "a size that looks like one in another unit",
+    example: Example::Model(
+        "[run]\nend = \"200 s\"\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [1, 0]\n\
+         rectangle = { corner = [0, 0], size = [20000, 10000], elements = [4, 2] }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "The whole model is larger than 10 km or smaller than 1 µm, or a part of a mesh file and its elements are more than \
+        300 times larger, or smaller, than all that is not of the file.",
+    remedy: "Write lengths with their unit: a number without one is in m. Of a mesh file `scale` is the unit of its lengths, \
+        such as `scale = \"1 mm\"`.",
 };

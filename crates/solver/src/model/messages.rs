@@ -139,7 +139,7 @@ pub(crate) static NOT_IN_SPACE: Message = Message {
     example: Example::Model(
         "[[part]]\nname = \"solid\"\nmaterial = \"steel\"\nbox = { corner = [0, 0, 0], size = [1, 1, 1], elements = [1, 1, 1] }\n\n\
          [[contact]]\nname = \"hit\"\nbodies = \"all\"\n\n\
-         [[obstacle]]\nname = \"ball\"\nparts = \"solid\"\ncircle = { centre = [0, -2], radius = 1 }\n",
+         [[obstacle]]\nname = \"ball\"\nparts = \"solid\"\ncircle = { centre = [0, -2, 0], radius = 1 }\n",
     ),
     cause: "A table or key belongs to 2D models; solids don't have it.",
     remedy: "Leave it out, or do what the message proposes.",

@@ -3,9 +3,8 @@
 use super::clock::Clock;
 use super::memory::Memory;
 use super::output_cursor::OutputCursor;
-use super::{
-    Control, Observer, ObserverError, Options, Overview, PartOverview, Progress, Runs, State, TimeStepCosts, time_step_costs, tiny,
-};
+use super::parts::KnownParts;
+use super::{Control, Observer, ObserverError, Options, Overview, Progress, Runs, State, TimeStepCosts, few, time_step_costs, tiny};
 use crate::build;
 use crate::channel::{self, Channels};
 use crate::contact::initial::{self, Inside, Penetration};
@@ -14,7 +13,8 @@ use crate::contact::{ContactKind, search};
 use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
 use crate::field::snapshot::LiveSnapshot;
 use crate::hashes::{self, Hashes, Hashing};
-use crate::mesh::{Mesh, PartMesh};
+use crate::material::messages::{IMPLAUSIBLE, OTHER_UNITS};
+use crate::mesh::Mesh;
 use crate::model::{self, Cadence, Model};
 use crate::monitor::RunMonitor;
 use crate::output::{Cells, Field, Frame, Shown, fields_of};
@@ -48,6 +48,7 @@ where
     pub(crate) threads: usize,
     pub(super) model_warnings: Vec<Warning>,
     pub(crate) warnings: Vec<Notice>,
+    pub(super) known_parts: KnownParts,
     pub(super) history: Cadence,
     pub(super) fields: Cadence,
     pub(super) max_steps: u64,
@@ -112,6 +113,7 @@ where
             threads: if pool.is_some() { threads } else { 1 },
             model_warnings,
             warnings: Vec::new(),
+            known_parts: KnownParts::new(model, &system),
             history: model.output.history,
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
@@ -129,6 +131,11 @@ where
         within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
         simulation.model_warnings.extend(tiny::warnings(&simulation.system));
         simulation.model_warnings.extend(channel::warnings(model));
+        // Where materials are wrong the step is, too.
+        let is_of_materials = |warning: &Warning| [IMPLAUSIBLE.code, OTHER_UNITS.code].contains(&warning.kind.code);
+        if !simulation.model_warnings.iter().any(is_of_materials) {
+            simulation.model_warnings.extend(few::warning(model, &simulation.system));
+        }
         simulation.momentum = Momentum::new(&simulation.system);
         simulation.shortest.note(&simulation.system);
         simulation.check_obstacles(model)?;
@@ -139,7 +146,7 @@ where
             simulation.warnings.push(Notice::new(&MASS_ADDED, message));
         }
         if !simulation.system.initial_penetrations.is_empty() {
-            let text = "some nodes were inside other bodies at the start: `embate check` lists them";
+            let text = "some nodes were inside other bodies at the start: `embate check` says how many, and where the deepest is";
             simulation.warnings.push(Notice::new(&INSIDE_AT_START, text));
         }
         Ok(simulation)
@@ -175,7 +182,8 @@ where
             let inside = contact.penetrations(&system.springs).filter(|&(_, depth)| depth > tolerance);
             let found: Vec<Penetration<D>> =
                 inside.map(|(node, depth)| Penetration { what: Inside::Node, place: system.positions[node as usize], depth }).collect();
-            faults.extend(initial::faults(model, &format!("obstacle[{index}]"), &contact.name, &found));
+            let hint = build::inside_out::turned(&model.obstacles[index], &system.mesh, found.len());
+            faults.extend(initial::fault(model, &format!("obstacle[{index}]"), &contact.name, &found, hint));
         }
         if faults.is_empty() { Ok(()) } else { Err(Error::Model(faults)) }
     }
@@ -487,19 +495,8 @@ where
     /// Parts, masses, step, penetrations.
     pub(crate) fn overview(&self) -> Overview {
         let system = &self.system;
-        let part = |(index, part): (usize, &PartMesh)| {
-            let of = || system.mesh.groups.iter().zip(&system.blocks).filter(|(group, _)| group.part == index).map(|(_, block)| block);
-            let elements = || of().flat_map(|block| (0..block.elements()).map(move |element| (block, element)));
-            PartOverview {
-                name: part.name.clone(),
-                elements: elements().count(),
-                nodes: part.nodes.len(),
-                mass: system.shares.whole[index],
-                stable_time_step: elements().map(|(block, element)| block.time_step_squared(element)).fold(f64::INFINITY, f64::min).sqrt(),
-            }
-        };
         Overview {
-            parts: system.mesh.parts.iter().enumerate().map(part).collect(),
+            parts: self.known_parts.overview(system),
             stable_time_step: system.time_step,
             governor: system.governor_name(system.governor),
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,

@@ -78,6 +78,7 @@ mod sheet_models;
 mod shells;
 mod shells_in_space;
 mod shocks;
+mod slips;
 mod softening;
 mod space;
 mod steering;

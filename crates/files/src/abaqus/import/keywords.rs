@@ -21,10 +21,19 @@ pub(super) struct Keyword {
     /// What it becomes, or what follows from its not acting.
     pub(super) doc: &'static str,
     pub(super) read: Read,
+    /// Values of a data line that are read; 0: as many as there are.
+    pub(super) values: usize,
+}
+
+impl Keyword {
+    /// One of whose data lines so many values are read.
+    const fn values(self, values: usize) -> Self {
+        Self { values, ..self }
+    }
 }
 
 const fn key(name: &'static str, outcome: Outcome, parameters: &'static [&'static str], doc: &'static str, read: Read) -> Keyword {
-    Keyword { name, outcome, parameters, doc, read }
+    Keyword { name, outcome, parameters, doc, read, values: 0 }
 }
 
 /// Needs nothing: the geometry is read before, or there is nothing to read.
@@ -45,10 +54,10 @@ pub(super) static KEYWORDS: &[Keyword] = &[
         GENERAL; of beams in 2D the thickness of a shell, RECT alone", section::beam),
     key("BOUNDARY", Used, &["TYPE", "AMPLITUDE", "OP"], "`[[constraint]]`: fixed, or displacement, velocity, \
         acceleration by an amplitude; rotations of shells and beams are held, or driven by a velocity; of a reference \
-        node the motion of its rigid body", condition::boundary),
-    key("BULK VISCOSITY", Used, &[], "`run.bulk_viscosity`", step::bulk_viscosity),
+        node the motion of its rigid body", condition::boundary).values(4),
+    key("BULK VISCOSITY", Used, &[], "`run.bulk_viscosity`", step::bulk_viscosity).values(2),
     key("CLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]` with `force`, on rotations of shells and beams `moment`: \
-        the sum over the set, per depth; in 3D the whole", condition::nodal_force),
+        the sum over the set, per depth; in 3D the whole", condition::nodal_force).values(3),
     key("CONTACT", Used, &["OP"], "see *CONTACT INCLUSIONS", done),
     key("CONTACT FILE", Approximated, ANY, PRINTS, done),
     key("CONTACT INCLUSIONS", Used, &["ALL EXTERIOR"], "`[[contact]]` with `bodies = \"all\"`, or `between` for \
@@ -59,14 +68,14 @@ pub(super) static KEYWORDS: &[Keyword] = &[
         for; penetrations at the start are pushed out without stress, in 3D and of shells they count as zero", contact::pair),
     key("CONTACT PRINT", Approximated, ANY, PRINTS, done),
     key("CONTACT PROPERTY ASSIGNMENT", Used, &[], "friction and law of the contact of all bodies", contact::property),
-    key("DENSITY", Used, &[], "`density`", material::density),
+    key("DENSITY", Used, &[], "`density`", material::density).values(1),
     key("DLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]`: P1 to P6 a `pressure` on these edges or faces, P on \
         shells along their normal, GRAV `gravity`", condition::distributed),
     key("DSLOAD", Used, &["AMPLITUDE", "OP"], "`[[load]]` with `pressure`, which follows its surface", condition::surface_load),
-    key("DYNAMIC", Used, &["EXPLICIT", "DIRECT", "ELEMENT BY ELEMENT", "FIXED TIME INCREMENTATION"], "`run.end`; the time step follows from the elements", step::dynamic),
+    key("DYNAMIC", Used, &["EXPLICIT", "DIRECT", "ELEMENT BY ELEMENT", "FIXED TIME INCREMENTATION"], "`run.end`; the time step follows from the elements", step::dynamic).values(4),
     key("EL FILE", Approximated, ANY, PRINTS, done),
     key("EL PRINT", Approximated, ANY, PRINTS, done),
-    key("ELASTIC", Used, &["TYPE"], "`young` and `poisson` of an isotropic material", material::elastic),
+    key("ELASTIC", Used, &["TYPE"], "`young` and `poisson` of an isotropic material", material::elastic).values(2),
     key("ELEMENT", Used, &["TYPE", "ELSET"], "the mesh; `element` and `stress_state` of parts", done),
     key("ELEMENT OUTPUT", Approximated, ANY, PRINTS, done),
     key("ELSET", Used, &["ELSET", "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"], "a group of the mesh", done),
@@ -96,7 +105,7 @@ pub(super) static KEYWORDS: &[Keyword] = &[
     key("NSET", Used, &["NSET", "ELSET", "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"], "a group of the mesh", done),
     key("OUTPUT", Approximated, ANY, PRINTS, done),
     key("PART", Used, &["NAME"], "the mesh", done),
-    key("PLASTIC", Used, &["HARDENING"], "law `j2` for one or two rows, `j2_table` for more", material::plastic),
+    key("PLASTIC", Used, &["HARDENING"], "law `j2` for one or two rows, `j2_table` for more", material::plastic).values(2),
     key("PREPRINT", Approximated, ANY, "what is printed is what `embate check` prints", done),
     key("RESTART", Approximated, ANY, PRINTS, done),
     key("RIGID BODY", Used, &["REF NODE", "ELSET", "ANALYTICAL SURFACE"], "`rigid` of parts; of an analytical \
@@ -107,7 +116,7 @@ pub(super) static KEYWORDS: &[Keyword] = &[
         points: exact while it is elastic", section::shell),
     key("SHELL SECTION", Used, &["ELSET", "MATERIAL", "OFFSET", "POISSON", "SECTION INTEGRATION", "CONTROLS", "NODAL THICKNESS"], "`section` of a \
         part of shells: thickness and points", section::shell),
-    key("SOLID SECTION", Used, &["ELSET", "MATERIAL", "CONTROLS"], "`[[part]]`", section::solid),
+    key("SOLID SECTION", Used, &["ELSET", "MATERIAL", "CONTROLS"], "`[[part]]`", section::solid).values(1),
     key("STEP", Used, &["NAME", "NLGEOM", "INC"], "the run", step::step),
     key("SURFACE", Used, &["NAME", "TYPE", "INTERNAL"], "a group of lines of the mesh, in 3D of faces, also SPOS and SNEG of shells", contact::surface),
     key("SURFACE BEHAVIOR", Used, &["PRESSURE-OVERCLOSURE"], "HARD: the automatic penalty; LINEAR: `penalty`; \

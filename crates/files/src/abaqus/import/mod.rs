@@ -11,6 +11,7 @@ mod material;
 mod report;
 mod section;
 mod step;
+mod likely_units;
 mod units;
 mod write;
 mod write_conditions;
@@ -57,10 +58,16 @@ pub fn import(path: &Path, units: &Units, reach: PathPolicy) -> Result<Imported,
     importer.read().map_err(|fault| vec![fault])?;
     let model = importer.write().map_err(|fault| vec![fault])?;
     let mesh = text.whole() + &importer.sets_added;
+    let likely = importer.likely_units();
     let mut report = Report { entries: importer.entries, ..Report::default() };
     let of_units = if units.is_si() { "none are given, so SI: m, kg, s".to_string() } else { units.words() };
-    report.opening = format!("import of {shown}\nunits of the deck: {of_units}\n");
+    report.opening = format!("import of {shown}\nunits of the deck: {of_units}\n{likely}");
     Ok(Imported { model, mesh, report })
+}
+
+/// A number of values in words.
+fn counted(values: usize) -> String {
+    if values == 1 { "the first value".to_string() } else { format!("{values} values") }
 }
 
 /// What is read so far.
@@ -157,6 +164,15 @@ impl<'a> Importer<'a> {
             (keyword.read)(self, at)?;
             if !self.reported {
                 self.note(at, keyword.outcome, keyword.doc);
+            }
+            let is_longer = |line: &&Line| self.text.fields(**line).iter().skip(keyword.values).any(|value| !value.is_empty());
+            if let Some(&line) = block.data.iter().find(is_longer).filter(|_| keyword.values > 0) {
+                let text = format!(
+                    "of a data line {} {} read; further values do not act",
+                    counted(keyword.values),
+                    if keyword.values == 1 { "is" } else { "are" }
+                );
+                self.ignored(at, line, &text);
             }
             if keyword.parameters != ["*"] {
                 for (name, _) in block.parameters.iter().filter(|(name, _)| !keyword.parameters.contains(&name.as_str())) {

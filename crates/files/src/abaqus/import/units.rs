@@ -6,6 +6,7 @@
 use crate::abaqus::messages::UNITS;
 use crate::model_file::quantity_in_si;
 use embate_solver::error::Fault;
+use embate_solver::material::unit_system::UnitSystem;
 use embate_solver::quantity::Dimension;
 
 /// Units of length, mass and time.
@@ -23,7 +24,7 @@ impl Default for Units {
 }
 
 impl Units {
-    /// Reads units such as `mm,t,s`, in any order.
+    /// Reads units such as `mm,t,s` or `in,lbf s^2/in,s`, in any order.
     ///
     /// # Errors
     /// What is not a unit of length, mass or time, missing or there twice.
@@ -31,7 +32,9 @@ impl Units {
         let wrong =
             |message: String| Fault::new(&UNITS, "units", message, "name a unit of length, one of mass and one of time, such as mm,t,s");
         let mut found: [Option<&str>; 3] = [None; 3];
-        for word in text.split([',', ' ']).map(str::trim).filter(|word| !word.is_empty()) {
+        // A unit of mass may be made of several: then commas stand between the three.
+        let between = if text.contains(',') { ',' } else { ' ' };
+        for word in text.split(between).map(str::trim).filter(|word| !word.is_empty()) {
             let (_, dimension) = quantity_in_si(&format!("1 {word}")).ok_or_else(|| wrong(format!("{word:?} is not a unit")))?;
             let kinds = [Dimension::LENGTH, Dimension { mass: 1, ..Dimension::NONE }, Dimension::TIME];
             let Some(kind) = kinds.iter().position(|kind| *kind == dimension) else {
@@ -45,6 +48,14 @@ impl Units {
             [Some(length), Some(mass), Some(time)] => Ok(Self { length: length.into(), mass: mass.into(), time: time.into() }),
             _ => Err(wrong(format!("{text:?} lacks a unit"))),
         }
+    }
+
+    /// Whether they are those of a system.
+    pub(super) fn are(&self, system: &UnitSystem) -> bool {
+        [&self.length, &self.mass, &self.time].into_iter().zip(system.units).all(|(own, other)| {
+            let in_si = |unit: &str| quantity_in_si(&format!("1 {unit}"));
+            in_si(own) == in_si(other)
+        })
     }
 
     pub(super) fn is_si(&self) -> bool {
@@ -102,6 +113,18 @@ mod tests {
         assert_eq!(units.write(3.0, Dimension::RATE), "\"3 1/s\"");
         assert_eq!(units.write(0.3, Dimension::NONE), "0.3");
         assert_eq!(Units::default().write(2e11, Dimension::PRESSURE), "2e11");
+    }
+
+    #[test]
+    fn a_unit_of_mass_may_be_made_of_others() {
+        let units = Units::parse("in,lbf s^2/in,s").unwrap();
+        let in_si = |text: String| quantity_in_si(text.trim_matches('"')).unwrap();
+        // Steel: 7.35e-4 lbf s²/in⁴ and 30e6 psi.
+        let (density, of_density) = in_si(units.write(7.35e-4, Dimension::DENSITY));
+        let (pressure, of_pressure) = in_si(units.write(3e7, Dimension::PRESSURE));
+        assert!((density / 7854.868 - 1.0).abs() < 1e-6 && of_density == Dimension::DENSITY, "{density}");
+        assert!((pressure / 2.068_427_2e11 - 1.0).abs() < 1e-6 && of_pressure == Dimension::PRESSURE, "{pressure}");
+        assert!((in_si(units.write(1.0, Dimension::FORCE)).0 / 4.448_221_615 - 1.0).abs() < 1e-9);
     }
 
     #[test]

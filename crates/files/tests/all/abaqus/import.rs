@@ -313,3 +313,41 @@ Surf, P, 10.
     assert!(made.model.contains("name = \"Part_1-1_Set-1\"") && made.model.contains("group = \"Part 1-1.Set-1\""), "{}", made.model);
     Simulation::new(&model(&folder), &Options::default()).unwrap();
 }
+
+#[test]
+fn materials_say_in_which_units_a_deck_is() {
+    let told = |name: &str, numbers: &str, units: &str| {
+        let text = deck("CPE4R", "").replace("1000.\n*ELASTIC\n1e9", numbers);
+        imported(name, &text, units).unwrap().0.report.text()
+    };
+    let steel = "7.85e-9\n*ELASTIC\n2.1e5";
+    for (units, is_told) in [("m,kg,s", true), ("mm,t,s", false), ("s,mm,t", false), ("mm,kg,ms", true)] {
+        let text = told("units", steel, units);
+        assert_eq!(text.contains("in mm, t, s: a density of 7.85e-9") && text.contains("--units \"mm,t,s\""), is_told, "{units}: {text}");
+    }
+    let text = told("inches", "7.35e-4\n*ELASTIC\n3e7", "m,kg,s");
+    assert!(text.contains("--units \"in,lbf s^2/in,s\""), "{text}");
+    assert!(!told("inches", "7.35e-4\n*ELASTIC\n3e7", "in,lbf s^2/in,s").contains("--units"));
+    assert!(told("si", "1000.\n*ELASTIC\n1e9", "mm,t,s").contains("--units \"m,kg,s\""));
+    assert!(!told("si", "1000.\n*ELASTIC\n1e9", "m,kg,s").contains("materials"));
+    assert!(told("none", "7850.\n*ELASTIC\n210.", "m,kg,s").contains("in no system of units"));
+}
+
+#[test]
+fn values_behind_those_that_are_read_are_reported() {
+    let text = deck("CPE4R", "*CLOAD\n3,2,10.,7\n*BOUNDARY\n1,1,2,0.,5\n").replace("1000.\n", "1000., 20.\n");
+    let report = imported("behind", &text, "m,kg,s").unwrap().0.report;
+    for keyword in ["CLOAD", "BOUNDARY", "DENSITY"] {
+        let is_said =
+            |entry: &&embate_files::abaqus::import::Entry| entry.outcome == Outcome::Ignored && entry.text.contains("does not act");
+        assert_eq!(
+            report.entries.iter().filter(|entry| entry.keyword == keyword).filter(is_said).count(),
+            1,
+            "{keyword}: {}",
+            report.text()
+        );
+    }
+    // An empty end is none.
+    let text = deck("CPE4R", "").replace("1000.\n", "1000.,\n");
+    assert!(!imported("behind", &text, "m,kg,s").unwrap().0.report.has_ignored());
+}

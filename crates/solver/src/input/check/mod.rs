@@ -15,6 +15,7 @@ mod load;
 mod motion;
 mod parts;
 mod plane;
+mod plausible;
 mod shells;
 mod space;
 mod triangles;

@@ -4,6 +4,7 @@
 //! Only what is certain before a run: a warning that is wrong once is read no more. What needs the mesh is
 //! reported by `build/idle.rs`.
 
+use super::plausible;
 use crate::contact::messages::OPEN;
 use crate::element::{Element, Quad4, Quad4Full, Tri3};
 use crate::error::Warning;
@@ -23,7 +24,8 @@ impl Model {
     /// without meshing; each thing once.
     #[must_use]
     pub fn warnings(&self) -> Vec<Warning> {
-        let mut warnings = Vec::new();
+        let mut warnings = plausible::warnings(self);
+        warnings.extend(plausible::speeds(self));
         for (name, it) in &self.materials {
             warnings.extend(self.softening(name, it));
         }

@@ -211,7 +211,7 @@ class _Search:
         until: float | None,
         workers: int | None,
     ) -> None:
-        self.model, self.measured, self.bounds, self.own, self.weights = model, measured, bounds, measure, weights
+        self.model, self.measured, self.bounds, self.own, self.weights = model._for_threads(), measured, bounds, measure, weights
         self.until, self.workers = until, workers
         self.first = np.array([(first - low) / (high - low) for low, first, high in bounds.values()])
         self.known: dict[tuple[float, ...], tuple[Array, dict[Name, Measured]]] = {}

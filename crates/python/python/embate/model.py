@@ -62,6 +62,8 @@ class Model(Sections):
         self._path: Path | None = None
         self._sections: dict[str, Any] = {}
         self._meshes: dict[int, tuple[str, Mesh]] | None = None
+        #: Meshes that were taken from their objects already, by what is in several threads.
+        self._taken: dict[int, Mesh] = {}
         self._set: dict[str, Any] = dict(set or {})
         #: The same as texts, of a model that was saved with them; they come first.
         self._saved_set: list[str] = []
@@ -87,7 +89,7 @@ class Model(Sections):
         if known is not None and not isinstance(known, list if form == "list" else dict):
             raise TypeError(f"the model was given {section} as a {type(known).__name__}, to which nothing can be added")
         count = len(known or ())
-        one = _with_mesh(keys, count, {}) if section == "part" else keys
+        one = _with_mesh(keys, count, {}, {}) if section == "part" else keys
         piece: Any = [one] if form == "list" else {str(name): one} if form == "named" else one
         # By its place in the model, so that messages name it.
         path = f"{section}[{count}]" if form == "list" else f"{section}.{name}" if form == "named" else section
@@ -103,10 +105,12 @@ class Model(Sections):
 
     def with_set(self, set: Mapping[str, Any]) -> Model:
         """A copy in which keys have other values, by their paths."""
-        other = copy.copy(self)
+        # Not as `copy` does it, which takes what is for other processes.
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
         other._sections = {key: copy.copy(content) if isinstance(content, (list, dict)) else content for key, content in self._sections.items()}
         other._set = {**self._set, **set}
-        other._read = None
+        other._read, other._meshes = None, None
         return other
 
     def to_toml(self) -> str:
@@ -156,7 +160,7 @@ class Model(Sections):
         sections = dict(self._sections)
         parts = sections.get("part")
         if isinstance(parts, (list, tuple)):
-            sections["part"] = [_with_mesh(part, k, known) if isinstance(part, Mapping) else part for k, part in enumerate(parts)]
+            sections["part"] = [_with_mesh(part, k, known, self._taken) if isinstance(part, Mapping) else part for k, part in enumerate(parts)]
         return sections
 
     def _text(self) -> tuple[str, dict[str, bytes]]:
@@ -171,6 +175,12 @@ class Model(Sections):
         if self._meshes is None:
             self._text()
         return self._meshes or {}
+
+    def _for_threads(self) -> Model:
+        """A copy that asks the objects of meshes (gmsh's model for one) no more: several threads can have models of it."""
+        other = self.with_set({})
+        other._taken = {key: mesh for key, (_, mesh) in self._mesh_names().items()}
+        return other
 
     def _overrides(self) -> list[str]:
         return self._saved_set + [f"{key}={toml.value(value, key)}" for key, value in self._set.items()]
@@ -187,7 +197,7 @@ class Model(Sections):
 
     def __getstate__(self) -> dict[str, Any]:
         """For other processes: meshes as arrays, since nobody can send gmsh's model."""
-        state = {**self.__dict__, "_read": None, "_meshes": None}
+        state = {**self.__dict__, "_read": None, "_meshes": None, "_taken": {}}
         parts = self._sections.get("part")
         if isinstance(parts, list):
             known = {key: mesh for key, (_, mesh) in self._mesh_names().items()}
@@ -278,14 +288,14 @@ def _is_mesh(what: Any) -> bool:
     return what is not None and not (isinstance(what, Mapping) and "points" not in what) and not isinstance(what, str)
 
 
-def _with_mesh(part: Mapping[str, Any], index: int, known: dict[int, tuple[str, Mesh]]) -> Mapping[str, Any]:
+def _with_mesh(part: Mapping[str, Any], index: int, known: dict[int, tuple[str, Mesh]], taken: Mapping[int, Mesh]) -> Mapping[str, Any]:
     """A part whose mesh of arrays is named as a file; which is among the known then."""
     what = part.get("mesh")
     if not _is_mesh(what):
         return part
     path = f"part[{index}].mesh"
     try:
-        mesh = known[id(what)][1] if id(what) in known else mesh_of(what)
+        mesh = known[id(what)][1] if id(what) in known else taken.get(id(what)) or mesh_of(what)
     except (TypeError, ValueError) as error:
         raise type(error)(f"{path}: {error}") from None
     if mesh is None:

@@ -97,6 +97,7 @@ def sweep(
         raise ValueError(f"vary: values that go together are equally many, here {', '.join(f'{len(v)} of {k}' for k, v in zip(vary, values))}")
     combinations = [dict(zip(vary, row)) for row in (zip(*values) if together else itertools.product(*values))]
     of = measure or figures
+    model = model._for_threads()
     # A mistake in a path is told now, not after the first runs.
     if combinations:
         model.with_set(combinations[0]).check()

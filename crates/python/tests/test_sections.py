@@ -77,7 +77,7 @@ def test_signatures_have_every_key_of_the_schema_and_no_other() -> None:
     count = 0
     for section in FORMS:
         arguments = dict(inspect.signature(getattr(embate.Model, section)).parameters)
-        assert arguments.pop("self") and (FORMS[section] != "named" or arguments.pop("name").kind == inspect.Parameter.POSITIONAL_ONLY)
+        assert arguments.pop("self") and (FORMS[section] != "named" or arguments.pop("name").kind == inspect.Parameter.POSITIONAL_OR_KEYWORD)
         annotations = {name: parameter.annotation.removesuffix(" | None") for name, parameter in arguments.items()}
         variants = tables(section)
         merged = {"properties": {name: schema for table in variants for name, schema in table["properties"].items()}}

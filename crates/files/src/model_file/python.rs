@@ -209,7 +209,7 @@ fn method(out: &mut String, section: &'static Section, tables: &mut Tables) {
     let is_single = matches!(section.form, Form::Single | Form::Inline);
     // Python wants what is required first to be read well; among arguments by name the order is free.
     keys.sort_by_key(|(key, _)| is_single || key.need != Need::Required);
-    let name = if section.form == Form::Named { "name: str,\n        /,\n        " } else { "" };
+    let name = if section.form == Form::Named { "name: str,\n        " } else { "" };
     let _ = write!(out, "\n    @section\n    def {}(\n        self,\n        {name}*,\n", section.name);
     for (key, of) in &keys {
         let argument = argument(key.name);

@@ -22,8 +22,8 @@ def section(function: F) -> F:
     def listed(self: Any, **keys: Any) -> Any:
         return self._section(name, plain(keys))
 
-    def named(self: Any, own: str, /, **keys: Any) -> Any:
-        return self._section(name, plain(keys), own)
+    def named(self: Any, name: str, **keys: Any) -> Any:
+        return self._section(function.__name__, plain(keys), name)
 
     return functools.wraps(function)(named if FORMS[name] == "named" else listed)  # type: ignore[return-value]
 

@@ -839,7 +839,6 @@ class Sections:
     def material(
         self,
         name: str,
-        /,
         *,
         law: Literal["elastic", "orthotropic_elastic", "j2", "j2_voce", "j2_swift", "j2_ludwik", "j2_table", "chaboche", "johnson_cook", "drucker_prager", "crushable_foam", "neo_hookean", "mooney_rivlin", "yeoh", "arruda_boyce", "ogden", "viscoelastic", "null"],
         failure: Failure | None = None,
@@ -1788,7 +1787,6 @@ class Sections:
     def curve(
         self,
         name: str,
-        /,
         *,
         time: Quantities | None = None,
         value: Quantities | None = None,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -162,6 +163,12 @@ def test_what_is_damaged_or_missing_is_told(written: tuple[embate.Simulation, Pa
     (out / "summary.json").write_text("{")
     with pytest.raises(embate.FileError, match="summary.json is damaged"):
         results.status
+    if hasattr(os, "mkfifo"):
+        (out / "run.json").unlink(missing_ok=True)
+        os.mkfifo(out / "run.json")
+        with pytest.raises(embate.FileError, match="no plain file"):
+            results.provenance
+        (out / "run.json").unlink()
     (out / "history.csv").write_text("time,a\n0,x\n")
     with pytest.raises(embate.FileError, match="line 2"):
         results.history

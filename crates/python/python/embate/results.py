@@ -233,14 +233,17 @@ class Results:
         return self.frames[index].to_pyvista()
 
     def _json(self, name: str) -> dict[str, Any]:
+        file = self.folder / name
+        if file.exists() and not file.is_file():
+            raise FileError(f"can't read {file}: it is no plain file")
         try:
-            value = json.loads((self.folder / name).read_text(encoding="utf-8"))
+            value = json.loads(file.read_text(encoding="utf-8"))
         except FileNotFoundError:
             return {}
         except (ValueError, UnicodeDecodeError) as error:
-            raise FileError(f"{self.folder / name} is damaged: {error}") from None
+            raise FileError(f"{file} is damaged: {error}") from None
         if not isinstance(value, dict):
-            raise FileError(f"{self.folder / name} is damaged: it has no keys")
+            raise FileError(f"{file} is damaged: it has no keys")
         return value
 
     def __repr__(self) -> str:

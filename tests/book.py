@@ -6,7 +6,8 @@ The blocks of a page are executed in their order, in a fresh folder that holds c
     ```text output              what the shell block before it printed: its lines in this order; `…` is any text, a line `…` any lines
     ```toml                     a model, or a piece of one: only keys, units and values that there are
     ```toml file=ring/model.toml, ```python file=NAME and so on: written to that file
-    ```python                   run by a Python that has the package `embate`; all blocks of a page are one program
+    ```python                   run by a Python that has the package `embate`; all blocks of a page are one program, a script
+    ```python needs=scipy       the same, where that Python has this package too
     ```LANGUAGE not-run="why"   shown, not executed
     ```text, json, csv, bibtex  shown
 """
@@ -75,6 +76,8 @@ class Page:
         self.path, self.folder, self.embate, self.python = path, folder, embate, python
         self.printed: list[str] | None = None
         self.program = ""
+        # Whether the last block of Python was left out, and its output with it.
+        self.is_left_out = False
         self.counts = {"run": 0, "checked": 0, "shown": 0, "not run": 0}
         for name in COPIED:
             shutil.copytree(ROOT / name, folder / name)
@@ -106,7 +109,7 @@ class Page:
             case "toml":
                 return self.model(block.text)
             case "python":
-                return self.run_python(block.text)
+                return self.run_python(block)
             case "text" if "output" in block.words:
                 return self.output(block.text)
             case language if language in SHOWN:
@@ -163,12 +166,19 @@ class Page:
             raise Failed(f"the program does not take it\n{done.stdout[-3000:]}")
         return "checked"
 
-    def run_python(self, text: str) -> str:
+    def run_python(self, block: Block) -> str:
         """Blocks of a page share their names: each is run after those before it."""
         if self.python is None:
             return "not run"
-        self.program += text
-        done = self.command([str(self.python), "-W", "error", "-c", self.program])
+        needed = block.value("needs")
+        if needed and self.command([str(self.python), "-c", f"import {needed}"]).returncode != 0:
+            self.is_left_out = True
+            return "not run"
+        self.program += block.text
+        script = self.folder / ".script" / "page.py"
+        script.parent.mkdir(exist_ok=True)
+        script.write_text(self.program, encoding="utf-8")
+        done = self.command([str(self.python), "-W", "error", str(script)])
         if done.returncode != 0:
             raise Failed(f"exit code {done.returncode}\n{done.stdout[-3000:]}")
         self.printed = done.stdout.splitlines()
@@ -176,6 +186,9 @@ class Page:
 
     def output(self, text: str) -> str:
         """Compares what a page shows with what was printed."""
+        if self.is_left_out:
+            self.is_left_out = False
+            return "not run"
         if self.printed is None:
             raise Failed("no block was run before this output")
         at = 0

@@ -11,6 +11,7 @@ mod completions;
 mod cpu;
 mod diff;
 mod explain;
+mod fit;
 mod import;
 mod input;
 mod interrupt;
@@ -64,6 +65,8 @@ enum Command {
     Report(report::Arguments),
     /// Run a model with many values, one run on each core, and write one table
     Sweep(sweep::Arguments),
+    /// Find the values of keys with which a model follows what was measured
+    Fit(fit::Arguments),
     /// Look at a model without running it: parts, masses, stable step, probes, penetrations, a picture
     Check(check::Arguments),
     /// List elements, materials, searches and output fields with their parameters
@@ -155,6 +158,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::Diff(arguments) => diff::diff(arguments),
         Command::Report(arguments) => report::report(arguments),
         Command::Sweep(arguments) => sweep::sweep(arguments),
+        Command::Fit(arguments) => fit::fit(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::List(arguments) => list::list(arguments),
         Command::New(arguments) => new::new(arguments),

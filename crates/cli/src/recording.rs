@@ -179,7 +179,8 @@ fn look_into(
 ) -> Vec<CliError> {
     let Recording { loaded, path, checkpoints, keeps_last_good, manner, .. } = *recording;
     let options = manner.options();
-    let failed = Failed { model: &loaded.model, loaded, options: &options, simulation, error, checkpoints, keeps_last_good };
+    let failed =
+        Failed { model: &loaded.model, loaded, options: &options, simulation, error, checkpoints, keeps_last_good, is_steered: false };
     let mut findings = failed.findings(|| !interrupt.is_pressed());
     let mut complaints = Vec::new();
     let kept = findings.last_good.take().map_or(Ok(()), |state| recorder.state(state).map_err(|error| error.to_string()));

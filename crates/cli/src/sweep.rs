@@ -128,13 +128,13 @@ fn state(advance: &Advance) -> String {
     format!("run {} of {}{failed}", grouped(advance.ended as u64), grouped(advance.of as u64))
 }
 
-fn reported(error: SweepError) -> Failure {
+pub(crate) fn reported(error: SweepError) -> Failure {
     let cli_error = match (&error, error.kind()) {
         (SweepError::Model(diagnostics), _) => CliError::from(diagnostics),
         (_, kind) => CliError::new(kind.unwrap_or(&BUG), &error),
     };
     match error {
-        SweepError::Output(_) | SweepError::Results(_) | SweepError::Plot(_) => Failure::Run(cli_error),
+        SweepError::Output(_) | SweepError::Results(_) | SweepError::Plot(_) | SweepError::FirstRun(_) => Failure::Run(cli_error),
         _ => Failure::Input(cli_error),
     }
 }

@@ -7,6 +7,7 @@
 
 mod fault;
 mod model;
+mod results;
 mod simulation;
 
 use pyo3::prelude::*;
@@ -18,9 +19,11 @@ mod _embate {
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]
+    use super::results::{Frame, frames, history};
+    #[pymodule_export]
     use super::simulation::Simulation;
     #[pymodule_export]
-    use super::{cells, fields, sections};
+    use super::{cells, fields, schema, sections};
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "a name of Python")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
@@ -47,6 +50,12 @@ fn sections(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         Ok(dict)
     };
     SECTIONS.iter().copied().map(of).collect()
+}
+
+/// The JSON schema of the model file.
+#[pyfunction]
+fn schema() -> String {
+    embate_files::model_file::schema()
 }
 
 /// The fields of a dimension: name, components, unit, whether it is at nodes, what it is.

@@ -3,7 +3,7 @@
 use crate::fault::{entries, guarded, of_diagnostics};
 use embate_files::PathPolicy;
 use embate_files::checkpoint::Origin;
-use embate_files::model_file::{GivenMeshes, Loaded, load_text_with_meshes, load_with_places};
+use embate_files::model_file::{GivenMeshes, Loaded, check_piece, load_text_with_meshes, load_with_additions, load_with_places};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -23,13 +23,35 @@ fn reach(is_anywhere: bool) -> PathPolicy {
 
 #[pymethods]
 impl Model {
-    /// Reads a model file, or the `model.toml` of a folder.
+    /// Reads a model file, or the `model.toml` of a folder; `added`: the text of more sections and meshes
+    /// that it calls, with which it is no longer the model of a file.
     #[staticmethod]
-    fn from_file(py: Python<'_>, path: PathBuf, set: Vec<String>, allow_outside: bool) -> PyResult<Self> {
-        let read = || load_with_places(&path, &set, reach(allow_outside)).map_err(|faults| of_diagnostics(&faults));
+    fn from_file(
+        py: Python<'_>,
+        path: PathBuf,
+        added: Option<(String, GivenMeshes)>,
+        set: Vec<String>,
+        allow_outside: bool,
+    ) -> PyResult<Self> {
+        let is_of_file = added.is_none();
+        let read = || {
+            let loaded = match added {
+                Some((added, given)) => load_with_additions(&path, (added.as_str(), given), &set, reach(allow_outside)),
+                None => load_with_places(&path, &set, reach(allow_outside)),
+            };
+            loaded.map_err(|faults| of_diagnostics(&faults))
+        };
         let loaded = py.detach(|| guarded(read))?;
         let path = std::path::absolute(&path).unwrap_or(path);
-        Ok(Self { loaded: Arc::new(loaded), origin: Some(Origin { path, set }) })
+        let origin = is_of_file.then_some(Origin { path, set });
+        Ok(Self { loaded: Arc::new(loaded), origin })
+    }
+
+    /// Checks some sections of a model that is not complete, by their text; items of the section `list` are
+    /// counted from `first`.
+    #[staticmethod]
+    fn check_piece(name: &str, text: &str, list: &str, first: usize) -> PyResult<()> {
+        guarded(|| check_piece(name, text, (list, first)).map_err(|faults| of_diagnostics(&faults)))
     }
 
     /// Reads a text; files that it names are looked for in `folder`, meshes first among the bytes of .msh

@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::{bytes, numbers};
 use embate_files::checkpoint::{Checkpoint, Identity, Origin};
 use embate_files::model_file::Loaded;
+use embate_files::post_mortem::Failed;
 use embate_files::results::{Checkpoints, Recorder, Report, ResultFolder};
 use embate_files::threads::Threads;
 use embate_solver::error::Error;
@@ -17,7 +18,7 @@ use embate_solver::simulation::{self, Control, Observer, ObserverError, Options,
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use std::time::Instant;
 
@@ -39,8 +40,12 @@ struct Inner {
     simulation: simulation::Simulation,
     history: History,
     recorder: Option<Recorder<'static>>,
-    /// Text of the failure that ended the run.
-    failure: Option<String>,
+    /// The failure that ended the run.
+    failure: Option<Error>,
+    /// Folder into which results are written, or were until the failure.
+    folder: PathBuf,
+    /// Whether something was changed between two steps.
+    is_steered: bool,
     /// Steps that took about a stretch of the time asked for.
     stretch: u64,
 }
@@ -107,11 +112,19 @@ impl Observer for Ears<'_> {
 
 impl Inner {
     fn of(simulation: simulation::Simulation) -> Self {
-        Self { simulation, history: History::default(), recorder: None, failure: None, stretch: 1 }
+        Self {
+            simulation,
+            history: History::default(),
+            recorder: None,
+            failure: None,
+            folder: PathBuf::new(),
+            is_steered: false,
+            stretch: 1,
+        }
     }
 
     /// Stretches of steps until one of the limits, the wall time among them, or the end.
-    fn advance(&mut self, until: f64, steps: u64, seconds: f64) -> Result<(), Error> {
+    fn advance(&mut self, until: f64, steps: u64, seconds: f64) -> PyResult<()> {
         let begin = Instant::now();
         let last = self.simulation.steps().saturating_add(steps);
         loop {
@@ -119,8 +132,9 @@ impl Inner {
             let wanted = self.stretch.min(last - from);
             let mut ears = Ears { history: &mut self.history, recorder: self.recorder.as_mut() };
             if let Err(error) = self.simulation.run_until(until, wanted, &mut ears) {
-                self.failure = Some(error.with_code());
-                return Err(error);
+                let raised = fault::of_error(&error);
+                self.failure = Some(error);
+                return Err(raised);
             }
             let (now, took) = (self.simulation.steps(), start.elapsed().as_secs_f64());
             if now - from == self.stretch {
@@ -134,14 +148,63 @@ impl Inner {
         }
     }
 
-    /// Completes the results, if any are written.
-    fn finish(&mut self) -> PyResult<Option<String>> {
-        let Some(recorder) = self.recorder.take() else { return Ok(None) };
-        let outcome = recorder.finish(self.failure.clone(), &self.simulation.summary(), || None);
-        outcome.unwritten.map_or(Ok(()), |error| Err(fault::of_results(&error)))?;
-        Ok(Some(outcome.report.json()))
+    /// Completes the results, if any are written; of a run that has failed with its post-mortem, whose path
+    /// comes back.
+    fn finish(&mut self, loaded: &Loaded, options: &Options) -> PyResult<Option<PathBuf>> {
+        let Some(mut recorder) = self.recorder.take() else { return Ok(None) };
+        let page = match &self.failure {
+            Some(error) if !matches!(error, Error::Output(_) | Error::State(_)) => {
+                // What goes wrong with it hides nothing of the failure.
+                let page = self.post_mortem(loaded, options, &self.folder, Some(&mut recorder)).ok();
+                if page.is_some() {
+                    recorder.point_to_post_mortem();
+                }
+                page
+            }
+            _ => None,
+        };
+        let failure = self.failure.as_ref().map(Error::with_code);
+        let outcome = recorder.finish(failure, &self.simulation.summary(), || None);
+        outcome.unwritten.map_or(Ok(page), |error| Err(fault::of_results(&error)))
+    }
+
+    /// Finds out how a failure came, and writes its page into a folder; keeps the state of the step before
+    /// where a recorder wants it.
+    fn post_mortem(
+        &self,
+        loaded: &Loaded,
+        options: &Options,
+        folder: &Path,
+        recorder: Option<&mut Recorder<'static>>,
+    ) -> PyResult<PathBuf> {
+        let Some(error) = &self.failure else {
+            return Err(raise(Class::State, "the run has not failed: there is no post-mortem of it", &[]));
+        };
+        let run = &loaded.model.run;
+        let keeps_last_good =
+            recorder.as_ref().is_some_and(|it| it.keeps_states()) && (run.checkpoint.is_some() || run.checkpoint_steps.is_some());
+        let failed = Failed {
+            model: &loaded.model,
+            loaded,
+            options,
+            simulation: &self.simulation,
+            error,
+            checkpoints: folder,
+            keeps_last_good,
+            is_steered: self.is_steered,
+        };
+        // Ctrl-C skips the second pass.
+        let mut findings = failed.findings(|| Python::attach(|py| py.check_signals().is_ok()));
+        if let (Some(recorder), Some(state)) = (recorder, findings.last_good.take()) {
+            // What can't be written is reported when the results are completed.
+            let _ = recorder.state(state);
+        }
+        failed.write(&findings, folder).map_err(|error| fault::of_results(&error))
     }
 }
+
+/// Bytes for the states that a run keeps in memory, from which it can go to its failure once more.
+const ROOM: usize = 64 << 20;
 
 impl Simulation {
     fn of(inner: Inner, model: &Model, options: Options) -> Self {
@@ -175,8 +238,11 @@ impl Simulation {
     /// Changes something between two steps.
     fn change(&self, change: impl FnOnce(&mut simulation::Simulation) -> Result<(), embate_solver::error::Fault>) -> PyResult<()> {
         self.with(|inner| match &inner.failure {
-            Some(failure) => Err(raise(Class::State, &format!("the run has failed, nothing can be changed: {failure}"), &[])),
-            None => change(&mut inner.simulation).map_err(|fault| fault::of_change(&fault)),
+            Some(failure) => Err(raise(Class::State, &format!("the run has failed, nothing can be changed: {}", failure.with_code()), &[])),
+            None => {
+                inner.is_steered = true;
+                change(&mut inner.simulation).map_err(|fault| fault::of_change(&fault))
+            }
         })
     }
 
@@ -231,9 +297,9 @@ impl Simulation {
     fn advance(&self, py: Python<'_>, until: f64, steps: u64, seconds: f64) -> PyResult<()> {
         self.without_lock(py, |inner| {
             if let Some(failure) = &inner.failure {
-                return Err(raise(Class::State, &format!("the run has failed and can't continue: {failure}"), &[]));
+                return Err(raise(Class::State, &format!("the run has failed and can't continue: {}", failure.with_code()), &[]));
             }
-            inner.advance(until, steps, seconds).map_err(|error| fault::of_error(&error))
+            inner.advance(until, steps, seconds)
         })
     }
 
@@ -243,20 +309,30 @@ impl Simulation {
         let (loaded, options, origin) = (&self.loaded, &self.options, &self.origin);
         self.without_lock(py, |inner| {
             let model = &loaded.model;
-            let folder = ResultFolder::create(&folder, force).map_err(|error| fault::of_results(&error))?;
+            let path = folder;
+            let folder = ResultFolder::create(&path, force).map_err(|error| fault::of_results(&error))?;
             let shown = (inner.simulation.history_columns(), inner.simulation.cells());
             // No one can resume, or run again, a model that is in memory alone.
             let checkpoints = origin.clone().map(|origin| Checkpoints::of(model, origin));
             let quiet = Box::new(|_: &Progress<'_>| Control::Continue);
             let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, quiet);
             inner.recorder = Some(recorder.map_err(|error| fault::of_results(&error))?);
+            inner.folder = path;
+            inner.simulation.keep_states_in(ROOM);
             Ok(())
         })
     }
 
-    /// Completes the results that are being written; their summary.
-    fn finish(&self, py: Python<'_>) -> PyResult<Option<String>> {
-        self.without_lock(py, Inner::finish)
+    /// Completes the results that are being written; of a run that has failed the path of its post-mortem.
+    fn finish(&self, py: Python<'_>) -> PyResult<Option<PathBuf>> {
+        let (loaded, options) = (&self.loaded, &self.options);
+        self.without_lock(py, |inner| inner.finish(loaded, options))
+    }
+
+    /// Writes the post-mortem of a run that has failed into a folder; the path of its page.
+    fn post_mortem(&self, py: Python<'_>, folder: PathBuf) -> PyResult<PathBuf> {
+        let (loaded, options) = (&self.loaded, &self.options);
+        self.without_lock(py, |inner| inner.post_mortem(loaded, options, &folder, None))
     }
 
     /// Lets go of everything; results are completed.
@@ -271,7 +347,7 @@ impl Simulation {
         match finished {
             None => self.lock().map(|_| ()),
             Some(None) => Ok(()),
-            Some(Some(mut inner)) => py.detach(|| guarded(|| inner.finish().map(|_| ()))),
+            Some(Some(mut inner)) => py.detach(|| guarded(|| inner.finish(&self.loaded, &self.options).map(|_| ()))),
         }
     }
 
@@ -350,6 +426,16 @@ impl Simulation {
     fn set_forces(&self, nodes: &[u8], forces: &[u8]) -> PyResult<()> {
         let (nodes, forces) = (numbers(nodes, u32::from_ne_bytes), numbers(forces, f64::from_ne_bytes));
         self.change(|simulation| simulation.set_forces(&nodes, &forces))
+    }
+
+    /// Lets a curve run from its value now to another one, which it has from a time on (s; none: at once).
+    fn set_curve(&self, name: &str, value: f64, until: Option<f64>) -> PyResult<()> {
+        self.change(|simulation| simulation.set_curve(name, value, until))
+    }
+
+    /// Value of a curve now; `None`: there is nothing of this name.
+    fn curve(&self, name: &str) -> PyResult<Option<f64>> {
+        self.with(|inner| Ok(inner.simulation.curve(name)))
     }
 
     /// Names of the history's columns.

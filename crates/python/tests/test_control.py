@@ -330,3 +330,77 @@ def test_ctrl_c_stops_between_two_steps_and_the_run_goes_on(tmp_path: Path, out:
         assert child.wait(60) == 0
     if out:
         assert '"status": "stopped"' in (tmp_path / "out" / "summary.json").read_text()
+
+
+def pulled() -> embate.Model:
+    """A free block under a field of 1000 m/s² times a curve, which is zero until it is driven."""
+    model = free_block()
+    model.curve("pull", time=[0], value=[0])
+    return model.load(gravity=(1000, 0), curve="pull")
+
+
+def test_a_driven_curve_moves_what_follows_it_and_the_books_close() -> None:
+    simulation = pulled().simulation()
+    simulation.step(10)
+    assert simulation.curve("pull") == 0
+    simulation.set_curve("pull", np.float32(1))
+    assert simulation.curve("pull") == 1
+    # The velocities of the coming step stand already.
+    begin = simulation.time + simulation.dt
+    simulation.step(30)
+    speed = 1000.0 * (simulation.time - begin)
+    np.testing.assert_allclose(simulation.state.velocity[:, 0], speed, rtol=1e-9)
+    # The kinetic energy is that of both half steps, ½ m v⁻ v⁺.
+    assert simulation.energy["external"] == pytest.approx(simulation.energy["kinetic"], rel=1e-9)
+    assert simulation.energy["kinetic"] == pytest.approx(0.5 * MASS * (speed**2 - (500.0 * simulation.dt) ** 2), rel=1e-6)
+    assert simulation.summary["ledger_residual"] < 1e-12
+    assert any(text.startswith("W0605") for text in simulation.summary["warnings"])
+    # In a straight line back to zero.
+    end = simulation.time + 50e-6
+    simulation.set_curve("pull", 0, until=end)
+    step = simulation.dt
+    begin = simulation.time + step
+    simulation.run(end + 10e-6)
+    assert simulation.curve("pull") == 0
+    np.testing.assert_allclose(simulation.state.velocity[:, 0], speed + 1000.0 * (step + 0.5 * (end - begin)), rtol=1e-9)
+
+
+def test_what_is_driven_at_every_step_has_the_same_bits_in_pieces_and_with_more_threads(tmp_path: Path) -> None:
+    def drive(it: embate.Simulation) -> None:
+        at = it.time + 2 * it.dt
+        it.set_curve("pull", np.sin(1e5 * at), until=at)
+
+    hashes = set()
+    for threads in (1, 2):
+        simulation = pulled().simulation(threads=threads)
+        simulation.every(1, drive)
+        hashes.add(simulation.run().hash())
+    pieces = pulled().simulation()
+    pieces.every(1, drive)
+    pieces.step(17)
+    # A state keeps what the curve was driven to.
+    again = embate.load(pieces.run(90e-6).save(tmp_path / "half"))
+    again.every(1, drive)
+    hashes.add(again.run().hash())
+    assert len(hashes) == 1
+    assert any(text.startswith("W0605") for text in again.summary["warnings"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "told"),
+    [
+        (("puul", 1.0), embate.StateError, "did you mean `pull`"),
+        (("pull", "much"), TypeError, "value is 'much'"),
+        (("pull", float("nan")), embate.StateError, "finite"),
+        (("pull", 1.0, "soon"), TypeError, "until"),
+        (("pull", 1.0, 0.0), embate.StateError, "still to come"),
+    ],
+)
+def test_curves_that_can_not_be_driven_are_told(arguments: tuple[Any, ...], error: type, told: str) -> None:
+    simulation = pulled().simulation()
+    simulation.step(3)
+    with pytest.raises(error, match=told):
+        simulation.set_curve(*arguments)
+    assert simulation.curve("pull") == 0
+    with pytest.raises(ValueError, match="no curve"):
+        simulation.curve("puul")

@@ -23,6 +23,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &MASS_ADDED,
     &ERODED,
     &RELAXED,
+    &STEERED,
     &SQUEEZED,
     &OPENED,
     &FEW_STEPS,
@@ -141,10 +142,12 @@ pub(crate) static INSTRUCTIONS: Message = Message {
 pub(crate) static STEERING: Message = Message {
     code: "E0609",
     title: "a change of a running simulation that can't be made",
-    example: Example::Words("Python gives a velocity to a node of a rigid part, or a force that is not a number."),
+    example: Example::Words(
+        "Python gives a velocity to a node of a rigid part, a force that is not a number, or a value to a curve that the model does not have.",
+    ),
     cause: "Between two steps nodes may be given other velocities and forces: finite numbers, a vector for each \
-        node; velocities only where nothing else leads the node.",
-    remedy: "Look at the numbers and nodes that the message names; a rigid part is moved by forces, joined nodes by forces too.",
+        node; velocities only where nothing else leads the node. Curves of the model may be given other values, from now or from a later time on.",
+    remedy: "Look at the numbers, nodes and curves that the message names; a rigid part is moved by forces or by a curve, joined nodes by forces.",
 };
 
 pub(crate) static MASS_ADDED: Message = Message {
@@ -175,6 +178,16 @@ pub(crate) static RELAXED: Message = Message {
     example: Example::Model("[run]\nrelaxation = {}\n"),
     cause: "A run with `relaxation` ends at rest, or at its end time without having come to rest.",
     remedy: "Give a later `end`, or a larger `tolerance`, where it is not at rest.",
+};
+
+pub(crate) static STEERED: Message = Message {
+    code: "W0605",
+    title: "a run that the program changed on its way",
+    example: Example::Words("A callback of Python gives nodes other velocities or forces, or a curve other values."),
+    cause: "The program that drove the run has changed velocities, forces or curves between its steps. What it did is \
+        in the results, works included, and not in the model: `embate run` of the model gives another run, and \
+        `embate resume` continues without the changes to come.",
+    remedy: "Run the program again to repeat the run: the same changes at the same steps have the same bits.",
 };
 
 static SQUEEZED: Message = Message {

@@ -407,6 +407,24 @@ impl Simulation {
         either!(mut self, run => run.set_forces(nodes, forces))
     }
 
+    /// Lets a curve of the model run, from the end of the coming step on, in a straight line to another
+    /// value, which it has from the time `end` on (s; `None`: it jumps) and keeps: the loads, prescribed
+    /// motions and obstacles that follow it are driven by the program then. Works are entered as of any
+    /// curve.
+    ///
+    /// # Errors
+    /// A curve that is not there, a value that is not finite, a time that has passed; then nothing has
+    /// changed.
+    pub fn set_curve(&mut self, name: &str, value: f64, end: Option<f64>) -> Result<(), Fault> {
+        either!(mut self, run => run.set_curve(name, value, end))
+    }
+
+    /// Value of a curve of the model from the end of the coming step on; `None`: there is none of this name.
+    #[must_use]
+    pub fn curve(&self, name: &str) -> Option<f64> {
+        either!(self, run => run.curve(name))
+    }
+
     /// Hashes of the state now.
     #[must_use]
     pub fn hashes(&self) -> Hashes {

@@ -33,7 +33,7 @@ fn usage_errors_end_with_code_two() {
 fn help_and_version_end_with_code_zero() {
     let help = embate(here(), ["--help"]);
     assert_eq!(help.code, Some(0));
-    for command in ["run", "sweep", "check", "list", "new", "import", "verify", "bench", "explain", "schema", "completions", "man"] {
+    for command in ["run", "sweep", "fit", "check", "list", "new", "import", "verify", "bench", "explain", "schema", "completions", "man"] {
         assert!(help.out.contains(command), "{}", help.out);
     }
     for version in ["--version", "-V"] {

@@ -8,6 +8,7 @@ mod diff;
 mod estimates;
 mod examples;
 mod far;
+mod fit;
 mod hashes;
 #[cfg(unix)]
 mod links;

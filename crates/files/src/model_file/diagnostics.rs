@@ -135,6 +135,23 @@ impl Faults {
         if self.problems.iter().any(|problem| is_of_parts(&problem.path)) { Vec::new() } else { model.check_mesh(found) }
     }
 
+    /// Keeps those that others have too (their kind and path), and that `keeps` wants.
+    pub(super) fn keep_shared(&mut self, others: &[Self], keeps: impl Fn(&Message, &str) -> bool) {
+        let has = |faults: &Self, it: &Problem| faults.problems.iter().any(|other| (other.kind, &other.path) == (it.kind, &it.path));
+        self.problems.retain(|it| keeps(it.kind, &it.path) && others.iter().all(|faults| has(faults, it)));
+    }
+
+    /// Counts the items of a list on from `first`: `part[0]` is `part[7]`.
+    pub(super) fn renumber(&mut self, list: &str, first: usize) {
+        let begin = format!("{list}[");
+        for problem in &mut self.problems {
+            let number = problem.path.strip_prefix(&begin).and_then(|rest| rest.split_once(']'));
+            if let Some((number, rest)) = number.and_then(|(number, rest)| Some((number.parse::<usize>().ok()?, rest))) {
+                problem.path = format!("{begin}{}]{rest}", number + first);
+            }
+        }
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.problems.is_empty()
     }

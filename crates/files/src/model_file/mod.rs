@@ -11,6 +11,8 @@ mod decimal;
 mod diagnostics;
 mod manual;
 pub(crate) mod messages;
+mod piece;
+mod python;
 mod reader;
 mod schema;
 mod set;
@@ -22,6 +24,8 @@ mod value;
 
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use manual::reference_markdown;
+pub use piece::check_piece;
+pub use python::python;
 pub use schema::schema;
 pub use starter::starter;
 
@@ -63,6 +67,21 @@ pub fn load(path: &Path, set: &[String]) -> Result<Model, Diagnostics> {
 /// All faults at once.
 pub fn load_with_places(path: &Path, set: &[String], reach: PathPolicy) -> Result<Loaded, Diagnostics> {
     Template::load(path, set, reach)?.loaded(&[])
+}
+
+/// [`load_with_places`] of a model to which sections of a text are added: more of what there may be several,
+/// new names, and keys of sections that stand once. Overrides come after it. Meshes that it calls by names of
+/// `given` are in memory.
+///
+/// # Errors
+/// All faults at once.
+pub fn load_with_additions(
+    path: &Path,
+    (added, given): (&str, GivenMeshes),
+    set: &[String],
+    reach: PathPolicy,
+) -> Result<Loaded, Diagnostics> {
+    Template::load_with(path, &[added], set, reach)?.with_meshes(given).loaded(&[])
 }
 
 /// [`load_with_places`] of a model with faults of one kind alone: as if it had none; `None` where it has
@@ -200,7 +219,7 @@ pub fn load_text(name: &str, text: &str, folder: &Path, set: &[String]) -> Resul
 /// # Errors
 /// All faults at once.
 pub fn load_text_with_places(name: &str, text: &str, folder: &Path, set: &[String]) -> Result<Loaded, Diagnostics> {
-    Template::of(name, Source { name: name.to_string(), text: text.to_string() }, (folder, PathPolicy::Folder), set)?.loaded(&[])
+    Template::of(name, Source { name: name.to_string(), text: text.to_string() }, &[], (folder, PathPolicy::Folder), set)?.loaded(&[])
 }
 
 /// Meshes in memory, each the bytes of a .msh file, by the names by which a model's text calls them as files.
@@ -219,7 +238,7 @@ pub fn load_text_with_meshes(
     given: GivenMeshes,
 ) -> Result<Loaded, Diagnostics> {
     let source = Source { name: name.to_string(), text: text.to_string() };
-    Template::of(name, source, (folder, reach), set)?.with_meshes(given).loaded(&[])
+    Template::of(name, source, &[], (folder, reach), set)?.with_meshes(given).loaded(&[])
 }
 
 /// The SI value and the dimension of a quantity such as `3 mm`; `None` if it is none.
@@ -249,11 +268,16 @@ pub(crate) fn number_and_unit(text: &str) -> Option<(f64, &str)> {
 }
 
 /// The tree of a text.
-fn parsed(mut source: Source) -> Result<(Source, Node), Diagnostics> {
+fn parsed(source: Source) -> Result<(Source, Node), Diagnostics> {
+    parsed_as(0, source)
+}
+
+/// The tree of a text that is the source of this number.
+fn parsed_as(number: usize, mut source: Source) -> Result<(Source, Node), Diagnostics> {
     if source.text.starts_with('\u{feff}') {
         source.text.remove(0);
     }
-    match tree::document(&source.text, 0) {
+    match tree::document(&source.text, number) {
         Ok(root) => Ok((source, root)),
         Err(fault) => {
             let mut faults = Faults::default();

@@ -11,6 +11,7 @@ use crate::model_file::messages::{FORM, MISSING_KEY, MISSING_SECTION, UNKNOWN_KE
 use embate_solver::element::registry;
 use embate_solver::input::sections::{MOVED, SECTIONS, TOP};
 use embate_solver::mesh::shapes::Shape;
+use embate_solver::message::Message;
 use embate_solver::model::Values;
 use embate_solver::model::messages::{CLASH, LIST_LENGTH};
 use embate_solver::model::values::{Datum, Field};
@@ -138,7 +139,10 @@ impl Values for Record {
 
 /// Reads all sections. Where keys alone do not say so, `solids` says that parts are solids.
 pub(super) fn read(root: &Node, vocabulary: &Vocabulary, solids: bool, faults: &mut Faults) -> Document {
-    let extent = if solids { Extent::Solid } else { extent(root) };
+    sections_of(root, vocabulary, if solids { Extent::Solid } else { extent(root) }, faults)
+}
+
+fn sections_of(root: &Node, vocabulary: &Vocabulary, extent: Extent, faults: &mut Faults) -> Document {
     let mut reader = Reader { vocabulary, faults, extent };
     let mut document = Document { is_of_solids: extent == Extent::Solid, ..Document::default() };
     let Value::Table(entries) = &root.value else { return document };
@@ -156,6 +160,27 @@ pub(super) fn read(root: &Node, vocabulary: &Vocabulary, solids: bool, faults: &
         reader.faults.beside(&MISSING_SECTION, section.name, None, (message, section.doc.to_string()));
     }
     document
+}
+
+/// Faults of some sections of a model, whatever else it has: those that hold in 2D, axisymmetric and in 3D;
+/// sections and keys that are missing belong to the whole where a section stands once.
+pub(super) fn faults_of_piece(root: &Node) -> Faults {
+    let read_as = |extent: Extent| {
+        let mut faults = Faults::default();
+        sections_of(root, &MODEL, extent, &mut faults);
+        faults
+    };
+    let first = extent(root);
+    let others: Vec<Faults> =
+        [Extent::Slice, Extent::Revolution, Extent::Solid].into_iter().filter(|&it| it != first).map(read_as).collect();
+    let mut faults = read_as(first);
+    let is_single = |path: &str| {
+        let name = path.split(['.', '[']).next().unwrap_or(path);
+        MODEL.section(name).is_none_or(|section| matches!(section.form, Form::Single))
+    };
+    let is_of_whole = |kind: &Message| kind == &MISSING_SECTION || kind == &MISSING_KEY || kind == &CLASH;
+    faults.keep_shared(&others, |kind, path| kind != &MISSING_SECTION && !(is_of_whole(kind) && is_single(path)));
+    faults
 }
 
 /// How a section's header is written.

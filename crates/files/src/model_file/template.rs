@@ -6,7 +6,7 @@
 
 use super::diagnostics::{Diagnostics, Faults, Source};
 use super::tree::{self, Node, Place, Value};
-use super::{FILE_NAME, GivenMeshes, Loaded, build, name_of, parsed, reader, set, source};
+use super::{FILE_NAME, GivenMeshes, Loaded, build, name_of, parsed, parsed_as, piece, reader, set, source};
 use crate::PathPolicy;
 use crate::model_file::messages::OVERRIDE;
 use embate_solver::error::Fault;
@@ -50,14 +50,33 @@ impl Template {
     /// # Errors
     /// A file that can't be read or is no TOML. Faults of the overrides are reported with those of a model.
     pub(crate) fn load(path: &Path, set: &[String], reach: PathPolicy) -> Result<Self, Diagnostics> {
-        let file = if path.is_dir() { path.join(FILE_NAME) } else { path.to_path_buf() };
-        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_path_buf);
-        Self::of(&name_of(&file), source(&file)?, (&folder, reach), set)
+        Self::load_with(path, &[], set, reach)
     }
 
-    pub(super) fn of(name: &str, source: Source, (folder, reach): (&Path, PathPolicy), set: &[String]) -> Result<Self, Diagnostics> {
+    /// The same with sections that texts add.
+    ///
+    /// # Errors
+    /// As there, also of the texts.
+    pub(super) fn load_with(path: &Path, added: &[&str], set: &[String], reach: PathPolicy) -> Result<Self, Diagnostics> {
+        let file = if path.is_dir() { path.join(FILE_NAME) } else { path.to_path_buf() };
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or_else(|| PathBuf::from("."), Path::to_path_buf);
+        Self::of(&name_of(&file), source(&file)?, added, (&folder, reach), set)
+    }
+
+    pub(super) fn of(
+        name: &str,
+        source: Source,
+        added: &[&str],
+        (folder, reach): (&Path, PathPolicy),
+        set: &[String],
+    ) -> Result<Self, Diagnostics> {
         let (source, mut root) = parsed(source)?;
         let (mut sources, mut faults) = (vec![source], Faults::default());
+        for text in added {
+            let (source, more) = parsed_as(sources.len(), Source { name: piece::ADDED.to_string(), text: (*text).to_string() })?;
+            sources.push(source);
+            piece::add(&mut root, more, &mut faults);
+        }
         set::apply(&mut root, set, &mut sources, &mut faults);
         Ok(Self { name: name.to_string(), folder: folder.to_path_buf(), reach, given: Arc::default(), sources, root, faults })
     }

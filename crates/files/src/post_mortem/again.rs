@@ -73,6 +73,12 @@ impl Failed<'_> {
         let failure_entity = self.simulation.failure_entity(self.error);
         let mut findings =
             Findings { failure_entity, trace: self.simulation.trace_now(&failure_entity, Some(self.error)), ..Findings::default() };
+        if self.is_steered {
+            findings.how = "Only the state of the failure is shown: the program that drove the run has changed it on the way \
+                            (velocities, forces or curves), so it can't go there once more by itself."
+                .into();
+            return findings;
+        }
         let step = self.simulation.steps();
         let Some(from) = self.beginning(step) else {
             findings.how = "Only the state of the failure is shown: no state of the run is near enough to go there once more. With `run.checkpoint` (\"10 min\" for example) there would be one, and this \

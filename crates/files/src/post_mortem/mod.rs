@@ -46,6 +46,8 @@ pub struct Failed<'a> {
     pub checkpoints: &'a Path,
     /// Whether the state of the last good step is wanted.
     pub keeps_last_good: bool,
+    /// Whether the program that drove the run has changed it on the way: then it can't go there once more.
+    pub is_steered: bool,
 }
 
 impl Failed<'_> {

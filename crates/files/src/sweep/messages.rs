@@ -2,7 +2,7 @@
 
 use embate_solver::message::{Example, Message};
 
-pub(crate) static MESSAGES: &[&Message] = &[&VALUES, &WANTED, &TABLE, &OTHER, &BUSY];
+pub(crate) static MESSAGES: &[&Message] = &[&VALUES, &WANTED, &TABLE, &OTHER, &BUSY, &BOUNDS, &MEASURED, &FIRST_RUN];
 
 pub(super) static VALUES: Message = Message {
     code: "E0901",
@@ -48,4 +48,28 @@ pub(super) static BUSY: Message = Message {
     ),
     cause: "Another program writes into the folder.",
     remedy: "Wait for its end, or choose another folder with --out.",
+};
+
+pub(super) static BOUNDS: Message = Message {
+    code: "E0906",
+    title: "bounds of a fit that can't be",
+    example: Example::Command("fit model.toml --vary material.steel.young=300GPa:100GPa --measured last(block.vx)=1"),
+    cause: "A key has no bounds, they are not two or three numbers in ascending order, or a key has bounds twice.",
+    remedy: "Write them as the message shows: --vary key=1:3, or key=1:2:3 with the first value between both.",
+};
+
+pub(super) static MEASURED: Message = Message {
+    code: "E0907",
+    title: "a measurement of a fit that can't be",
+    example: Example::Command("fit model.toml --vary material.steel.young=100GPa:300GPa --measured block.vx=nowhere.csv"),
+    cause: "There is no number and no table behind the name, or the table has not two columns of numbers.",
+    remedy: "Give a number with its unit, or a CSV file with time and value in each row.",
+};
+
+pub(super) static FIRST_RUN: Message = Message {
+    code: "E0908",
+    title: "a fit whose first run fails",
+    example: Example::Command("fit model.toml --vary run.energy_limit=1e-300:2e-300 --measured last(block.vx)=1"),
+    cause: "The search begins in the middle of the bounds, or at the first value between them, and there the model fails.",
+    remedy: "Give a first value with which the model runs: --vary key=LOWEST:FIRST:HIGHEST.",
 };

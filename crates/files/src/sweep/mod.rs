@@ -2,8 +2,10 @@
 //!
 //! The walk: which runs (`plan.rs`, `values.rs`) -> a sound model for each of them (`prepare.rs`) -> what is
 //! noted (`outputs.rs`) -> runs, one on each thread (`run.rs`) -> a journal that outlives the program
-//! (`journal.rs`) -> table and plot (`table.rs`). The program's command `sweep` asks and reports.
+//! (`journal.rs`) -> table and plot (`table.rs`). The program's command `sweep` asks and reports. Fits
+//! (`fit/`) search by such runs for values that follow what was measured.
 
+pub mod fit;
 pub(crate) mod messages;
 mod journal;
 mod outputs;
@@ -23,7 +25,7 @@ use crate::picture::PictureError;
 use crate::results::ResultsError;
 use crate::results::messages::REFUSED;
 use embate_solver::message::Message;
-use messages::{BUSY, OTHER, TABLE};
+use messages::{BUSY, FIRST_RUN, OTHER, TABLE};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -69,6 +71,17 @@ pub enum SweepError {
         /// In what it differs.
         difference: String,
     },
+    /// A key with its bounds, or what was measured, can't be read.
+    #[error("{text}")]
+    Asked {
+        /// Which of both.
+        kind: &'static Message,
+        /// What is wrong, and what to do.
+        text: String,
+    },
+    /// The first run of a fit fails.
+    #[error("with the first values the model fails: {0}; give a first value between the bounds with which it runs, LOWEST:FIRST:HIGHEST")]
+    FirstRun(String),
     /// Another program is at it.
     #[error("another sweep is writing into {}; wait for its end, or choose another folder with --out", .path.display())]
     Busy {
@@ -93,6 +106,8 @@ impl SweepError {
         match self {
             Self::Model(_) => None,
             Self::Table { .. } => Some(&TABLE),
+            Self::Asked { kind, .. } => Some(kind),
+            Self::FirstRun(_) => Some(&FIRST_RUN),
             Self::Other { .. } => Some(&OTHER),
             Self::Busy { .. } => Some(&BUSY),
             Self::Output(_) => Some(&REFUSED),

@@ -185,6 +185,27 @@ impl Sweep {
         }
     }
 
+    /// Outputs of all runs as numbers, in memory alone; of a run that fails or has not all of them the
+    /// reason. `None`: the user stopped it.
+    pub(super) fn numbers(&self, running: &Running<'_>) -> Result<Option<Vec<Result<Vec<f64>, String>>>, SweepError> {
+        let one = |run: usize| {
+            let bug = |_| Ok(Some(self.failed(run, "this run ended with a bug in embate".to_string())));
+            catch_unwind(AssertUnwindSafe(|| self.run_one(run, running))).unwrap_or_else(bug)
+        };
+        let mut all = Vec::new();
+        for entry in in_parallel(self.runs(), running.jobs, &one) {
+            let Some(entry) = entry? else { return Ok(None) };
+            let numbers: Option<Vec<f64>> =
+                entry.cells.iter().map(|cell| cell.parse().ok().filter(|value: &f64| value.is_finite())).collect();
+            all.push(match numbers {
+                _ if entry.end == RunEnd::Failed => Err(entry.error),
+                Some(numbers) => Ok(numbers),
+                None => Err("the run has not all that was measured".to_string()),
+            });
+        }
+        Ok(Some(all))
+    }
+
     fn failed(&self, run: usize, error: String) -> Entry {
         Entry { run, end: RunEnd::Failed, error, cells: self.empty() }
     }

@@ -291,7 +291,7 @@ fn part_names(path: &Path, appearance: &Appearance, cells: &Cells) -> Result<Vec
 }
 
 /// The frames of a folder by number, with their times; those after the last collection are asked themselves.
-fn frames(path: &Path) -> Result<Vec<(FrameTime, PathBuf)>, ResultsError> {
+pub(super) fn frames(path: &Path) -> Result<Vec<(FrameTime, PathBuf)>, ResultsError> {
     let collection = plain::read_to_string(&path.join("fields.pvd")).unwrap_or_default();
     let attribute =
         |line: &str, name: &str| line.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()).map(ToString::to_string);

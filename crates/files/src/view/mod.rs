@@ -7,6 +7,7 @@
 //! `embate-viewer` as one binary [`Container`], described in `docs/viewer.md`, or as JSON
 //! ([`RunDescription`]).
 
+mod arrays;
 mod bodies;
 mod container;
 mod describe;
@@ -14,6 +15,7 @@ mod folder;
 mod frame;
 mod levels;
 
+pub use arrays::{FrameArrays, frame_files};
 pub use bodies::{Bodies, Topology};
 pub use container::Container;
 pub use describe::{Column, FrameTime, PartDescription, RunDescription, ScalarDescription, Warned};

@@ -40,6 +40,7 @@ fn a_search_that_is_stopped_leaves_a_page_of_the_failure_alone() {
         error: &error,
         checkpoints: &results,
         keeps_last_good: true,
+        is_steered: false,
     };
     let stopped = failed.findings(|| false);
     assert!(stopped.trace.moments.len() == 1 && stopped.last_good.is_none() && stopped.fault.is_none(), "{}", stopped.how);

@@ -8,13 +8,17 @@
 """
 
 from ._embate import __version__
+from .calibration import Calibration, calibrate
 from .errors import Error, FileError, InternalError, ModelError, RunError, StateError, Warning
+from .history import History
 from .mesh import Mesh
 from .model import Model
-from .simulation import History, Simulation, State, load
+from .results import Results, results
+from .simulation import Simulation, State, load
 from .sweep import sweep
 
 __all__ = [
+    "Calibration",
     "Error",
     "FileError",
     "History",
@@ -22,12 +26,15 @@ __all__ = [
     "Mesh",
     "Model",
     "ModelError",
+    "Results",
     "RunError",
     "Simulation",
     "State",
     "StateError",
     "Warning",
     "__version__",
+    "calibrate",
     "load",
+    "results",
     "sweep",
 ]

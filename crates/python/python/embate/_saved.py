@@ -9,12 +9,18 @@ from .model import Model
 
 
 class SavedModel(Model):
-    """A model by its text. Where its folder is gone, files are looked for in the working directory."""
+    """A model by its text, or a model file with what was added to it. Where its folder is gone, files are looked for in the working directory."""
 
     def __init__(self, head: dict[str, Any], text: str, meshes: dict[str, bytes]) -> None:
-        folder = head["folder"] if Path(head["folder"]).is_dir() else None
-        super().__init__(name=head["name"], folder=folder, allow_outside=head["allow_outside"])
+        if head["path"] is not None:
+            super().__init__(head["path"], allow_outside=head["allow_outside"])
+        else:
+            folder = head["folder"] if Path(head["folder"]).is_dir() else None
+            super().__init__(name=head["name"], folder=folder, allow_outside=head["allow_outside"])
         self._saved = (text, meshes)
 
     def _text(self) -> tuple[str, dict[str, bytes]]:
         return self._saved
+
+    def _section(self, section: str, keys: dict[str, Any], name: str | None = None) -> Model:
+        raise TypeError("nothing can be added to the model of a saved simulation; with_set changes its keys")

@@ -9,8 +9,10 @@ import warnings
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .history import History
     from .model import Model
-    from .simulation import History, Simulation
+    from .results import Results
+    from .simulation import Simulation
 
 #: Rows that are shown at most.
 _ROWS = 20
@@ -38,6 +40,12 @@ def history_html(history: History) -> str:
     shown = range(count) if count <= _ROWS else [*range(_ROWS // 2), *range(count - _ROWS // 2, count)]
     rows = [{name: float(history[name][k]) for name in names} for k in shown]
     return rows_html(rows, f"{count} rows")
+
+
+def results_html(results: Results) -> str:
+    """What is in the folder, and the figures of the summary."""
+    figures = [{"figure": name, "value": value} for name, value in results.summary.items() if isinstance(value, (str, int, float)) and value is not None]
+    return f"<div><b>{html.escape(repr(results))}</b>{rows_html(figures)}</div>"
 
 
 def rows_html(rows: list[dict[str, Any]], caption: str = "") -> str:

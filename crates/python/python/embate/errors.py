@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 
@@ -52,7 +53,27 @@ class ModelError(Error, ValueError):
 
 
 class RunError(Error, RuntimeError):
-    """A run that failed: an element turned inside out, the energy drifted away. The state of the failure can be looked at."""
+    """A run that failed: an element turned inside out, the energy drifted away. The state of the failure can be looked at.
+
+    Attributes
+    ----------
+    results : Path or None
+        Folder in which its results are, as far as it came.
+    post_mortem : Path or None
+        The page about the failure.
+    """
+
+    results: Path | None = None
+    post_mortem: Path | None = None
+
+    def __str__(self) -> str:
+        lines = [str(self.args[0]) if self.args else ""]
+        lines += [f"  post-mortem: {self.post_mortem}"] if self.post_mortem else []
+        lines += [f"  results until then: {self.results}"] if self.results else []
+        return "\n".join(lines)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (self.args[0], self.faults), {"results": self.results, "post_mortem": self.post_mortem})
 
 
 class StateError(Error, RuntimeError):

@@ -11,6 +11,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _embate, toml
+from ._method import FORMS, plain
+from ._sections import Sections
+from .errors import ModelError
 from .errors import Warning as EmbateWarning
 from .mesh import Mesh, mesh_of
 from .whole import written
@@ -18,11 +21,8 @@ from .whole import written
 if TYPE_CHECKING:
     from .simulation import Simulation
 
-_SECTIONS: dict[str, dict[str, Any]] = {section["name"]: section for section in _embate.sections()}
-_FORMS: dict[str, str] = {name: section["form"] for name, section in _SECTIONS.items()}
 
-
-class Model:
+class Model(Sections):
     """A model of bodies, contacts, supports and loads.
 
     Parameters
@@ -38,13 +38,15 @@ class Model:
     allow_outside : bool
         Whether files that the model names may lie outside of its folder.
     **sections
-        Sections, or keys of the file itself: ``Model(title="Impact", run={"end": "1 ms"})``.
+        Sections, or keys of the file itself: ``Model(title="Impact", run={"end": "1 ms"})``; of a model file what is added to it.
 
-    Every section of the model file is a method, with its keys as arguments: ``model.run(end="1 ms")``, ``model.material("steel", law="elastic", …)``, ``model.part(mesh=…, material="steel")``.
+    Every section of the model file is a method, with its keys as arguments: ``model.run(end="1 ms")``, ``model.material("steel", law="elastic", …)``, ``model.part(mesh=…, material="steel")``;
+    a key that is a word of Python with an underscore: ``yield_="250 MPa"``. To the model of a file they add: ``model.probe(name="tip", …)``.
     Values are numbers in SI units, texts with units (``"3 mm"``), lists and dicts, as in ``docs/model-file.md``. A mesh may be that of a file (``mesh={"file": …, "group": …}``), numpy arrays
     (``mesh=(points, quads)``), a :class:`embate.Mesh`, or an object of meshio, gmsh or pyvista.
 
-    Nothing is checked before :meth:`check` or :meth:`simulation` reads the whole; all faults are told at once then, by a :class:`embate.ModelError`.
+    What is wrong with a section by itself (a key, a value, a unit) is told where it is given, by a :class:`embate.ModelError`; what is wrong with the whole when :meth:`check` or :meth:`simulation`
+    reads it, all at once.
     """
 
     def __init__(
@@ -60,6 +62,8 @@ class Model:
         self._path: Path | None = None
         self._sections: dict[str, Any] = {}
         self._meshes: dict[int, tuple[str, Mesh]] | None = None
+        #: Meshes that were taken from their objects already, by what is in several threads.
+        self._taken: dict[int, Mesh] = {}
         self._set: dict[str, Any] = dict(set or {})
         #: The same as texts, of a model that was saved with them; they come first.
         self._saved_set: list[str] = []
@@ -72,43 +76,41 @@ class Model:
             self._name = name or (str(source["name"]) if "name" in source else None)
         elif source is not None:
             self._path = Path(fspath(source))
-            if sections or name is not None or folder is not None:
-                raise TypeError("a model file has its name, folder and sections already; change keys by set={'run.end': '5 ms'}")
+            if name is not None or folder is not None:
+                raise TypeError("a model file has its name and folder already")
         for key, content in sections.items():
-            self._add(key, content)
+            self._sections[key] = [content] if FORMS.get(key) == "list" and isinstance(content, Mapping) else content
         self._read: _embate.Model | None = None
-
-    def _add(self, section: str, content: Any) -> None:
-        if self._path is not None:
-            raise TypeError("this model is that of a file: change keys by set={'part.tube.velocity': (0, -80)}, or build a model from a dict")
-        form = _FORMS.get(section)
-        if form == "list" and isinstance(content, Mapping):
-            content = [content]
-        self._sections[section] = content
-        self._read = None
+        if self._sections:
+            _check(toml.document(self._named({}), FORMS), "the model")
 
     def _section(self, section: str, keys: dict[str, Any], name: str | None = None) -> Model:
-        if self._path is not None:
-            self._add(section, None)
-        form = _FORMS[section]
+        form, known = FORMS[section], self._sections.get(section)
+        if known is not None and not isinstance(known, list if form == "list" else dict):
+            raise TypeError(f"the model was given {section} as a {type(known).__name__}, to which nothing can be added")
+        count = len(known or ())
+        one = _with_mesh(keys, count, {}, {}) if section == "part" else keys
+        piece: Any = [one] if form == "list" else {str(name): one} if form == "named" else one
+        # By its place in the model, so that messages name it.
+        path = f"{section}[{count}]" if form == "list" else f"{section}.{name}" if form == "named" else section
+        _check(toml.document({section: piece}, FORMS, path), f"model.{section}(...)", section, count)
         self._read = None
         if form == "list":
-            self._sections.setdefault(section, [])
-            self._sections[section].append(keys)
+            self._sections.setdefault(section, []).append(keys)
         elif form == "named":
-            self._sections.setdefault(section, {})
-            self._sections[section][str(name)] = keys
+            self._sections.setdefault(section, {})[str(name)] = keys
         else:
-            self._sections.setdefault(section, {})
-            self._sections[section].update(keys)
+            self._sections.setdefault(section, {}).update(keys)
         return self
 
     def with_set(self, set: Mapping[str, Any]) -> Model:
         """A copy in which keys have other values, by their paths."""
-        other = copy.copy(self)
-        other._sections = dict(self._sections)
+        # Not as `copy` does it, which takes what is for other processes.
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        other._sections = {key: copy.copy(content) if isinstance(content, (list, dict)) else content for key, content in self._sections.items()}
         other._set = {**self._set, **set}
-        other._read = None
+        other._read, other._meshes = None, None
         return other
 
     def to_toml(self) -> str:
@@ -136,21 +138,37 @@ class Model:
 
     def _files(self) -> tuple[str, dict[str, bytes]]:
         """The text of the model file, and the meshes of arrays that it names."""
+        text, meshes = self._text()
         if self._path is None:
-            return self._text()
+            return text, meshes
         file = self._path / "model.toml" if self._path.is_dir() else self._path
-        return file.read_text(encoding="utf-8"), {}
+        own = file.read_text(encoding="utf-8")
+        if not text:
+            return own, meshes
+        whole = f"{own.rstrip()}\n\n{text}"
+        try:
+            _embate.Model.check_piece(file.name, whole, "", 0)
+        except ModelError as error:
+            if error.code == _SYNTAX:
+                raise ValueError(
+                    f"what was added can't stand behind the text of {file}: {error.message}; write sections of which there may be several with double brackets there, [[probe]], and change keys by set"
+                ) from None
+        return whole, meshes
 
-    def _text(self) -> tuple[str, dict[str, bytes]]:
-        """The same of a model that is not from a file."""
-        meshes: dict[str, bytes] = {}
-        known: dict[int, tuple[str, Mesh]] = {}
+    def _named(self, known: dict[int, tuple[str, Mesh]]) -> dict[str, Any]:
+        """The sections, with meshes of arrays by the names of their files; which are known then."""
         sections = dict(self._sections)
         parts = sections.get("part")
         if isinstance(parts, (list, tuple)):
-            sections["part"] = [_with_mesh(part, k, meshes, known) if isinstance(part, Mapping) else part for k, part in enumerate(parts)]
+            sections["part"] = [_with_mesh(part, k, known, self._taken) if isinstance(part, Mapping) else part for k, part in enumerate(parts)]
+        return sections
+
+    def _text(self) -> tuple[str, dict[str, bytes]]:
+        """The text of the sections that were given, of a model file those that were added to it, and the meshes that it names."""
+        known: dict[int, tuple[str, Mesh]] = {}
+        text = toml.document(self._named(known), FORMS)
         self._meshes = known
-        return toml.document(sections, _FORMS), meshes
+        return text, {file: mesh.bytes() for file, mesh in known.values()}
 
     def _mesh_names(self) -> dict[int, tuple[str, Mesh]]:
         """File and arrays of each object that was given as a mesh."""
@@ -158,22 +176,28 @@ class Model:
             self._text()
         return self._meshes or {}
 
+    def _for_threads(self) -> Model:
+        """A copy that asks the objects of meshes (gmsh's model for one) no more: several threads can have models of it."""
+        other = self.with_set({})
+        other._taken = {key: mesh for key, (_, mesh) in self._mesh_names().items()}
+        return other
+
     def _overrides(self) -> list[str]:
         return self._saved_set + [f"{key}={toml.value(value, key)}" for key, value in self._set.items()]
 
     def _native(self) -> _embate.Model:
         if self._read is None:
+            text, meshes = self._text()
             if self._path is not None:
-                self._read = _embate.Model.from_file(self._path, self._overrides(), self._allow_outside)
+                self._read = _embate.Model.from_file(self._path, (text, meshes) if text else None, self._overrides(), self._allow_outside)
             else:
-                text, meshes = self._text()
                 folder = self._folder if self._folder is not None else Path(".")
                 self._read = _embate.Model.from_text(self._name or "model", text, folder, self._overrides(), self._allow_outside, meshes)
         return self._read
 
     def __getstate__(self) -> dict[str, Any]:
         """For other processes: meshes as arrays, since nobody can send gmsh's model."""
-        state = {**self.__dict__, "_read": None, "_meshes": None}
+        state = {**self.__dict__, "_read": None, "_meshes": None, "_taken": {}}
         parts = self._sections.get("part")
         if isinstance(parts, list):
             known = {key: mesh for key, (_, mesh) in self._mesh_names().items()}
@@ -235,31 +259,10 @@ class Model:
             with self.simulation(threads=1) as simulation:
                 return simulation.plot(ax=ax, **options)
 
-    if TYPE_CHECKING:
-        # Made below, from the sections of the model file.
-        def run(self, **keys: Any) -> Model: ...
-        def part(self, **keys: Any) -> Model: ...
-        def contact(self, **keys: Any) -> Model: ...
-        def obstacle(self, **keys: Any) -> Model: ...
-        def symmetry(self, **keys: Any) -> Model: ...
-        def constraint(self, **keys: Any) -> Model: ...
-        def join(self, **keys: Any) -> Model: ...
-        def weld(self, **keys: Any) -> Model: ...
-        def joint(self, **keys: Any) -> Model: ...
-        def load(self, **keys: Any) -> Model: ...
-        def cavity(self, **keys: Any) -> Model: ...
-        def non_reflecting(self, **keys: Any) -> Model: ...
-        def spring(self, **keys: Any) -> Model: ...
-        def point_mass(self, **keys: Any) -> Model: ...
-        def probe(self, **keys: Any) -> Model: ...
-        def output(self, **keys: Any) -> Model: ...
-        def material(self, name: str, /, **keys: Any) -> Model: ...
-        def curve(self, name: str, /, **keys: Any) -> Model: ...
-
     def __repr__(self) -> str:
+        counts = ", ".join(f"{len(v)} {k}" if isinstance(v, (list, dict)) and FORMS.get(k) != "table" else k for k, v in self._sections.items())
         if self._path is not None:
-            return f"embate.Model({str(self._path)!r})"
-        counts = ", ".join(f"{len(v)} {k}" if isinstance(v, (list, dict)) and _FORMS.get(k) != "table" else k for k, v in self._sections.items())
+            return f"<embate.Model of {str(self._path)!r}, and {counts}>" if counts else f"embate.Model({str(self._path)!r})"
         return f"<embate.Model {self._name or 'model'!r}: {counts or 'empty'}>"
 
     def _repr_html_(self) -> str:
@@ -271,26 +274,33 @@ class Model:
             return f"<pre>{html.escape(str(error))}</pre>"
 
 
+#: Code of a text that is no TOML.
+_SYNTAX = "E0103"
+
+
+def _check(text: str, name: str, section: str = "", first: int = 0) -> None:
+    """Looks at sections by themselves."""
+    _embate.Model.check_piece(name, text, section, first)
+
+
 def _is_mesh(what: Any) -> bool:
     """Whether this is a mesh of arrays, however wrong."""
     return what is not None and not (isinstance(what, Mapping) and "points" not in what) and not isinstance(what, str)
 
 
-def _with_mesh(part: Mapping[str, Any], index: int, meshes: dict[str, bytes], known: dict[int, tuple[str, Mesh]]) -> Mapping[str, Any]:
-    """A part whose mesh of arrays is named as a file."""
+def _with_mesh(part: Mapping[str, Any], index: int, known: dict[int, tuple[str, Mesh]], taken: Mapping[int, Mesh]) -> Mapping[str, Any]:
+    """A part whose mesh of arrays is named as a file; which is among the known then."""
     what = part.get("mesh")
     if not _is_mesh(what):
         return part
     path = f"part[{index}].mesh"
     try:
-        mesh = known[id(what)][1] if id(what) in known else mesh_of(what)
+        mesh = known[id(what)][1] if id(what) in known else taken.get(id(what)) or mesh_of(what)
     except (TypeError, ValueError) as error:
         raise type(error)(f"{path}: {error}") from None
     if mesh is None:
         raise TypeError(f"{path}: a {type(what).__name__} is no mesh; arrays (points, cells), a dict with points and cells, embate.Mesh, meshio, gmsh and pyvista are")
-    if id(what) not in known:
-        file = f"mesh-{len(meshes) + 1}.msh"
-        meshes[file], known[id(what)] = mesh.bytes(), (file, mesh)
+    known.setdefault(id(what), (f"mesh-{len(known) + 1}.msh", mesh))
     keys = {"file": known[id(what)][0]}
     groups = [name for name, parts in mesh.groups.items() if any(len(which) for which in parts.values())]
     if "group" in part:
@@ -298,31 +308,3 @@ def _with_mesh(part: Mapping[str, Any], index: int, meshes: dict[str, bytes], kn
     elif len(groups) == 1:
         keys["group"] = groups[0]
     return {**{k: v for k, v in part.items() if k not in ("mesh", "group")}, "mesh": keys}
-
-
-def _methods() -> None:
-    """A method for each section of the model file."""
-
-    def listed(section: str) -> Any:
-        def method(self: Model, **keys: Any) -> Model:
-            return self._section(section, keys)
-
-        return method
-
-    def named(section: str) -> Any:
-        def method(self: Model, name: str, /, **keys: Any) -> Model:
-            return self._section(section, keys, name)
-
-        return method
-
-    for name, section in _SECTIONS.items():
-        method = named(name) if section["form"] == "named" else listed(name)
-        method.__name__ = name
-        method.__qualname__ = f"Model.{name}"
-        method.__module__ = Model.__module__
-        keys = "\n".join(f"{key} :\n    {doc}" for key, doc in section["keys"])
-        method.__doc__ = f"{section['doc']}\n\nReturns the model.\n\nParameters\n----------\n{keys}\n"
-        setattr(Model, name, method)
-
-
-_methods()

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _embate
+from ._optional import needed
 
 if TYPE_CHECKING:
-    from .simulation import Simulation
+    from .fields import Fields
 
 #: Faces of solids, outward.
 FACES: dict[str, list[list[int]]] = {kind["name"]: kind["faces"] for kind in _embate.cells() if kind["dimension"] == 3}
@@ -19,7 +20,7 @@ VTK: dict[str, int] = {kind["name"]: kind["vtk"] for kind in _embate.cells()}
 
 
 def plot(
-    simulation: Simulation,
+    state: Fields,
     field: str | None = None,
     ax: Any = None,
     *,
@@ -29,11 +30,11 @@ def plot(
     clim: tuple[float, float] | None = None,
     colorbar: bool = True,
 ) -> Any:
-    """Draws the bodies of a simulation as they are now.
+    """Draws the bodies of a state or a frame.
 
     Parameters
     ----------
-    simulation : embate.Simulation
+    state : embate.State or a frame of results
     field : str, optional
         What colours them: ``von_mises``, ``plastic_strain``, ``velocity`` … (of vectors the size, unless a ``component`` is given); None: each part its colour.
     ax : matplotlib axes, optional
@@ -49,17 +50,17 @@ def plot(
     -------
     matplotlib axes
     """
-    import matplotlib.pyplot as plt
+    plt = needed("matplotlib.pyplot", "plot")
     from matplotlib.collections import LineCollection, PolyCollection
 
-    state, (cells, index, parts) = simulation.state, simulation._layout()
-    is_solid = simulation.dimension == 3
+    cells, index, parts = state._layout()
+    is_solid = state.dimension == 3
     if ax is None:
         _, ax = plt.subplots(subplot_kw={"projection": "3d"} if is_solid else {}, layout="constrained")
     points = state.position
-    alive = _alive(state, len(parts))
+    alive = state._alive()
     polygons, owners = _faces(cells, index, alive)
-    at_cells, at_nodes, label = _values(simulation, field, component)
+    at_cells, at_nodes, label = _values(state, field, component)
     names = list(dict.fromkeys(parts.tolist()))
     shown: list[np.ndarray[Any, Any]] = []
     for corners, owner in zip(polygons, owners):
@@ -99,13 +100,8 @@ def plot(
 
         tab = plt.get_cmap("tab10")
         ax.legend(handles=[Patch(color=tab(k % 10), label=name) for k, name in enumerate(names)], loc="best", fontsize="small")
-    ax.set_title(f"{simulation.model.name}, t = {_seconds(simulation.time)}", fontsize="medium")
+    ax.set_title(f"{state._name}, t = {_seconds(state.time)}", fontsize="medium")
     return ax
-
-
-def _alive(state: Any, cells: int) -> np.ndarray[Any, Any]:
-    alive = state.alive
-    return np.ones(cells, bool) if len(alive) != cells else alive > 0.5
 
 
 def _faces(
@@ -132,15 +128,15 @@ def _faces(
 
 
 def _values(
-    simulation: Simulation, field: str | None, component: str | int | None
+    state: Fields, field: str | None, component: str | int | None
 ) -> tuple[np.ndarray[Any, Any] | None, np.ndarray[Any, Any] | None, str]:
     """Values at cells, or at nodes, and what they are."""
     if field is None:
         return None, None, ""
-    kind = simulation.state.fields.get(field)
+    kind = state.fields.get(field)
     if kind is None:
-        raise ValueError(f"field is {field!r}; there are {', '.join(simulation.state.fields)}")
-    values = simulation.state.field(field)
+        raise ValueError(f"field is {field!r}; there are {', '.join(state.fields)}")
+    values = state.field(field)
     label = field.replace("_", " ")
     if values.ndim == 2:
         if component is None:
@@ -185,15 +181,13 @@ def _seconds(time: float) -> str:
     return f"{time:.4g} s"
 
 
-def to_pyvista(simulation: Simulation) -> Any:
+def to_pyvista(state: Fields) -> Any:
     """The bodies with all fields as an ``UnstructuredGrid``: cells in the order of fields, eroded ones left out."""
-    import pyvista
-
-    state = simulation.state
+    pyvista = needed("pyvista", "to_pyvista")
     points = state.position
     if points.shape[1] == 2:
         points = np.column_stack([points, np.zeros(len(points))])
-    cells, index, parts = simulation._layout()
+    cells, index, parts = state._layout()
     count = len(parts)
     rows: list[Any] = [None] * count
     kinds = np.empty(count, np.uint8)
@@ -210,5 +204,5 @@ def to_pyvista(simulation: Simulation) -> Any:
         elif len(values) == count:
             grid.cell_data[name] = values
     grid.cell_data["part"] = parts
-    alive = _alive(state, count)
+    alive = state._alive()
     return grid if alive.all() else grid.extract_cells(alive)

@@ -9,7 +9,7 @@ import threading
 import time as clock
 import warnings
 import zipfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
@@ -20,20 +20,21 @@ import numpy as np
 from . import _embate
 from ._saved import SavedModel
 from .control import node_numbers, vectors
-from .errors import FileError, StateError
+from .errors import FileError, RunError, StateError
 from .errors import Warning as EmbateWarning
+from .fields import Fields, Layout, cells_of, fields_of
+from .history import History
 from .model import Model
+from .progress import bar
 from .whole import written
 
 #: Seconds between two looks at Ctrl-C and the progress bar.
 _PAUSE = 0.1
 _ALL = 2**63 - 1
 _FORMAT = 1
-#: Nodes of the cells and their places in fields, by kind; part of each cell.
-_Layout = tuple[dict[str, np.ndarray[Any, Any]], dict[str, np.ndarray[Any, Any]], np.ndarray[Any, Any]]
 
 
-class State:
+class State(Fields):
     """The state of a simulation now: arrays by name.
 
     Every array is a read-only copy of the state when it was asked for: the solver has its nodes in an order of its own and goes on writing. Nodes and cells are in the user's order, part by part.
@@ -42,6 +43,25 @@ class State:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
+
+    @property
+    def state(self) -> State:
+        """Itself."""
+        return self
+
+    @property
+    def time(self) -> float:
+        """Time of the simulation, s."""
+        return self._simulation.time
+
+    @property
+    def dimension(self) -> int:
+        """2 in 2D, 3 in 3D."""
+        return self._simulation.dimension
+
+    @property
+    def _name(self) -> str:
+        return self._simulation.model.name
 
     @property
     def position(self) -> np.ndarray[Any, Any]:
@@ -60,51 +80,18 @@ class State:
     @property
     def fields(self) -> dict[str, dict[str, Any]]:
         """What fields there are: components, unit, ``nodes`` or ``cells``, what it is."""
-        return _fields(self._simulation._native.dimension)
+        return fields_of(self._simulation._native.dimension)
 
-    def __getattr__(self, name: str) -> np.ndarray[Any, Any]:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return self.field(name)
+    def _layout(self) -> Layout:
+        return self._simulation._layout()
 
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self.fields]
+    def _alive(self) -> np.ndarray[Any, Any]:
+        alive = self.field("alive")
+        cells = len(self.cell_part)
+        return np.ones(cells, bool) if len(alive) != cells else np.asarray(alive > 0.5)
 
     def __repr__(self) -> str:
         return f"<embate state at {self._simulation.time:.6g} s: position, {', '.join(self.fields)}>"
-
-
-class History(Mapping[str, np.ndarray[Any, Any]]):
-    """The history so far: columns as of ``history.csv``, each a read-only array of the values at the output times."""
-
-    def __init__(self, columns: list[str], values: np.ndarray[Any, Any]) -> None:
-        self._columns = {name: k for k, name in enumerate(columns)}
-        self._values = values
-
-    def __getitem__(self, name: str) -> np.ndarray[Any, Any]:
-        if name not in self._columns:
-            raise KeyError(f"{name!r}; there are {', '.join(self._columns)}")
-        return self._values[:, self._columns[name]]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        return len(self._columns)
-
-    def to_pandas(self) -> Any:
-        """A table with the time as its index (pandas)."""
-        import pandas
-
-        return pandas.DataFrame(self._values, columns=list(self._columns)).set_index("time")
-
-    def __repr__(self) -> str:
-        return f"<embate history: {len(self._values)} rows of {', '.join(self._columns)}>"
-
-    def _repr_html_(self) -> str:
-        from .display import history_html
-
-        return history_html(self)
 
 
 class Simulation:
@@ -120,6 +107,9 @@ class Simulation:
         self._native = _native if _native is not None else _embate.Simulation(model._native(), self._threads, instruction_set)
         self._callbacks: list[tuple[int, Callable[[Simulation], Any]]] = []
         self._working = threading.Lock()
+        #: Of a sweep: warnings are not told, and it ends early where this says no.
+        self._is_quiet = False
+        self._goes_on: Callable[[], bool] = lambda: True
 
     def run(
         self,
@@ -136,9 +126,9 @@ class Simulation:
         until : float, optional
             Time, s.
         progress : bool or callable
-            True: a bar (tqdm, in notebooks as well); a callable gets the fraction that is done, ten times a second at most.
+            True: a bar (that of tqdm where it is installed, in notebooks as well); a callable gets the fraction that is done, ten times a second at most.
         out : path, optional
-            Folder for the results of this run, as those of ``embate run``: fields, history, pictures, summary.
+            Folder for the results of this run, as those of ``embate run``: fields, history, pictures, summary; of a run that fails with its post-mortem.
         force : bool
             Whether results that are there go.
 
@@ -147,21 +137,34 @@ class Simulation:
         Raises
         ------
         embate.RunError
-            The run failed; the state of the failure can be looked at.
+            The run failed; the state of the failure can be looked at, and what it says names the results and the post-mortem that were written.
         """
         end = math.inf if until is None else _time(until, "until")
+        failure: RunError | None = None
         with self._at_work():
             if out is not None:
                 self._native.record(Path(fspath(out)), bool(force))
             try:
                 with _shown(progress, self) as show:
-                    while not self.is_over and self.time < end:
+                    while not self.is_over and self.time < end and self._goes_on():
                         self._advance(end, _ALL)
                         show()
+            except RunError as error:
+                failure = error
+                raise
             finally:
                 if out is not None and not self.is_closed:
-                    self._native.finish()
+                    page = self._native.finish()
+                    if failure is not None:
+                        failure.results, failure.post_mortem = Path(fspath(out)), page
         return self
+
+    def post_mortem(self, folder: str | PathLike[str]) -> Path:
+        """Writes the post-mortem of a run that has failed into a folder: where it failed, its last steps, which keys to change. Returns the path of its page.
+
+        A run with ``out=`` has its post-mortem beside its results already.
+        """
+        return self._native.post_mortem(Path(fspath(folder)))
 
     def step(self, n: int = 1) -> Simulation:
         """So many steps, fewer where the end is reached before."""
@@ -189,6 +192,8 @@ class Simulation:
         due = min((every - now % every for every, _ in self._callbacks), default=steps)
         self._native.advance(until, min(steps, due), _PAUSE)
         for notice in self._native.notices():
+            if self._is_quiet:
+                continue
             warnings.warn(f"{notice['code']}: {notice['message']}", EmbateWarning, stacklevel=3)
         if self.steps != now:
             for every, function in list(self._callbacks):
@@ -247,6 +252,35 @@ class Simulation:
         force = np.zeros(self.dimension) if force is None else force
         values = vectors(force, len(nodes), self.dimension, "force", "N", is_shared=True)
         self._native.set_forces(nodes.tobytes(), values.tobytes())
+
+    def set_curve(self, name: str, value: float, until: float | None = None) -> None:
+        """Drives a curve of the model, and with it the loads, prescribed motions and obstacles that follow it: it runs in a straight line to another value, which it has from ``until``
+        on and keeps until it is set again.
+
+        The change begins at the end of the coming step, ``time + dt``: the velocities of that step stand already. What follows the curve, and the works in the energy ledger, are as if the
+        model had had this curve from the beginning.
+
+        Parameters
+        ----------
+        name : str
+            Name of the curve.
+        value : float
+            In the unit of what follows it, SI; of a load a factor.
+        until : float, optional
+            Time at which it is reached, s; left out: it jumps, and a displacement does so within one step.
+        """
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            raise TypeError(f"value is {value!r}; a number is wanted") from None
+        self._native.set_curve(str(name), number, None if until is None else _time(until, "until"))
+
+    def curve(self, name: str) -> float:
+        """Value of a curve of the model from the end of the coming step on."""
+        value = self._native.curve(str(name))
+        if value is None:
+            raise ValueError(f"name: the model has no curve {name!r}")
+        return value
 
     @property
     def time(self) -> float:
@@ -326,9 +360,9 @@ class Simulation:
         """Name of the part of each cell."""
         return self._layout()[2]
 
-    def _layout(self) -> _Layout:
+    def _layout(self) -> Layout:
         """All three at once: the solver makes them anew each time."""
-        return _cells(self._native)
+        return cells_of(*self._native.cells())
 
     def node_numbers(self, mesh: Any) -> np.ndarray[Any, Any]:
         """Where the points of a part's mesh are among the nodes of the state: ``state.position[numbers]`` are in the order of the points.
@@ -354,7 +388,7 @@ class Simulation:
         """Writes model, state and history into one file, from which :func:`embate.load` goes on with the same bits."""
         path = Path(fspath(path))
         model = self.model
-        text, meshes = model._files()
+        text, meshes = model._text()
         head = {
             "format": _FORMAT,
             "version": _embate.__version__,
@@ -388,15 +422,11 @@ class Simulation:
 
     def plot(self, field: str | None = None, ax: Any = None, **options: Any) -> Any:
         """Draws the bodies, coloured by a field (matplotlib); returns the axes. See :func:`embate.plotting.plot`."""
-        from .plotting import plot
-
-        return plot(self, field, ax, **options)
+        return self.state.plot(field, ax, **options)
 
     def to_pyvista(self) -> Any:
         """The bodies with all fields as an ``UnstructuredGrid`` (pyvista)."""
-        from .plotting import to_pyvista
-
-        return to_pyvista(self)
+        return self.state.to_pyvista()
 
     def __enter__(self) -> Simulation:
         return self
@@ -423,11 +453,8 @@ def load(path: str | PathLike[str], *, threads: int = 0, instruction_set: str | 
             head = json.loads(archive.read("head.json"))
             if head.get("format") != _FORMAT or head.get("version") != _embate.__version__:
                 raise FileError(f"{path} was written by embate {head.get('version')}, this is {_embate.__version__}: run the model again, or use that version")
-            if head["path"] is not None:
-                model = Model(head["path"], allow_outside=head["allow_outside"])
-            else:
-                meshes = {name[5:]: archive.read(name) for name in archive.namelist() if name.startswith("mesh/")}
-                model = SavedModel(head, archive.read("model.toml").decode(), meshes)
+            meshes = {name[5:]: archive.read(name) for name in archive.namelist() if name.startswith("mesh/")}
+            model = SavedModel(head, archive.read("model.toml").decode(), meshes)
             model._saved_set = head["set"]
             rows = np.frombuffer(archive.read("history.f64"), np.float64).tolist()
             state = Path(archive.extract("state.embate", folder))
@@ -457,35 +484,15 @@ def _time(value: Any, name: str) -> float:
     return seconds
 
 
-def _fields(dimension: int) -> dict[str, dict[str, Any]]:
-    return {
-        name: {"components": components, "unit": unit, "location": "nodes" if is_node else "cells", "doc": doc}
-        for name, components, unit, is_node, doc in _embate.fields(dimension)
-    }
-
-
-def _cells(native: Any) -> _Layout:
-    nodes, offsets, kinds, parts, names = native.cells()
-    nodes, offsets = np.frombuffer(nodes, np.uint32), np.frombuffer(offsets, np.uint32).astype(np.int64)
-    kinds = np.asarray(kinds)
-    cells, index = {}, {}
-    for kind in dict.fromkeys(kinds.tolist()):
-        which = np.flatnonzero(kinds == kind)
-        size = int(offsets[which[0] + 1] - offsets[which[0]])
-        cells[kind] = nodes[offsets[which][:, None] + np.arange(size)].astype(np.int64)
-        index[kind] = which
-    return cells, index, np.asarray(names)[np.frombuffer(parts, np.uint32)]
-
-
 class _shown:
     """A progress bar, a function that is told, or nothing."""
 
     def __init__(self, progress: bool | Callable[[float], Any], simulation: Simulation) -> None:
-        self._simulation, self._bar, self._function, self._last = simulation, None, None, 0.0
+        self._simulation, self._last = simulation, 0.0
+        self._function: Callable[[float], Any] | None = None
+        self._bar: Any = None
         if progress is True:
-            from tqdm.auto import tqdm
-
-            self._bar = tqdm(total=100.0, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}{postfix}")
+            self._bar = bar(100.0, "%")
         elif callable(progress):
             self._function = progress
 
@@ -505,8 +512,7 @@ class _shown:
         if self._function is not None:
             self._function(done)
         if self._bar is not None:
-            self._bar.n = round(100 * done, 1)
-            self._bar.set_postfix_str(f"step {steps}, dt {dt:.2e} s, drift {100 * drift:.2g} %")
+            self._bar.to(round(100 * done, 1), f"step {steps}, dt {dt:.2e} s, drift {100 * drift:.2g} %")
 
     def __exit__(self, *_: object) -> None:
         if self._bar is not None:

@@ -67,8 +67,8 @@ def number(what: float, path: str) -> str:
     return repr(what)
 
 
-def document(sections: Mapping[str, Any], forms: Mapping[str, str]) -> str:
-    """The text of a model: keys of the file itself first, then its sections."""
+def document(sections: Mapping[str, Any], forms: Mapping[str, str], path: str | None = None) -> str:
+    """The text of a model: keys of the file itself first, then its sections. ``path``: where a section stands that is the only one."""
     tops, tables = [], []
     for name, content in sections.items():
         form = forms.get(name)
@@ -76,7 +76,7 @@ def document(sections: Mapping[str, Any], forms: Mapping[str, str]) -> str:
             continue
         if form == "list" and isinstance(content, (list, tuple)) and all(isinstance(item, Mapping) for item in content):
             for k, item in enumerate(content):
-                tables.append(_table(f"[[{name}]]", item, f"{name}[{k}]"))
+                tables.append(_table(f"[[{name}]]", item, path or f"{name}[{k}]"))
         elif form == "named" and isinstance(content, Mapping) and all(isinstance(item, Mapping) for item in content.values()):
             for own, item in content.items():
                 tables.append(_table(f"[{name}.{key(own)}]", item, f"{name}.{own}"))

@@ -6,6 +6,7 @@
 //! corners: exact for lines and smooth steps, of eighth order in the step for formulas.
 
 pub mod sine;
+pub mod steered;
 pub mod table;
 
 use crate::archive::{Archive, ArchiveResult, Persist};
@@ -13,6 +14,7 @@ use crate::expression::Expression;
 use crate::model::in_3d;
 use crate::model::{self, CurveShape, Drive, Model, Sine};
 use crate::vector::{dot, plus, times};
+use steered::Steered;
 use table::Table;
 
 /// Points and weights of Gauss' rule on −1..1.
@@ -32,6 +34,8 @@ pub enum Curve {
     Sine(Sine),
     /// A formula.
     Expression(Expression),
+    /// As the program that drives the simulation says.
+    Steered(Steered),
 }
 
 impl Curve {
@@ -54,6 +58,7 @@ impl Curve {
             Self::Table(table) => table.value(time),
             Self::Sine(sine) => sine.value(time),
             Self::Expression(expression) => expression.value(time),
+            Self::Steered(steered) => steered.value(time),
         }
     }
 
@@ -63,6 +68,7 @@ impl Curve {
         match self {
             Self::Table(table) if !table.smooth => table.mean(from, to),
             Self::Sine(sine) => sine.mean(from, to),
+            Self::Steered(steered) => steered.mean(from, to),
             _ if from == to => self.value(from),
             _ => self.gauss(from, to, |_| 1.0) / (to - from),
         }
@@ -76,7 +82,8 @@ impl Curve {
 
     /// ∫ y(t) weight(t) dt.
     fn gauss(&self, from: f64, to: f64, weight: impl Fn(f64) -> f64) -> f64 {
-        let times = if let Self::Table(table) = self { &table.times[..] } else { &[] };
+        let corners = if let Self::Steered(steered) = self { steered.times() } else { [f64::INFINITY; 3] };
+        let times = if let Self::Table(table) = self { &table.times[..] } else { &corners[..] };
         let (first, last) = (times.partition_point(|&t| t <= from), times.partition_point(|&t| t < to));
         let (mut sum, mut begin) = (0.0, from);
         for &end in times[first..last.max(first)].iter().chain([&to]) {
@@ -135,8 +142,16 @@ struct Term {
 
 impl Persist for Curves {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { list: _, names: _, integrals, short: _ } = self;
-        integrals[..].persist(archive)
+        let Self { list, names: _, integrals, short: _ } = self;
+        integrals[..].persist(archive)?;
+        for curve in list {
+            let mut steered = if let Curve::Steered(steered) = curve { Some(*steered) } else { None };
+            steered.persist(archive)?;
+            if let Some(steered) = steered {
+                *curve = Curve::Steered(steered);
+            }
+        }
+        Ok(())
     }
 }
 
@@ -153,6 +168,21 @@ impl Curves {
     #[must_use]
     pub fn find(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|it| it == name)
+    }
+
+    /// Names of all, in the order of their numbers.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Lets a curve continue from a time as the program says: to a value that it reaches in a straight line
+    /// at `end`, at once where that is not later, and keeps. Loads look back over `half`, half of a step; all
+    /// times in s.
+    pub fn steer(&mut self, number: usize, [from, half, end]: [f64; 3], value: f64) {
+        let curve = &mut self.list[number];
+        let past = [from - half, from].map(|time| [time, curve.value(time)]);
+        *curve = Curve::Steered(Steered::new(past, [end.max(from), value]));
     }
 
     /// A curve by its number.

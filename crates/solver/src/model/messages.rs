@@ -50,7 +50,8 @@ pub static UNKNOWN_NAME: Message = Message {
     remedy: "Take the name that the message suggests, or look at `embate list` for those of laws, elements, searches and fields.",
 };
 
-pub(crate) static TWICE: Message = Message {
+/// A name that two things have.
+pub static TWICE: Message = Message {
     code: "E0117",
     title: "the same name twice",
     example: Example::Model("[[contact]]\nname = \"hit\"\nbodies = [\"block\", \"block\"]\n"),

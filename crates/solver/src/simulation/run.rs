@@ -58,6 +58,8 @@ where
     pub(super) hash_steps: Option<u64>,
     pub(super) hashing: Hashing,
     pub(super) output_cursor: Option<OutputCursor>,
+    /// Whether something was changed between two steps.
+    pub(super) is_steered: bool,
     /// Revision of the mesh whose cells observers know.
     pub(super) known_cells: u32,
     pub(super) memory: Memory,
@@ -121,6 +123,7 @@ where
             hash_steps: model.output.hash_steps,
             hashing: Hashing::default(),
             output_cursor: None,
+            is_steered: false,
             known_cells: system.mesh.revision,
             memory: Memory::default(),
             tracer: None,

@@ -30,7 +30,7 @@ where
         let Self {
             threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, hash_steps: _, hashing: _, search_names: _, pool: _,
             known_cells: _, memory: _, tracer: _, known_parts: _,
-            system, recorded, momentum, shortest, monitor, output_cursor,
+            system, recorded, momentum, shortest, monitor, output_cursor, is_steered,
         } = self;
         archive.section("run")?;
         recorded.persist(archive)?;
@@ -42,7 +42,7 @@ where
             *output_cursor = Some(so_far);
         }
         let mut has_momentum = momentum.is_some();
-        persist_each!(archive; &mut has_momentum);
+        persist_each!(archive; is_steered, &mut has_momentum);
         archive.check(!has_momentum || momentum.is_some(), "momentum is kept in it and not in the model")?;
         if !has_momentum {
             // Somebody pushed the bodies.

@@ -1,5 +1,5 @@
-//! Changes between two steps, by the program that drives the simulation: other velocities, and forces besides
-//! those of the model.
+//! Changes between two steps, by the program that drives the simulation: other velocities, forces besides
+//! those of the model, and curves that continue in another way.
 //!
 //! At the end of step n velocities are known at n − ½ and n + ½. A change Δv at n is added to both: what is
 //! shown at n is what was asked for, as if the steps until then had led to it. The ledger gets the change of
@@ -12,6 +12,7 @@ use super::run::Run;
 use crate::error::{Fault, STEERING};
 use crate::tensor::Dim;
 use crate::vector::{dot, minus, plus, times};
+use crate::vocabulary::suggestion;
 
 impl<const D: usize> Run<D>
 where
@@ -64,8 +65,7 @@ where
         if let Some(subcycling) = &mut system.subcycling {
             subcycling.wake();
         }
-        // What comes from outside changes it.
-        self.momentum = None;
+        self.note_change();
         Ok(())
     }
 
@@ -76,8 +76,48 @@ where
     pub(crate) fn set_forces(&mut self, nodes: &[u32], forces: &[f64]) -> Result<(), Fault> {
         let given = self.vectors("force", nodes, forces)?;
         self.system.forces.push(given);
-        self.momentum = None;
+        self.note_change();
         Ok(())
+    }
+
+    /// Lets a curve run, from the end of the coming step on, from its value there in a straight line to
+    /// `value`, which it has from `end` (s) on; without `end` it jumps. Velocities of the coming step stand
+    /// already. What follows the curve, and the works of that, are as of any other curve.
+    ///
+    /// # Errors
+    /// A curve that the model does not have, a value or a time that is none. Then nothing has changed.
+    pub(crate) fn set_curve(&mut self, name: &str, value: f64, end: Option<f64>) -> Result<(), Fault> {
+        let system = &mut self.system;
+        let Some(number) = system.curves.find(name) else {
+            let known: Vec<&str> = system.curves.names().iter().map(String::as_str).collect();
+            return Err(refused(format!("the model has no curve `{name}`"), &suggestion(name, &known)));
+        };
+        if !value.is_finite() {
+            return Err(refused(format!("the value of the curve `{name}` is {value}"), "give a finite number"));
+        }
+        let now = system.time;
+        if let Some(end) = end
+            && !(end.is_finite() && end >= now)
+        {
+            let message = format!("the curve `{name}` is to have its value at {end} s, and the time is {now} s");
+            return Err(refused(message, "give a time that is still to come"));
+        }
+        let step = system.time_step;
+        system.curves.steer(number, [now + step, 0.5 * step, end.unwrap_or(now)], value);
+        self.note_change();
+        Ok(())
+    }
+
+    /// Momentum is no longer the bodies' own, and the model alone no longer says what the run is.
+    fn note_change(&mut self) {
+        self.momentum = None;
+        self.is_steered = true;
+    }
+
+    /// Value of a curve from the end of the coming step on; `None`: the model has no such curve.
+    pub(crate) fn curve(&self, name: &str) -> Option<f64> {
+        let curves = &self.system.curves;
+        curves.find(name).map(|number| curves.curve(number).value((self.system.time + self.system.time_step).next_up()))
     }
 
     /// The system's nodes with their vectors.

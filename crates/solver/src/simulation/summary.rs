@@ -6,7 +6,7 @@ use super::{ContactSearch, Runs};
 use crate::contact::Contact;
 use crate::contact::messages::{MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
 use crate::contact::tracker::Certificate;
-use crate::error::{ERODED, MASS_ADDED, Notice, OPENED, RELAXED};
+use crate::error::{ERODED, MASS_ADDED, Notice, OPENED, RELAXED, STEERED};
 use crate::mesh::PartMesh;
 use crate::output::{Eroded, Erosion, MassInRun, Summary};
 use crate::record::Momentum;
@@ -39,6 +39,13 @@ where
             } else if all == 0 {
                 report(&TIES_BROKE, format!("contact \"{}\": its ties bound nothing", contact.name));
             }
+        }
+        if self.is_steered {
+            report(
+                &STEERED,
+                "the program that drove the run changed velocities, forces or curves between its steps: the model alone doesn't repeat it"
+                    .into(),
+            );
         }
         if let Some(Erosion { elements, first: Eroded { part, element, at, time, criterion }, .. }) = self.erosion() {
             let all: Vec<String> = elements.iter().map(|(part, count)| format!("{count} of part \"{part}\"")).collect();

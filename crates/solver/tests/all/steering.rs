@@ -2,7 +2,7 @@
 //! asked for, and the ledger close.
 
 use crate::bodies::*;
-use embate_solver::model::{Model, in_3d};
+use embate_solver::model::{Constraint, Curve, Drive, Load, Model, in_3d};
 use embate_solver::output::Frame;
 use embate_solver::simulation::{Control, Observer, ObserverError, Progress, Simulation};
 
@@ -143,6 +143,122 @@ fn a_state_keeps_forces_and_throws() {
     continues_to(&whole.summary().state_hash, &model, &mut stopped, "steered");
 }
 
+/// A free block under a field of 1000 m/s² times a curve that is zero until somebody drives it.
+fn pulled() -> Model {
+    let mut model = block(1e-3);
+    model.curves.insert("pull".into(), Curve::table(vec![0.0], vec![0.0]));
+    model.loads.push(Load::Gravity { parts: Vec::new(), acceleration: in_3d([1000.0, 0.0]), curve: Some("pull".into()) });
+    model
+}
+
+#[test]
+fn a_load_that_is_driven_has_the_impulse_of_its_curve() {
+    let mut simulation = simulation(&pulled());
+    simulation.advance(f64::INFINITY, 40).unwrap();
+    assert_eq!(simulation.curve("pull"), Some(0.0));
+    simulation.set_curve("pull", 1.0, None).unwrap();
+    assert_eq!(simulation.curve("pull"), Some(1.0));
+    // The coming step stands already.
+    let jump = simulation.time() + simulation.time_step();
+    simulation.advance(f64::INFINITY, 2).unwrap();
+    close(field(&simulation, "velocity")[0], 1000.0 * (simulation.time() - jump), 1e-11);
+    simulation.advance(f64::INFINITY, 50).unwrap();
+    // And back to −1 in a straight line, until a time between two steps.
+    let ramp = simulation.time() + simulation.time_step();
+    let end = ramp + 20.3 * simulation.time_step();
+    simulation.set_curve("pull", -1.0, Some(end)).unwrap();
+    assert_eq!(simulation.curve("pull"), Some(1.0));
+    simulation.advance(f64::INFINITY, 60).unwrap();
+    // Its mean while it runs is zero.
+    let speed = 1000.0 * ((ramp - jump) - (simulation.time() - end));
+    close(field(&simulation, "velocity")[0], speed, 1e-11);
+    // The kinetic energy is that of both half steps, ½ m v⁻ v⁺.
+    let half = 0.5 * simulation.time_step() * 1000.0;
+    let ledger = simulation.ledger();
+    close(ledger.external, 0.5 * MASS * (speed * speed - half * half), 1e-9);
+    close(ledger.external, ledger.stores.kinetic, 1e-9);
+    let summary = simulation.summary();
+    assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-9, "{} {}", summary.ledger_residual, summary.energy_drift);
+}
+
+#[test]
+fn a_load_that_is_driven_at_every_step_is_the_one_of_a_table() {
+    // cos(ωt) by straight lines between the steps: as a table of the model, and from step to step, each time
+    // for the step after the coming one.
+    let course = |time: f64| (2e4 * time).cos();
+    let mut driven = simulation(&pulled());
+    let (mut times, mut values) = (vec![driven.time_step()], vec![0.0]);
+    for _ in 0..100 {
+        let next = driven.time() + 2.0 * driven.time_step();
+        (times.push(next), values.push(course(next)));
+        driven.set_curve("pull", course(next), Some(next)).unwrap();
+        driven.advance(f64::INFINITY, 1).unwrap();
+    }
+    let mut model = pulled();
+    model.curves.insert("pull".into(), Curve::table(times, values));
+    let mut table = simulation(&model);
+    table.advance(f64::INFINITY, 100).unwrap();
+    assert_eq!(driven.time(), table.time());
+    for name in ["displacement", "velocity"] {
+        field(&driven, name).into_iter().zip(field(&table, name)).for_each(|(a, b)| close(a, b, 1e-10));
+    }
+    close(driven.ledger().external, table.ledger().external, 1e-9);
+}
+
+/// A block whose left side moves as the curve says.
+fn led(meaning: usize) -> Model {
+    let mut model = block(1e-3);
+    model.curves.insert("lead".into(), Curve::table(vec![0.0], vec![0.0]));
+    let drive = || [Some(Drive::Curve("lead".into())), None, None];
+    let mut constraint = Constraint { on: "block.left".into(), ..Constraint::default() };
+    *[&mut constraint.velocity, &mut constraint.displacement, &mut constraint.acceleration][meaning] = drive();
+    model.constraints.push(constraint);
+    model
+}
+
+#[test]
+fn motions_that_are_driven_go_where_their_curves_say_and_the_books_close() {
+    // Where the left side is after so many seconds since the curve has the value 2: m/s, m, m/s².
+    for (meaning, value, way) in [(0, 2.0, 2.0), (1, 2e-5, 0.0), (2, 2e4, 0.0)] {
+        let mut simulation = simulation(&led(meaning));
+        simulation.advance(f64::INFINITY, 30).unwrap();
+        simulation.set_curve("lead", value, None).unwrap();
+        simulation.advance(f64::INFINITY, 1).unwrap();
+        let node = simulation.nodes_of("block.left").unwrap()[1] as usize;
+        assert_eq!(field(&simulation, "displacement")[2 * node], 0.0);
+        let (begin, step) = (simulation.time(), simulation.time_step());
+        simulation.advance(f64::INFINITY, 1).unwrap();
+        let moved = field(&simulation, "displacement")[2 * node];
+        let expected = [way * step, value, 0.5 * value * step * step][meaning];
+        assert!((moved - expected).abs() < 1e-9 * expected, "{meaning}: {moved} {expected}");
+        simulation.advance(f64::INFINITY, 40).unwrap();
+        let lasted = simulation.time() - begin;
+        let moved = field(&simulation, "displacement")[2 * node];
+        let expected = [way * lasted, value, 0.5 * value * lasted * lasted][meaning];
+        assert!((moved - expected).abs() < 1e-9 * expected, "{meaning}: {moved} {expected}");
+        let summary = simulation.summary();
+        assert!(summary.ledger_residual < 1e-12, "{meaning}: {}", summary.ledger_residual);
+    }
+}
+
+#[test]
+fn a_state_keeps_what_curves_were_driven_to() {
+    for model in [pulled(), led(0), led(1), led(2)] {
+        let name = model.curves.keys().next().unwrap().clone();
+        let steer = |simulation: &mut Simulation| {
+            simulation.advance(f64::INFINITY, 20).unwrap();
+            simulation.set_curve(&name, 1e-4, Some(simulation.time() + 1e-5)).unwrap();
+            simulation.advance(f64::INFINITY, 3).unwrap();
+        };
+        let mut whole = simulation(&model);
+        steer(&mut whole);
+        whole.advance(f64::INFINITY, u64::MAX).unwrap();
+        let mut stopped = simulation(&model);
+        steer(&mut stopped);
+        continues_to(&whole.summary().state_hash, &model, &mut stopped, "driven");
+    }
+}
+
 #[test]
 fn held_nodes_keep_what_is_prescribed() {
     let mut model = block(1e-3);
@@ -171,6 +287,7 @@ fn what_can_not_be_changed_is_refused_and_nothing_changes() {
     let mut model = block(1e-3);
     add(&mut model, "stamp", rectangle([0.0, 0.06], [0.02, 0.02], [2, 2]), [0.0, 0.0]);
     stiffen(&mut model, "stamp", driven([None, None], None));
+    model.curves.insert("push".into(), Curve::table(vec![0.0], vec![3.0]));
     let mut simulation = simulation(&model);
     simulation.advance(f64::INFINITY, 5).unwrap();
     let before = simulation.state().unwrap();
@@ -184,7 +301,11 @@ fn what_can_not_be_changed_is_refused_and_nothing_changes() {
     assert!(reported(simulation.set_velocities(&[0, 1000], &[1.0; 4])).contains("no node 1000"));
     assert!(reported(simulation.set_velocities(&[0], &[1.0; 3])).contains("3 numbers of velocity"));
     assert!(reported(simulation.set_forces(&[0, 1], &[1.0, 0.0, f64::NAN, 0.0])).contains("force of node 1"));
-    assert_eq!(simulation.nodes_of("nothing"), None);
+    assert!(reported(simulation.set_curve("puhs", 1.0, None)).contains("no curve `puhs`"));
+    assert!(reported(simulation.set_curve("push", f64::INFINITY, None)).contains("`push` is inf"));
+    assert!(reported(simulation.set_curve("push", 1.0, Some(0.0))).contains("the time is"));
+    assert!(reported(simulation.set_curve("push", 1.0, Some(f64::NAN))).contains("NaN s"));
+    assert_eq!((simulation.nodes_of("nothing"), simulation.curve("puhs"), simulation.curve("push")), (None, None, Some(3.0)));
     assert!(simulation.state().unwrap() == before);
 }
 

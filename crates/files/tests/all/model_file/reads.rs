@@ -1,7 +1,7 @@
 //! Sound models: values, defaults, names, overrides, mesh files, the files of the project.
 
 use super::{SOUND, changed, read};
-use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
+use embate_files::model_file::{load, load_text, load_with_additions, python, reference_markdown, schema, starter};
 use embate_solver::input::sections::SECTIONS;
 use embate_solver::model::{
     Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Part, Partners, Penalty,
@@ -181,6 +181,44 @@ fn the_manual_in_the_docs_is_the_one_that_the_program_makes() {
     }
     let kept = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
     assert!(kept == made, "docs/model-file.md is not what the program makes: run this test with EMBATE_BLESS=1 and commit the file");
+}
+
+#[test]
+fn the_methods_of_the_python_package_are_those_that_the_program_makes() {
+    let path = project().join("crates/python/python/embate/_sections.py");
+    let made = python();
+    if std::env::var_os("EMBATE_BLESS").is_some() {
+        std::fs::write(&path, &made).unwrap();
+    }
+    let kept = std::fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
+    assert!(
+        kept == made,
+        "crates/python/python/embate/_sections.py is not what the program makes: run this test with EMBATE_BLESS=1 and commit the file"
+    );
+}
+
+#[test]
+fn sections_are_added_to_the_model_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("model.toml");
+    std::fs::write(&file, SOUND).unwrap();
+    let whole = load(&file, &[]).unwrap();
+    let added =
+        "title = \"More\"\n[run]\nsafety = 0.31\n[[probe]]\nname = \"more\"\nset = \"tube\"\n[curve.press]\ntime = [0]\nvalue = [1]\n";
+    let reach = embate_files::PathPolicy::Folder;
+    let more =
+        load_with_additions(&file, (added, Default::default()), &["run.safety=0.32".to_string()], reach).map_err(|error| error.to_string());
+    let model = more.unwrap().model;
+    assert_eq!((model.title.as_str(), model.run.safety, model.run.end), ("More", 0.32, whole.run.end));
+    assert_eq!(model.probes.len(), whole.probes.len() + 1);
+    assert!(model.curves.contains_key("press"));
+    // Faults show the text that they are in, and nothing that is there is replaced.
+    let faults =
+        load_with_additions(&file, ("[[probe]]\nnmae = \"more\"\n[material.steel]\nlaw = \"elastic\"\n", Default::default()), &[], reach)
+            .unwrap_err();
+    let text = faults.to_string();
+    assert!(text.contains("has no key `nmae`") && text.contains("added by the program:2"), "{text}");
+    assert!(text.contains("the model has `material.steel` already"), "{text}");
 }
 
 #[test]

@@ -215,7 +215,7 @@ fn a_probe_off_its_part_is_reported_with_the_distance() {
     let at = |x: f64, y: f64| {
         let mut model = elastic_block(7850.0, 2.1e11);
         let at = ProbeAt::Point { part: "block".into(), point: [x, y, 0.0] };
-        model.probes.push(Probe { name: "tip".into(), at });
+        model.probes.push(Probe { name: "tip".into(), at, ..Probe::default() });
         of_kind(&model, "W0703")
     };
     // Elements are 20 mm large.

@@ -46,6 +46,7 @@ const FILES: &[(&str, &str)] = &[
     ("energy.svg", "energies over time"),
     ("history.svg", "probes and contacts over time"),
     ("history.csv", "the same as numbers"),
+    ("channels.csv", "the channels of the model"),
     ("fields.pvd", "all fields, for ParaView"),
     ("obstacles.pvd", "the obstacles, for ParaView"),
     ("summary.json", "the figures of the run"),

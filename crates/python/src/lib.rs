@@ -23,7 +23,7 @@ mod _embate {
     #[pymodule_export]
     use super::simulation::Simulation;
     #[pymodule_export]
-    use super::{cells, fields, schema, sections};
+    use super::{cells, channel, fields, schema, sections};
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "a name of Python")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
@@ -56,6 +56,19 @@ fn sections(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
 #[pyfunction]
 fn schema() -> String {
     embate_files::model_file::schema()
+}
+
+/// Values of a formula of a history: names of its columns, values of each as f64, the first the time, and the
+/// class (CFC) or corner (Hz) of a filter.
+#[pyfunction]
+#[pyo3(signature = (expression, names, values, class_number, corner))]
+fn channel(expression: &str, names: Vec<String>, values: Vec<Vec<f64>>, class_number: Option<f64>, corner: Option<f64>) -> PyResult<Vec<f64>> {
+    use embate_solver::channel::{self, filter::Filter};
+    let filter = corner.map(Filter::Corner).or(class_number.map(Filter::Class));
+    let wrong = |wrong: embate_solver::expression::Wrong| {
+        pyo3::exceptions::PyValueError::new_err(format!("{expression:?}, at character {}: {}", wrong.at, wrong.message))
+    };
+    channel::values(expression, filter, &names, &values).map_err(wrong)
 }
 
 /// The fields of a dimension: name, components, unit, whether it is at nodes, what it is.

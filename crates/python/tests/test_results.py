@@ -229,3 +229,16 @@ def test_numpy_is_enough(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, "-W", "error", str(script)], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert "100.0 % |##############################|" in done.stderr and "2/2 run" in done.stderr
+
+
+def test_channels_are_formulas_of_the_columns() -> None:
+    simulation = embate.Model(sections()).simulation().run()
+    history = simulation.history
+    total = history.channel("energy.kinetic + energy.internal*2 - t")
+    assert np.array_equal(total, history["energy.kinetic"] + history["energy.internal"] * 2 - history["time"])
+    smooth = history.channel("energy.kinetic", corner=1.0)
+    assert smooth.shape == total.shape
+    with pytest.raises(ValueError, match="did you mean `energy.kinetic`"):
+        history.channel("energy.kinetik")
+    with pytest.raises(ValueError, match="CFC 1000"):
+        history.channel("t", filter="CFC 61")

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from . import _embate
 from ._optional import needed
 
 
@@ -29,6 +30,22 @@ class History(Mapping[str, np.ndarray[Any, Any]]):
 
     def __len__(self) -> int:
         return len(self._columns)
+
+    def channel(self, expression: str, *, filter: str | None = None, corner: float | None = None) -> np.ndarray[Any, Any]:
+        """Values of a formula of the columns, such as ``"A.y - B.y"`` or ``"hic15(head.ax)"``: as ``[[channel]]`` of a model.
+
+        ``filter``: a channel frequency class of SAE J211, ``"CFC 60"``, ``"CFC 180"``, ``"CFC 600"`` or ``"CFC 1000"``; ``corner``: the
+        frequency (Hz) at which a Butterworth filter without phase damps by 3 dB.
+
+        :raises ValueError: the formula can't be read, or the filter is unknown.
+        """
+        classes = {f"CFC {number}": float(number) for number in (60, 180, 600, 1000)}
+        if filter is not None and filter not in classes:
+            raise ValueError(f"there is no filter {filter!r}; there are {', '.join(classes)}")
+        if filter is not None and corner is not None:
+            raise ValueError("give a filter or a corner, not both")
+        values = [self._values[:, k].tolist() for k in self._columns.values()]
+        return np.array(_embate.channel(expression, list(self._columns), values, classes.get(filter or ""), corner))
 
     def to_numpy(self) -> np.ndarray[Any, Any]:
         """All values, shape (rows, columns)."""

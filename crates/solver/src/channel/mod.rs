@@ -7,7 +7,7 @@ pub mod filter;
 mod series;
 
 use crate::error::{Fault, Warning};
-use crate::expression::{Expression, Words};
+use crate::expression::{Expression, Words, Wrong};
 use crate::model::messages::{COARSE_CHANNEL, FORMULA};
 use crate::model::{Cadence, Model};
 use filter::Filter;
@@ -125,6 +125,16 @@ impl Channels {
     }
 }
 
+/// The values of a formula, filtered, for a history: its columns, the first of them the time.
+///
+/// # Errors
+/// The first thing that is wrong with the formula, with its place.
+pub fn values(formula: &str, filter: Option<Filter>, names: &[String], columns: &[Vec<f64>]) -> Result<Vec<f64>, Wrong> {
+    let formula = Expression::parse_with(formula, &Columns::new(names))?;
+    let channels = Channels(vec![Channel { name: String::new(), formula, filter }]);
+    Ok(channels.evaluate(columns).pop().map(|found| found.values).unwrap_or_default())
+}
+
 /// Filters for which the rows of the history are too far apart.
 pub(crate) fn warnings(model: &Model) -> impl Iterator<Item = Warning> {
     let interval = match model.output.history {
@@ -174,6 +184,9 @@ mod tests {
         assert_eq!(figures[1].values, [108.0, 217.0]);
         assert_eq!(figures[2].values, [-5.0, -3.0]);
         assert_eq!((figures[3].max, figures[3].min), ([400.0, 1.0], [100.0, 0.0]));
+        let names: Vec<String> = columns.iter().map(ToString::to_string).collect();
+        assert_eq!(super::values("A.y - contact.force_x[a-b]*2", None, &names, &values).unwrap(), [8.0, 16.0]);
+        assert_eq!(super::values("A.q", None, &names, &values).unwrap_err().at, 1);
     }
 
     #[test]

@@ -15,6 +15,7 @@
 //!
 //! Source: SAE J211/1 and ISO 6487, whose formulas for this filter differ by 0.3 % in the frequency.
 
+pub use crate::model::Filter;
 use std::f64::consts::{PI, SQRT_2};
 
 /// Frequency of each pass over the class.
@@ -23,15 +24,6 @@ const OF_CLASS: f64 = 2.0775;
 /// Frequency of each pass for one at which both together damp by 3 dB.
 fn of_corner(corner: f64) -> f64 {
     corner / (SQRT_2 - 1.0).powf(0.25)
-}
-
-/// A filter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Filter {
-    /// A channel frequency class: 60, 180, 600, 1000.
-    Class(f64),
-    /// Damps by 3 dB at this frequency, Hz.
-    Corner(f64),
 }
 
 impl Filter {

@@ -1,7 +1,6 @@
 //! What a run of a [`super::Model`] writes: `[output]` and `[[probe]]`.
 
 use super::{Values, section};
-use crate::channel::filter::Filter;
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
 use crate::vocabulary::Kind::{Choice, Flag, Integer, Name, Quantity, Reference, References, Spatial, Table, Text, Vector};
@@ -194,6 +193,15 @@ section! {
         "Frequency at which a Butterworth filter of fourth order without phase damps the values by 3 dB.";
     /// What filters the values.
     filter: Option<Filter>, read filter;
+}
+
+/// What filters the values of a channel, without phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Filter {
+    /// A channel frequency class: 60, 180, 600, 1000.
+    Class(f64),
+    /// Damps by 3 dB at this frequency, Hz.
+    Corner(f64),
 }
 
 /// The filter of a channel.

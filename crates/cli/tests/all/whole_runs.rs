@@ -116,7 +116,7 @@ fn a_check_reports_parts_and_steps() {
     fs::write(folder.join("model.toml"), MODEL).unwrap();
     let answer = embate(&folder, ["check", "model.toml", "--out", "out"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);
-    assert!(answer.out.contains("block") && answer.out.contains("0.7800 kg/m") && answer.out.contains("steps to 100 µs"), "{}", answer.out);
+    assert!(answer.out.contains("block") && answer.out.contains("780 g/m") && answer.out.contains("steps to 100 µs"), "{}", answer.out);
     assert!(!answer.out.contains("by nodes"), "{}", answer.out);
     let answer = embate(&folder, ["check", "model.toml", "--out", "out", "--time-step"]);
     assert_eq!(answer.code, Some(0), "{}", answer.err);

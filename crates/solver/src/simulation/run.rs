@@ -15,6 +15,7 @@ use crate::field::snapshot::LiveSnapshot;
 use crate::hashes::{self, Hashes, Hashing};
 use crate::material::messages::{IMPLAUSIBLE, OTHER_UNITS};
 use crate::mesh::Mesh;
+use crate::mesh::messages::TINY_STEP;
 use crate::model::{self, Cadence, Model};
 use crate::monitor::RunMonitor;
 use crate::output::{Cells, Field, Frame, Shown, fields_of};
@@ -134,9 +135,9 @@ where
         within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
         simulation.model_warnings.extend(tiny::warnings(&simulation.system));
         simulation.model_warnings.extend(channel::warnings(model));
-        // Where materials are wrong the step is, too.
-        let is_of_materials = |warning: &Warning| [IMPLAUSIBLE.code, OTHER_UNITS.code].contains(&warning.kind.code);
-        if !simulation.model_warnings.iter().any(is_of_materials) {
+        // Where materials are wrong, or one element is, so is the step.
+        let says_why = |warning: &Warning| [&IMPLAUSIBLE, &OTHER_UNITS, &TINY_STEP].iter().any(|kind| warning.kind == *kind);
+        if !simulation.model_warnings.iter().any(says_why) {
             simulation.model_warnings.extend(few::warning(model, &simulation.system));
         }
         simulation.momentum = Momentum::new(&simulation.system);

@@ -24,7 +24,7 @@ fn bodies_that_overlap_at_the_start_are_refused_with_places_and_depths() {
     let found = model_faults(&overlapping(InitialPenetration::Error));
     assert!(found.iter().all(|fault| fault.path == "contact[0]" && fault.help.contains("push_out")), "{found:?}");
     assert_eq!(found.len(), 1, "one line");
-    let message = "\"lower-upper\": 3 nodes are up to 1.400e-2 m inside at the start, the deepest at (3.100000e-2, 8.600000e-2) m";
+    let message = "\"lower-upper\": 5 nodes are up to 1.400e-2 m inside at the start, the deepest at (3.100000e-2, 8.600000e-2) m";
     assert!(found[0].message.starts_with(message), "{found:?}");
 }
 
@@ -197,7 +197,7 @@ fn nodes_behind_an_obstacle_are_refused() {
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [0.0, 0.0]);
     model.obstacles.push(Obstacle::wall("wall", [0.0, 0.01], [0.0, 1.0]));
     let found = model_faults(&model);
-    assert_eq!(found.len(), 6, "{found:?}");
+    assert_eq!((found.len(), count_inside(&found[0].message)), (1, 6), "{found:?}");
     assert!(found[0].path == "obstacle[0]" && found[0].message.contains("1.000e-2 m inside"), "{found:?}");
 }
 
@@ -273,7 +273,8 @@ fn the_side_of_a_hole_knows_what_is_inside_as_the_whole_body_does() {
     };
     for radius in [0.01, 0.01005] {
         let (of_sides, of_parts) = (reported(&press_fit(true, TAU, radius)), reported(&press_fit(false, TAU, radius)));
-        assert!(of_parts.len() == 21 && of_sides == of_parts, "{radius}: {of_sides:?} {of_parts:?}");
+        let is_long = of_parts.len() == 1 && count_inside(&format!("{radius}: {}", of_parts[0])) > 20;
+        assert!(is_long && of_sides == of_parts, "{radius}: {of_sides:?} {of_parts:?}");
     }
     assert_eq!(reported(&press_fit(true, TAU, 0.00999)), Vec::<String>::new());
     // A half on its symmetry line, whose sides end there.

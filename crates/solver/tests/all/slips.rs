@@ -20,6 +20,7 @@ fn block(law: &str, numbers: &[(&str, f64)]) -> Model {
     model.materials.insert("soft".into(), Material { law: law.into(), parameters, ..Material::default() });
     add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.1], [5, 5]), [0.0, 0.0]);
     model.obstacles = vec![Obstacle::wall("floor", [0.0, -0.1], [0.0, 1.0])];
+    model.probes.clear();
     model
 }
 
@@ -93,8 +94,8 @@ fn the_borders_of_what_is_reported() {
     assert_eq!([count(20_000.0, 2.01e12), count(20_000.0, 1.99e12)], [1, 0]);
     // Heavy and soft: from 2500 kg/m^3 on below 20 m/s.
     assert_eq!([count(2501.0, 399.0 * 2501.0), count(2501.0, 401.0 * 2501.0), count(2499.0, 399.0 * 2499.0)], [1, 0, 0]);
-    // Waves of 25 km/s: (K + 4µ/3)/E is 1.346 at a Poisson's ratio of 0.3.
-    let limit = 25e3_f64.powi(2) / (0.7 / (1.3 * 0.4));
+    // Waves of 25 km/s along a bar.
+    let limit = 25e3_f64.powi(2);
     assert_eq!([count(50.0, 50.0 * limit * 1.001), count(50.0, 50.0 * limit * 0.999)], [1, 0]);
 }
 
@@ -200,7 +201,7 @@ fn a_model_beyond_all_sizes_is_reported() {
 #[test]
 fn a_run_of_a_few_steps_or_of_a_billion_is_reported() {
     let mut model = elastic_block(7850.0, 2.1e11);
-    let step = simulation(&model).overview().stable_time_step;
+    let step = model.run.safety * simulation(&model).overview().parts[0].stable_time_step;
     for (steps, is_reported) in [(0.3, true), (8.9, true), (9.1, false), (0.99e9, false), (1.01e9, true)] {
         model.run.end = steps * step;
         let found = of_kind(&model, "W0605");

@@ -44,7 +44,8 @@ struct Facts<'a> {
     /// Young's modulus of solids, the bulk modulus of fluids, Pa.
     modulus: f64,
     is_fluid: bool,
-    /// Speed of the fastest waves, m/s.
+    /// Speed √(E/ρ) of waves along a bar, of fluids √(K/ρ), m/s: that of waves in all directions has no limit
+    /// where volume hardly changes.
     wave: f64,
     /// The parameter that says the modulus.
     key: &'static str,
@@ -134,7 +135,7 @@ impl<'a> Facts<'a> {
         };
         let key = kind.parameters.iter().chain(own).find(is_modulus).map_or(DENSITY.name, |parameter| parameter.name);
         let modulus = if is_fluid { bulk } else { young_and_poisson([bulk, shear])[0] };
-        let wave = speed(density, bulk + 4.0 / 3.0 * shear);
+        let wave = speed(density, modulus);
         (density.is_finite() && modulus.is_finite() && wave.is_finite()).then_some(Self { name, it, density, modulus, is_fluid, wave, key })
     }
 
@@ -177,14 +178,13 @@ impl<'a> Facts<'a> {
     fn wrong_modulus(&self) -> Option<Wrong> {
         let (modulus, [low, high]) = (self.modulus, MODULI);
         let what = if self.is_fluid { "a bulk modulus" } else { "a Young's modulus" };
-        let bar = speed(self.density, modulus);
         let message = if modulus > high {
             format!("{what} of {} Pa is more than that of diamond", shown(modulus))
         } else if self.is_fluid {
             return None;
         } else if modulus < low {
             format!("{what} of {} Pa is less than that of any gel", shown(modulus))
-        } else if self.density > HEAVY && bar < SLOWEST {
+        } else if self.density > HEAVY && self.wave < SLOWEST {
             format!(
                 "{what} of {} Pa at a density of {} kg/m^3 is as soft as a gel and as heavy as stone",
                 shown(modulus),

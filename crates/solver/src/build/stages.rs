@@ -277,9 +277,9 @@ where
         if model.run.stable_step == StableStep::Assembled {
             system.bound_by_assembled_mesh();
         }
-        let spins: Vec<f64> = system.mesh.groups.iter().map(|group| model.parts[group.part].spin).collect();
+        let spins: Vec<[f64; 3]> = system.mesh.groups.iter().map(|group| model.parts[group.part].spin_vector()).collect();
         // The block of springs is beyond those of the mesh, and has no rotations.
-        system.find_rotations(|block| [0.0, 0.0, spins.get(block).copied().unwrap_or(0.0)]);
+        system.find_rotations(|block| spins.get(block).copied().unwrap_or_default());
         system.load_rotations(model);
         system.find_skins();
         system

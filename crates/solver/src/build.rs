@@ -145,8 +145,8 @@ where
     mass: Vec<f64>,
     /// Which elements are at which nodes; found when the first edge asks.
     node_elements: OnceCell<NodeElements>,
-    /// Wave modulus and bulk modulus of each group of elements, Pa.
-    moduli: Vec<[f64; 2]>,
+    /// Moduli of each group of elements, of waves, bulk and shear, Pa.
+    moduli: Vec<[f64; 3]>,
     /// First time step, s; only where a contact asks for it.
     time_step: f64,
     bodies: Bodies<D>,

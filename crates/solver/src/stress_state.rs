@@ -4,6 +4,35 @@
 //! Plane strain and plane stress count per metre of (initial) depth. An axisymmetric body has the radius x
 //! and the axis y, and all of the circumference 2πx is counted: forces in N, masses in kg, energies in J.
 
+use embate_lanes::Lane;
+
+/// Modulus ρc² of the fastest wave in a sheet in plane stress of an isotropic elastic body, Pa, from K and µ:
+/// λ* + 2µ with λ* = 2µλ/(λ + 2µ), which is E/(1 − ν²). It grows with both, and so bounds every body whose
+/// tangent is at most that of the elastic one: what is left of a tangent when the stress across vanishes (its
+/// Schur complement) grows with it.
+#[inline(always)]
+pub(crate) fn sheet_modulus<L: Lane>(bulk: L, shear: L) -> L {
+    let (three, four) = (L::splat(3.0) * bulk, L::splat(4.0) * shear);
+    four * (three + shear) / (three + four)
+}
+
+/// The same of a hyperelastic body, whose K and µ bound waves in the bulk: 4Kr/(K + r) with r = 4µ/3 where K
+/// is larger than r, else K + r. A third more than [`sheet_modulus`] at most (where nothing changes volume).
+///
+/// Across there is only H_zz = h. The energy of any h is a bound of that of the h without stress; with h = −s
+/// (a·n) the pressure, which drops out of waves in the bulk, does so again: σ_zz = 0 makes it the deviator's.
+/// With the principal values D_ij, G of `material/ogden.rs` (D_33 and G + |D_i3| at most r), J = 1:
+///
+/// ```text
+/// ρc² ≤ K (1 − s)² + r + 2 s r + s² r,   least at s = (K − r)/(K + r).
+/// ```
+#[inline(always)]
+pub(crate) fn rubber_sheet_modulus<L: Lane>(bulk: L, shear: L) -> L {
+    let rest = L::splat(4.0 / 3.0) * shear;
+    let (both, four) = (bulk + rest, L::splat(4.0));
+    L::select(rest.less(bulk), four * bulk * rest / both, both)
+}
+
 /// A stress state as the registry describes it.
 #[derive(Clone, Copy, Debug)]
 pub struct StressStateKind {

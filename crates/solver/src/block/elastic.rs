@@ -12,6 +12,7 @@ use super::store::ElementStore;
 use super::{Block, evaluate_at_rest};
 use crate::material::young_and_poisson;
 use crate::model::Material;
+use crate::stress_state::sheet_modulus;
 use crate::tensor::{Dim, Space};
 use embate_lanes::{BATCH, Level};
 
@@ -36,8 +37,8 @@ pub trait Elastic<const D: usize> {
     fn viscosity(&self) -> Option<[f64; 2]>;
     /// Whether there is other damping that lags behind the motion.
     fn damps(&self) -> bool;
-    /// Largest square of the stiffness against a displacement gradient over that against waves, K + 4µ/3: 3K
-    /// or 2µ, in the plane 2 (λ + µ); nine times that where dilatations are averaged over nodes.
+    /// Largest square of the stiffness against a displacement gradient over that against waves, M: 3K or 2µ,
+    /// in the plane 2 (M − µ); nine times that where dilatations are averaged over nodes.
     fn spread(&self) -> f64;
     /// Whether dilatations are averaged over nodes: what is left of them may be stiffer without some
     /// elements.
@@ -128,10 +129,11 @@ where
     fn spread(&self) -> f64 {
         let [bulk, shear] = self.law.stiffness();
         let state = self.facts().state.of::<D>();
-        let dilating = if D == 2 && !state.is_axisymmetric { 2.0 * bulk + shear * (2.0 / 3.0) } else { 3.0 * bulk };
+        let waves = if state.is_plane_stress { sheet_modulus(bulk, shear) } else { bulk + shear * (4.0 / 3.0) };
+        let dilating = if D == 2 && !state.is_axisymmetric { 2.0 * (waves - shear) } else { 3.0 * bulk };
         // Weights of means over nodes change with all elements there.
         let averaged = if self.facts().averages_at_nodes { 9.0 } else { 1.0 };
-        averaged * f64::max(dilating, 2.0 * shear) / (bulk + shear * (4.0 / 3.0))
+        averaged * f64::max(dilating, 2.0 * shear) / waves
     }
 
     fn averages_at_nodes(&self) -> bool {

@@ -6,11 +6,16 @@
 //! strain. In axisymmetric bodies every term carries 2πx_p, and the hoop stress adds Σ_p 2π w_p σ_zz det J_p
 //! N_a to the radial force.
 //!
+//! Stable step: dt = h √(ρ/M) with the modulus M = K + 4µ/3 of waves in the bulk; in plane stress that of a
+//! sheet, E/(1 − ν²) ([`sheet_modulus`], of rubber [`rubber_sheet_modulus`]).
+//!
 //! Bulk viscosity: a pressure q = ρ l (Q² l ε̇² + L c |ε̇|) where the volume shrinks (ε̇ < 0), with l² the
-//! element's area, c² = (K + 4µ/3)/ρ; the stable step shrinks by √(1 + ζ²) − ζ = 1 / (√(1 + ζ²) + ζ),
-//! ζ = (L + 2 Q² l |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode
-//! (ω = 2c/h) see: dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). Source: von Neumann and Richtmyer, J. Appl. Phys. 21
-//! (1950) 232-237; Landshoff, LA-1930 (1955).
+//! element's area, c² = M/ρ; the stable step shrinks by √(1 + ζ²) − ζ = 1 / (√(1 + ζ²) + ζ), ζ = (L + 2 Q² l
+//! |ε̇| / c) l / h, the part of the critical damping that small motions of the fastest mode (ω = 2c/h) see:
+//! dq/dε̇ = ρ l c (L + 2 Q² l |ε̇| / c). The linear part shortens the step of what grows, too: a step that is
+//! cut when its fastest mode turns round changes the energy of that mode by ω² (dt² − dt_old²)/4 of what it
+//! stores. For the same reason the rate at time zero is that of the velocities there. Source: von Neumann and
+//! Richtmyer, J. Appl. Phys. 21 (1950) 232-237; Landshoff, LA-1930 (1955).
 
 use super::Report;
 use super::batch::{ElementBatch, Resistance};
@@ -22,6 +27,7 @@ use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
 use crate::material::Family;
 use crate::material::points::RESPONSE;
 use crate::reductions;
+use crate::stress_state::{rubber_sheet_modulus, sheet_modulus};
 use crate::tensor::{Dim, Space, SymmetricTensor, product, scaled};
 use embate_lanes::{Batch, Indices, Lane, math};
 use std::f64::consts::TAU;
@@ -35,6 +41,8 @@ pub(super) struct Forces<'a, const D: usize> {
     pub(super) is_solid: bool,
     /// Whether bulk and shear stiffness are those of an isotropic elastic body.
     pub(super) is_elastic: bool,
+    /// See [`crate::material::points::PointLaw::least_sheet_modulus`].
+    pub(super) least_sheet_modulus: f64,
     pub(super) time_step: f64,
     /// Coefficients L and Q of the bulk viscosity; none: no work is done for it.
     pub(super) viscosity: Option<[f64; 2]>,
@@ -159,6 +167,7 @@ where
         let geometry = self.geometry::<L>(batch, at);
         // Sums begin with -0: the first addition is none.
         let (mut stored, mut dissipated, mut modulus, mut shear) = (L::splat(-0.0), L::splat(-0.0), zero, zero);
+        let mut bulk_waves = zero;
         let mut shear_least = L::splat(f64::INFINITY);
         for p in 0..P {
             let point = batch * P + p;
@@ -173,8 +182,17 @@ where
                 }
             };
             dissipated += L::load(&response[1], at) * current;
-            let own = L::load(&response[3], at);
-            modulus = modulus.max(L::load(&response[2], at) + own * L::splat(4.0 / 3.0));
+            let (bulk, own) = (L::load(&response[2], at), L::load(&response[3], at));
+            let mut waves = bulk + own * L::splat(4.0 / 3.0);
+            if S::STATE.is_plane_stress {
+                bulk_waves = bulk_waves.max(waves);
+                let sheet = match self.input.family {
+                    Family::Rate => sheet_modulus(bulk, own),
+                    Family::Hyperelastic => rubber_sheet_modulus(bulk, own),
+                };
+                waves = sheet.max(L::splat(self.input.least_sheet_modulus)).min(waves);
+            }
+            modulus = modulus.max(waves);
             shear = shear.max(own);
             shear_least = shear_least.min(own);
         }
@@ -201,7 +219,13 @@ where
         }
         let mut held = Held { forces: [[zero; D]; N], flux: [[zero; D]; D], pulls: Pulls::none(), work: zero, stiffening };
         if E::HOURGLASS > 0 {
-            held = self.hourglass_forces(batch, at, &geometry, [modulus, shear, mass], [characteristic_length_squared, dilating_squared]);
+            held = self.hourglass_forces(
+                batch,
+                at,
+                &geometry,
+                [modulus, bulk_waves, shear, mass],
+                [characteristic_length_squared, dilating_squared],
+            );
             stiffening = if D == 2 { stiffening.max(held.stiffening) } else { stiffening * held.stiffening };
         }
         let mut nodal = self.nodal(batch, at, &geometry, pressure, &held);
@@ -212,7 +236,7 @@ where
                 }
             }
         }
-        // dt² = h² ρ / (K + 4µ/3) with ρ = m / V, as if all corners were as heavy as the lightest
+        // dt² = h² ρ / M with ρ = m / V, as if all corners were as heavy as the lightest
         let time_step_squared =
             characteristic_length_squared[0] * mass / (characteristic_length_squared[1] * (geometry.volume * modulus) * stiffening);
         let time_step_squared = step_squared(time_step_squared, self.input.damping);
@@ -412,23 +436,28 @@ where
     ) -> (L, L) {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let is_plane_stress = S::STATE.is_plane_stress;
-        let element = &mut self.input.resistance[batch];
-        let (old, live) = (L::load(&element.volume, at), L::load(&self.input.elements[batch].live, at));
+        let (old, live) = (L::load(&self.input.resistance[batch].volume, at), L::load(&self.input.elements[batch].live, at));
         let (size, depth) = if is_plane_stress { (geometry.area, geometry.volume / geometry.area) } else { (geometry.volume, one) };
-        let change = size - old;
-        let shrinks = change.less(zero);
+        let half = L::splat(0.5);
+        let (change, rate) = if self.input.time_step > 0.0 {
+            (size - old, (size - old) / ((size + old) * half * L::splat(self.input.time_step)))
+        } else {
+            (zero, self.growth_at_start(batch, at, geometry) / size)
+        };
+        let (shrinks, rate) = (rate.less(zero), rate.abs());
+        let element = &mut self.input.resistance[batch];
         let density = L::load(&element.mass, at) / geometry.volume;
         let length = if D == 2 { geometry.area.sqrt() } else { math::cbrt(geometry.volume) };
         let speed = (modulus / density).sqrt();
-        let dt = L::splat(if self.input.time_step > 0.0 { self.input.time_step } else { f64::INFINITY });
-        let rate = (change / ((size + old) * L::splat(0.5) * dt)).abs();
         let [linear, growing] = [L::splat(linear), L::splat(quadratic * quadratic) * length * rate / speed];
         let pressure = L::select(shrinks, density * length * speed * rate * (linear + growing), zero);
         let pressure = if is_plane_stress { pressure * depth } else { pressure };
         let coefficient = L::select(shrinks, linear + growing + growing, zero) * live;
         let largest = &mut self.input.sums.viscosity;
         coefficient.max(L::load(largest, at)).store(largest, at);
-        let damping = (linear + growing + growing) * length * (characteristic_length_squared[1] / characteristic_length_squared[0]).sqrt();
+        let damping = (linear + L::select(shrinks, growing + growing, zero))
+            * length
+            * (characteristic_length_squared[1] / characteristic_length_squared[0]).sqrt();
         // ζ = (…) l h / h₀² with the thickness h₀ of what dilates alone: the damping is that of the
         // dilatation.
         let damping = if D == 2 {
@@ -436,15 +465,44 @@ where
         } else {
             damping * (characteristic_length_squared[0] * dilating_squared[1] / (characteristic_length_squared[1] * dilating_squared[0]))
         };
-        let damping = L::select(shrinks, damping, zero);
         let stiffening = (one + damping * damping).sqrt() + damping;
         // Trapezoidal rule, as the nodal works of the ledger.
-        let work = -(change * (pressure + L::load(&element.viscous_pressure, at)) * L::splat(0.5)) * live;
+        let work = -(change * (pressure + L::load(&element.viscous_pressure, at)) * half) * live;
         pressure.store(&mut element.viscous_pressure, at);
         size.store(&mut element.volume, at);
         work.store(&mut element.viscous_step, at);
         (L::load(&element.viscous, at) + work).store(&mut element.viscous, at);
         (pressure, stiffening * stiffening)
+    }
+
+    /// Rate of the volume, in plane stress of the area, at time zero, from the velocities there, m²/s (m³/s).
+    #[inline(always)]
+    fn growth_at_start<L: Lane>(&self, batch: usize, at: usize, geometry: &Geometry<L, D, N, P>) -> L {
+        let row = (self.input.first + batch) * N;
+        let mut v = [[L::splat(0.0); D]; N];
+        if D == 2 {
+            for a in 0..N {
+                [_, v[a]] = L::gather(&self.input.strip.moving, self.input.places, row + a, at);
+            }
+        } else {
+            v = L::gather_one::<D, N, true>(&self.input.strip.moving, self.input.places, row, at);
+        }
+        let v = E::natural(&v);
+        let (rates, warp) = (E::gradients(&v), E::warp(&v));
+        let Map { adjugates, warped, determinants } = &geometry.map;
+        let mut growth = L::splat(-0.0);
+        for p in 0..P {
+            let (flat, more) = (product(&rates[p], &adjugates[p]), product(&warp, warped));
+            let mut own = L::splat(-0.0);
+            for i in 0..D {
+                own += if E::WARPED { flat[i][i] + more[i][i] } else { flat[i][i] };
+            }
+            if S::STATE.is_axisymmetric {
+                own = own * geometry.depth[p] + determinants[p] * circumference(&v, &E::shape(E::POINTS[p]));
+            }
+            growth += own * L::splat(E::WEIGHTS[p]);
+        }
+        growth
     }
 
     /// Forces of hourglass control, whose work is entered.
@@ -454,10 +512,9 @@ where
         batch: usize,
         at: usize,
         geometry: &Geometry<L, D, N, P>,
-        [modulus, shear, mass]: [L; 3],
+        [modulus, bulk_waves, shear, mass]: [L; 4],
         [characteristic_length_squared, dilating_squared]: [[L; 2]; 2],
     ) -> Held<L, D, N> {
-        let is_plane_stress = S::STATE.is_plane_stress;
         let own = batch * E::HOURGLASS..(batch + 1) * E::HOURGLASS;
         let (changes, keep) = (&self.input.strip.hourglass_rates[own.clone()], &mut self.input.hourglass[own]);
         let mut hourglass_rates = [[L::splat(0.0); D]; PATTERNS];
@@ -477,11 +534,15 @@ where
             volume: geometry.volume,
             modulus,
             shear,
+            contraction: if S::STATE.is_plane_stress {
+                (bulk_waves - shear - shear) / (L::splat(2.0) * (bulk_waves - shear))
+            } else {
+                (modulus - shear - shear) / modulus
+            },
             shape_modulus,
             mass,
             rate: L::splat(if self.input.time_step > 0.0 { 1.0 / self.input.time_step } else { 0.0 }),
             is_start: self.input.time_step <= 0.0,
-            is_plane_stress,
         };
         let held = self.element.hourglass_forces(&corners, keep, at);
         let element = &mut self.input.elements[batch];

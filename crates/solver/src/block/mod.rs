@@ -276,13 +276,18 @@ pub trait Block<const D: usize>: Send + Sync {
     }
     /// The law of its points; springs have none.
     fn law(&self) -> Option<&dyn PointLaw>;
-    /// P-wave modulus K + 4µ/3 at rest, Pa: stiffness of the material under a contact surface.
+    /// P-wave modulus K + 4µ/3 at rest, of solids in plane stress that of a sheet, Pa: stiffness of the
+    /// material under a contact surface.
     fn wave_modulus(&self) -> f64 {
         self.law().map(PointLaw::stiffness).map_or(0.0, |[bulk, shear]| bulk + 4.0 / 3.0 * shear)
     }
     /// Bulk modulus K at rest, Pa.
     fn bulk_modulus(&self) -> f64 {
         self.law().map_or(0.0, |law| law.stiffness()[0])
+    }
+    /// Shear modulus µ at rest, Pa: with the density the speed of shear waves.
+    fn shear_modulus(&self) -> f64 {
+        0.75 * (self.wave_modulus() - self.bulk_modulus())
     }
     /// Where a variable is among [`ElementState::variables`]; `None`: the law has none such.
     fn index_of(&self, variable: &Variable) -> Option<usize> {

@@ -280,7 +280,7 @@ where
         let Facts { components, weight: of_point, .. } = *kernel.facts();
         let (viscosity, all_stress, all_history) = (self.viscosity, &self.stress, &self.history);
         let (damping, all_damped) = (self.damping, &self.damped);
-        let is_elastic = self.law.is_elastic();
+        let (is_elastic, least_sheet_modulus) = (self.law.is_elastic(), self.law.least_sheet_modulus());
         let (means, places) = (&nodal.mean, &self.nodes.places);
         let (keeps_forces, kept) = (self.keeps_forces, chunk(self.kept_width()));
         let (resists, resistance) = (self.resists(), chunk(self.resistance_width()));
@@ -325,6 +325,7 @@ where
                 family,
                 is_solid: true,
                 is_elastic,
+                least_sheet_modulus,
                 time_step,
                 viscosity,
                 damping,

@@ -41,6 +41,7 @@ use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::material::points::{PointLaw, RESPONSE, Scratch};
 use crate::material::variable::PLASTIC_STRAIN;
 use crate::material::{Family, young_and_poisson};
+use crate::stress_state::{rubber_sheet_modulus, sheet_modulus};
 use crate::tensor::{Dim, Space, SymmetricTensor, Turn};
 use crate::vector::{plus, times};
 use embate_lanes::{BATCH, Batch, Indices, Lane, Moving, VectorSums};
@@ -156,15 +157,18 @@ impl Facts {
         if self.is_constant {
             return L::splat(self.moduli[0]);
         }
-        let three = L::splat(3.0);
         if !self.is_isotropic {
             return bulk + L::splat(4.0 / 3.0) * shear;
         }
-        let both = three * bulk + shear;
-        if self.is_plane_stress {
-            L::splat(9.0) * bulk * shear / both
-        } else {
-            L::splat(4.0) * shear * both / (three * bulk + L::splat(4.0) * shear)
+        if self.is_plane_stress { L::splat(9.0) * bulk * shear / (L::splat(3.0) * bulk + shear) } else { sheet_modulus(bulk, shear) }
+    }
+
+    /// Bound of [`Facts::membrane_modulus`] that stretched rubber stays below too.
+    #[inline(always)]
+    fn membrane_bound<L: Lane>(&self, bulk: L, shear: L) -> L {
+        match self.family {
+            Family::Hyperelastic if !self.is_plane_stress => rubber_sheet_modulus(bulk, shear),
+            _ => self.membrane_modulus(bulk, shear),
         }
     }
 

@@ -22,6 +22,7 @@ use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::failure::Criterion;
 use crate::material::points::{PointLaw, Points, RESPONSE};
 use crate::material::{Family, Parameters};
+use crate::stress_state::sheet_modulus;
 use crate::tensor::{Dim, Space};
 use embate_lanes::{BATCH, Batch, Chunks, Level, Team};
 use std::sync::{Mutex, PoisonError};
@@ -355,6 +356,7 @@ where
                 family: measures.family,
                 is_solid: common.law.stiffness()[1] > 0.0,
                 is_elastic: common.law.is_elastic(),
+                least_sheet_modulus: common.law.least_sheet_modulus(),
                 time_step,
                 viscosity: common.viscosity,
                 damping: common.damping,
@@ -562,6 +564,21 @@ where
 
     fn law(&self) -> Option<&dyn PointLaw> {
         Some(self.law.as_ref())
+    }
+
+    fn wave_modulus(&self) -> f64 {
+        let [bulk, shear] = self.law.stiffness();
+        let waves = bulk + 4.0 / 3.0 * shear;
+        if self.facts().state.of::<D>().is_plane_stress {
+            sheet_modulus(bulk, shear).max(self.law.least_sheet_modulus()).min(waves)
+        } else {
+            waves
+        }
+    }
+
+    fn shear_modulus(&self) -> f64 {
+        let [bulk, shear] = self.law.stiffness();
+        if self.facts().state.of::<D>().is_plane_stress { shear } else { 0.75 * (self.wave_modulus() - bulk) }
     }
 
     fn scale_mass(&mut self, element: usize, factor: f64) {

@@ -47,9 +47,11 @@ where
         minus(x, self.centre)
     }
 
-    /// Velocity of a point of a part that flies and spins about this centre, m/s.
+    /// Velocity of a point of a part that flies, spins about this centre (or another) and goes apart, m/s.
     pub(super) fn velocity(&self, part: &Part, x: [f64; D]) -> [f64; D] {
-        plus(of_model(part.velocity), <Dim<D>>::spin_velocity([0.0, 0.0, part.spin], self.arm(x)))
+        let arm = part.spin_centre.map_or_else(|| self.arm(x), |centre| minus(x, of_model(centre)));
+        let velocity = plus(of_model(part.velocity), <Dim<D>>::spin_velocity(part.spin_vector(), arm));
+        part.radial_velocity.map_or(velocity, |radial| plus(velocity, radial.at(x)))
     }
 }
 

@@ -81,6 +81,6 @@ fn for_all_or(model: &Model, name: &str) -> bool {
 /// equations of state an energy.
 fn acts_by_itself(model: &Model, part: &Part) -> bool {
     let has_pressure = model.materials.get(&part.material).is_none_or(|it| !it.eos.is_empty());
-    let moves = part.velocity != [0.0; 3] || part.spin != 0.0;
+    let moves = part.velocity != [0.0; 3] || part.spin != 0.0 || part.radial_velocity.is_some();
     moves || part.rigid.is_some() || part.stress_initial.is_some() || part.temperature_initial.is_some() || has_pressure
 }

@@ -18,7 +18,7 @@ use std::mem::take;
 pub(super) struct RebuildSource<const D: usize> {
     pub(super) model: Model,
     pub(super) node_elements: NodeElements,
-    pub(super) moduli: Vec<[f64; 2]>,
+    pub(super) moduli: Vec<[f64; 3]>,
     pub(super) time_step: f64,
     /// Initial positions of all nodes, m.
     pub(super) positions: Vec<[f64; D]>,

@@ -17,9 +17,10 @@ impl Builder<'_, 3> {
         let bulk = Bulk::of(&whole, positions);
         let drives = self.drives_in_3d(motion);
         let [u, v, w] = Bulk::of(own, positions).velocity(part, bulk.centre);
+        let [around_x, around_y, around_z] = part.spin_vector();
         Body {
             centre: bulk.centre,
-            velocity: [u, v, w, 0.0, 0.0, part.spin],
+            velocity: [u, v, w, around_x, around_y, around_z],
             mass: std::array::from_fn(|k| if k < 3 && drives[k].is_none() { bulk.mass } else { 0.0 }),
             turning: Turning::of_masses(whole.iter().map(|&(node, mass)| (mass, bulk.arm(positions[node as usize])))),
             drives,

@@ -277,9 +277,9 @@ where
         if model.run.stable_step == StableStep::Assembled {
             system.bound_by_assembled_mesh();
         }
-        let spins: Vec<f64> = system.mesh.groups.iter().map(|group| model.parts[group.part].spin).collect();
+        let spins: Vec<[f64; 3]> = system.mesh.groups.iter().map(|group| model.parts[group.part].spin_vector()).collect();
         // The block of springs is beyond those of the mesh, and has no rotations.
-        system.find_rotations(|block| [0.0, 0.0, spins.get(block).copied().unwrap_or(0.0)]);
+        system.find_rotations(|block| spins.get(block).copied().unwrap_or_default());
         system.load_rotations(model);
         system.find_skins();
         system
@@ -358,7 +358,7 @@ where
     /// What the stiffness of contacts is made from beyond the elements behind their surfaces: moduli and the
     /// first step.
     fn measure_stiffness(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) {
-        self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus()]).collect();
+        self.moduli = blocks.iter().map(|block| [block.wave_modulus(), block.bulk_modulus(), block.shear_modulus()]).collect();
         let interfaces = self.model.contacts.iter().map(|c| &c.interface).chain(self.model.obstacles.iter().map(|o| &o.interface));
         let is_asked = interfaces.into_iter().any(|interface| source_of(interface) == PenaltySource::TimeStep);
         // Springs of the automatic penalty between bodies stiffen by it, too.
@@ -391,7 +391,8 @@ where
             let under = self.under(facet)?;
             let part = &self.model.parts[self.mesh.groups[under.group].part];
             let density = *self.model.materials.get(&part.material)?.parameters.get("density")?;
-            Some(Behind { density, moduli: self.moduli[under.group] })
+            let [wave, _, shear] = self.moduli[under.group];
+            Some(Behind { density, moduli: [wave, shear] })
         };
         let boundary = NonReflecting::new(self.model, &self.mesh, |facet| self.constraints.is_mirror(facet), behind);
         let mut faults = Vec::new();

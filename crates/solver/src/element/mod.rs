@@ -263,11 +263,13 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub area: L,
     /// Volume: area times depth, m² (m³).
     pub volume: L,
-    /// K + 4µ/3, Pa.
+    /// M: K + 4µ/3, in plane stress E/(1 − ν²), Pa.
     pub modulus: L,
     /// µ, Pa.
     pub shear: L,
-    /// Against hourglass shapes: K + 4µ/3, of solids at most 4µ, Pa.
+    /// ν̄ = ν/(1 − ν), in plane stress ν.
+    pub contraction: L,
+    /// Against hourglass shapes: M, of solids at most 4µ, Pa.
     pub shape_modulus: L,
     /// Mass in the stable step, kg/m (kg).
     pub mass: L,
@@ -275,8 +277,6 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub rate: L,
     /// Whether there was none: these are the positions at time zero.
     pub is_start: bool,
-    /// Whether there is no stress normal to the plane.
-    pub is_plane_stress: bool,
 }
 
 /// What hourglass control answers.

@@ -6,8 +6,8 @@
 //! at the centre: γ is blind to constant and linear fields on any quadrilateral. Nodes feel the forces
 //! f_a = ¼ γ_a Q, whose power is Q·q̇. q̇ is taken at mid-step and Q turns with the step's rotation (Hughes
 //! and Winget's, of the point), so rigid motion changes nothing; both are done while the point is strained,
-//! stiffnesses are of the end of the step. M = K + 4µ/3, V the volume, h² the square of the thickness, m the
-//! mass:
+//! stiffnesses are of the end of the step. M = K + 4µ/3, in plane stress E/(1 − ν²), V the volume, h² the
+//! square of the thickness, m the mass:
 //!
 //! - `stiffness`: Q̇ = κ k₁ q̇, k₁ = 2 M' V / h². With κ = 1 and M' = M the pattern swings as fast as the
 //!   stretch of a square. Keeps shapes. The source takes M' = M; here it is at most 4µ (M at ν = 1/3, what
@@ -205,9 +205,7 @@ struct Answer<L> {
 #[inline(always)]
 fn potential<L: Lane>(coefficient: L, corners: &Corners<L, 2, 4>, start: &Differences<L>, inverse: L) -> [L; POTENTIAL] {
     let (one, two) = (L::splat(1.0), L::splat(2.0));
-    let Corners { modulus, shear, volume, .. } = *corners;
-    // ν = (M − 2µ) / 2(M − µ), ν/(1 − ν) = (M − 2µ) / M
-    let poisson = (modulus - two * shear) / if corners.is_plane_stress { two * (modulus - shear) } else { modulus };
+    let Corners { contraction: poisson, shear, volume, .. } = *corners;
     let young = two * shear * (one + poisson);
     let along = start.along();
     let scale = one / (along[0] * along[0] + along[1] * along[1]).sqrt();

@@ -1,7 +1,9 @@
 //! Boundaries that reflect nothing: dashpots on a surface that take a plane wave up as if the body continued
 //! (Lysmer and Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969) 859-877).
 //!
-//! traction t = −ρ c_p (v·n) n − ρ c_s (v − (v·n) n),   c_p² = (K + 4µ/3)/ρ,   c_s² = µ/ρ
+//! traction t = −ρ c_p (v·n) n − ρ c_s (v − (v·n) n),   c_p² = M/ρ,   c_s² = µ/ρ
+//!
+//! with M = K + 4µ/3, in plane stress E/(1 − ν²),
 //!
 //! on the tributary length (in 3D: area) of each node, normals and sizes as they are at the start. With C
 //! the sum over a node's pieces of the surface, the force −C v̄ acts on the mean velocity of the update,
@@ -22,7 +24,7 @@ use crate::tensor::Dim;
 pub struct Behind {
     /// Density, kg/m³.
     pub density: f64,
-    /// Wave modulus and bulk modulus, Pa.
+    /// Moduli ρc² of pressure and shear waves, Pa.
     pub moduli: [f64; 2],
 }
 
@@ -61,8 +63,8 @@ where
 
     fn add(&mut self, facets: &[Facet<D>], mesh: &Mesh<D>, depth: Depth, behind: &impl Fn(Facet<D>) -> Option<Behind>) {
         for &facet in facets {
-            let Some(Behind { density, moduli: [wave, bulk] }) = behind(facet) else { continue };
-            let (along, across) = ((density * 0.75 * (wave - bulk)).max(0.0).sqrt(), (density * wave).sqrt());
+            let Some(Behind { density, moduli: [wave, shear] }) = behind(facet) else { continue };
+            let (along, across) = ((density * shear).max(0.0).sqrt(), (density * wave).sqrt());
             let matrix = Dim::<D>::resistance(facet, &mesh.positions, along, across);
             for (node, share) in tributary::shares(depth, facet, &mesh.positions) {
                 let sum = &mut self.dashpots[node as usize];

@@ -219,6 +219,12 @@ pub trait Law: Copy + Send + Sync + 'static {
     /// Bulk and shear stiffness at rest, Pa.
     fn stiffness(&self) -> [f64; 2];
 
+    /// Of a law whose K and µ are not those of an isotropic body: bound of the modulus ρc² of waves in the
+    /// plane 12 where nothing holds across, Pa.
+    fn sheet_modulus(&self) -> f64 {
+        0.0
+    }
+
     /// Rate: elastic energy ½ σ:C⁻¹:σ of a stress xx yy zz xy yz zx that a point has at the start, J/m³.
     fn energy(&self, stress: [f64; 6]) -> f64 {
         elastic_energy(self.stiffness(), stress)

@@ -14,7 +14,8 @@
 //! Stiffness for the stable step: with y_i = a_i n_i, ρc² = Σ_ij C_ij y_i y_j + Σ_{i<j} G_ij (a_i² n_j² +
 //! a_j² n_i² + 2 y_i y_j) is at most max(C_ii, G + |C_ij + G_ij|), G the largest G_ij, since Σ_{i≠j} a_i²
 //! n_j² = 1 − Σ y_i² and Σ |y_i| ≤ 1. Reported as Voigt's bulk modulus Σ C_ij / 9 and the shear modulus that
-//! completes the bound; both are those of the isotropic law where the material is isotropic.
+//! completes the bound; both are those of the isotropic law where the material is isotropic. In plane stress
+//! the same with Q_ij = C_ij − C_i3 C_j3 / C_33 and G₁₂ alone: max(Q₁₁, Q₂₂, G₁₂ + |Q₁₂ + G₁₂|).
 
 use super::{DENSITY, Family, Kinematics, Law, LawKind, Orientation, ParameterFault, Parameters, Response};
 use crate::angle::cos_sin;
@@ -176,6 +177,12 @@ impl Law for OrthotropicElastic {
 
     fn stiffness(&self) -> [f64; 2] {
         self.reported
+    }
+
+    fn sheet_modulus(&self) -> f64 {
+        let (c, shear) = (&self.normal, self.shear[0]);
+        let reduced = |i: usize, j: usize| c[i][j] - c[i][2] * c[j][2] / c[2][2];
+        reduced(0, 0).max(reduced(1, 1)).max(shear + (reduced(0, 1) + shear).abs())
     }
 
     fn energy(&self, stress: [f64; 6]) -> f64 {

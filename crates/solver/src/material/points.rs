@@ -82,6 +82,11 @@ pub trait PointLaw: Send + Sync {
     fn has_constant_stiffness(&self) -> bool {
         false
     }
+    /// Least modulus of waves in plane stress, Pa, where it may be more than K and µ, taken as those of an
+    /// isotropic body, say; of what bears no shear at rest infinite: it is that of waves in the bulk.
+    fn least_sheet_modulus(&self) -> f64 {
+        f64::INFINITY
+    }
     /// Energy stored at the start per initial volume, J/m³: of an equation of state.
     fn stored(&self) -> f64 {
         0.0
@@ -212,6 +217,9 @@ where
     }
     fn is_stiffest_at_rest(&self) -> bool {
         self.is_elastic() && self.law.stiffness()[1] > 0.0
+    }
+    fn least_sheet_modulus(&self) -> f64 {
+        if self.law.stiffness()[1] > 0.0 { self.law.sheet_modulus() } else { f64::INFINITY }
     }
     fn energy(&self, stress: [f64; 6]) -> f64 {
         self.law.energy(stress)

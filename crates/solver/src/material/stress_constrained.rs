@@ -67,9 +67,9 @@ impl StressConstrained {
         self.across.len() > 1
     }
 
-    /// Whether nothing has to be searched for.
+    /// Whether nothing has to be searched for. Plane stress is a layer without shear across.
     fn knows_itself(&self) -> bool {
-        (self.is_sheared && self.law.has_layer()) || (self.uniaxial_stress() && self.law.has_fibre())
+        if self.uniaxial_stress() { self.law.has_fibre() } else { self.law.has_layer() }
     }
 
     /// Δε across (or λ) to begin with: what an elastic law needs, to the last digits (or the last λ).
@@ -210,6 +210,9 @@ impl PointLaw for StressConstrained {
     fn is_stiffest_at_rest(&self) -> bool {
         self.law.is_stiffest_at_rest()
     }
+    fn least_sheet_modulus(&self) -> f64 {
+        self.law.least_sheet_modulus()
+    }
     fn stored(&self) -> f64 {
         self.law.stored()
     }
@@ -234,12 +237,12 @@ impl PointLaw for StressConstrained {
     }
 
     fn respond(&self, level: Level, points: Points<'_>) {
-        if self.is_sheared && self.law.has_layer() {
-            self.law.respond_layer(level, self.across[0], points);
-        } else if self.uniaxial_stress() && self.law.has_fibre() {
+        if !self.knows_itself() {
+            self.search(level, points);
+        } else if self.uniaxial_stress() {
             self.law.respond_fibre(level, points);
         } else {
-            self.search(level, points);
+            self.law.respond_layer(level, self.across[0], points);
         }
     }
 }
@@ -334,7 +337,9 @@ impl StressConstrained {
 mod tests {
     use super::*;
     use crate::material::points::{Scratch, of};
+    use crate::material::young_and_poisson;
     use crate::model::Material;
+    use crate::stress_state::rubber_sheet_modulus;
 
     /// A number between -1 and 1.
     fn random(state: &mut u64) -> f64 {
@@ -405,7 +410,94 @@ mod tests {
                 .for_each(|(name, value)| number(&mut material, name, *value));
             compare(&material, &StressConstrained::layer_in_3d(of::<3>(&material).unwrap()), 5);
             compare(&material, &StressConstrained::layer(of::<2>(&material).unwrap()), 7);
+            compare(&material, &StressConstrained::plane_stress(of::<2>(&material).unwrap()), 11);
             compare(&material, &StressConstrained::uniaxial(of::<2>(&material).unwrap()), 9);
+        }
+    }
+
+    /// Energy per initial volume, K, µ, and the thickness ratio of sheets with those gradients [xx, xy, yx,
+    /// yy].
+    fn sheet(law: &StressConstrained, gradients: &[[f64; 4]; BATCH]) -> [[f64; 4]; BATCH] {
+        let batch = |of: &dyn Fn([f64; 4]) -> f64| Batch(gradients.map(of));
+        let strain = [
+            batch(&|[a, b, ..]| a * a + b * b),
+            batch(&|[.., c, d]| c * c + d * d),
+            Batch::default(),
+            batch(&|[a, b, c, d]| a * c + b * d),
+        ];
+        let mut state = vec![Batch::default(); law.state_width()];
+        law.start(&mut state);
+        let mut response = [Batch::default(); RESPONSE];
+        let points = Points {
+            time_step: 1.0,
+            strain: &strain,
+            rotation: &[],
+            volume_ratio: &[batch(&|[a, b, c, d]| a * d - b * c)],
+            viscous_heat: &[],
+            stress: &mut [Batch::default(); PLANE],
+            state: &mut state,
+            response: &mut response,
+            scratch: &mut Scratch::default(),
+        };
+        law.respond(Level::SCALAR, points);
+        std::array::from_fn(|k| [response[0].0[k], response[2].0[k], response[3].0[k], state[law.state_width() - 1].0[k]])
+    }
+
+    #[test]
+    fn no_wave_in_a_stretched_sheet_of_rubber_is_faster_than_its_stiffnesses_say() {
+        let rubber = |law: &str, numbers: &[(&str, f64)], lists: &[(&str, &[f64])]| Material {
+            law: law.into(),
+            parameters: [("density", 1.0)].iter().chain(numbers).map(|&(name, value)| (name.into(), value)).collect(),
+            lists: lists.iter().map(|&(name, list)| (name.into(), list.to_vec())).collect(),
+            ..Material::default()
+        };
+        let mut numbers = 3;
+        for bulk in [0.5, 2.0, 30.0, 3000.0] {
+            let young_and_poisson = young_and_poisson([bulk, 1.0]);
+            for material in [
+                rubber("neo_hookean", &[("young", young_and_poisson[0]), ("poisson", young_and_poisson[1])], &[]),
+                rubber("mooney_rivlin", &[("c10", 0.3), ("c01", 0.2), ("bulk", bulk)], &[]),
+                rubber("mooney_rivlin", &[("c10", 0.01), ("c01", 0.49), ("bulk", bulk)], &[]),
+                rubber("yeoh", &[("c10", 0.5), ("c20", -0.05), ("c30", 0.02), ("bulk", bulk)], &[]),
+                rubber("arruda_boyce", &[("shear", 1.0), ("locking_stretch", 2.5), ("bulk", bulk)], &[]),
+                rubber("ogden", &[("bulk", bulk)], &[("mu", &[0.8, 0.01, -0.05]), ("alpha", &[1.3, 6.0, -3.0])]),
+                rubber("yeoh", &[("c10", 0.05), ("c30", 0.2), ("bulk", bulk)], &[]),
+                rubber("ogden", &[("bulk", bulk)], &[("mu", &[0.25]), ("alpha", &[8.0])]),
+                rubber("ogden", &[("bulk", bulk)], &[("mu", &[-0.25]), ("alpha", &[-8.0])]),
+                rubber("ogden", &[("bulk", bulk)], &[("mu", &[4.0]), ("alpha", &[0.5])]),
+            ] {
+                let law = StressConstrained::plane_stress(of::<2>(&material).unwrap());
+                let (mut worst, mut at_rest) = (0.0f64, 0.0f64);
+                for round in 0..400 {
+                    let mut turned = |size: f64| {
+                        let (s, c) = (3.0 * random(&mut numbers)).sin_cos();
+                        let [a, b] = [random(&mut numbers), random(&mut numbers)].map(|x| (size * x).exp());
+                        [c * c * a + s * s * b, s * c * (a - b), s * c * (a - b), s * s * a + c * c * b]
+                    };
+                    let f = turned(if round == 0 { 0.0 } else { 0.9 });
+                    // W of (1 + t a nᵀ) F for unit vectors a and n: its curvature is J ρc².
+                    let rays: [[f64; 2]; BATCH] =
+                        std::array::from_fn(|k| if k == 0 { [0.3; 2] } else { [3.0 * random(&mut numbers), 3.0 * random(&mut numbers)] });
+                    let moved = |t: f64| {
+                        rays.map(|[a, n]| {
+                            let m = [f[0] * n.cos() + f[2] * n.sin(), f[1] * n.cos() + f[3] * n.sin()];
+                            [f[0] + t * a.cos() * m[0], f[1] + t * a.cos() * m[1], f[2] + t * a.sin() * m[0], f[3] + t * a.sin() * m[1]]
+                        })
+                    };
+                    const T: f64 = 2e-3;
+                    let [before, now, after] = [-T, 0.0, T].map(|t| sheet(&law, &moved(t)));
+                    for k in 0..BATCH {
+                        let [_, bulk, shear, thickness] = now[k];
+                        let curvature = (before[k][0] - 2.0 * now[k][0] + after[k][0]) / (T * T);
+                        let wave = curvature / ((f[0] * f[3] - f[1] * f[2]) * thickness);
+                        let ratio = wave / rubber_sheet_modulus(bulk, shear);
+                        worst = worst.max(ratio);
+                        at_rest = at_rest.max(if round == 0 { ratio } else { 0.0 });
+                    }
+                }
+                println!("{:<14} K = {bulk}: {worst:.4} of the bound at most, {at_rest:.4} at rest", material.law);
+                assert!(worst < 1.0 + 1e-4 && at_rest > 0.74, "{} {bulk}: {worst} {at_rest}", material.law);
+            }
         }
     }
 }

@@ -1,13 +1,49 @@
-//! What a part holds at the start besides its motion, as plain data: stress that varies linearly in
-//! 2D.
+//! What a part holds at the start, as plain data: velocities away from a point or an axis, and stress that
+//! varies linearly in 2D.
 //!
-//! Part of [`super::Part`]; blocks take it over in `block/initial.rs`.
+//! Part of [`super::Part`]; velocities go into `build/bodies.rs`, stresses into `block/initial.rs`.
 
+use super::placement::ALONG_Z;
 use super::{Values, section};
 use crate::quantity::Dimension;
 use crate::quantity::Range::Finite;
-use crate::vocabulary::Kind::{Quantity, Table, Vector};
-use crate::vocabulary::{Key, Need, Section, key};
+use crate::rotation::Rotate;
+use crate::tensor::Dim;
+use crate::vector::{first, length, minus, times, unit};
+use crate::vocabulary::Kind::{Quantity, Spatial, Table, Vector};
+use crate::vocabulary::{Key, Need, Rule, Section, key};
+
+section! {
+    /// A velocity away from a point, or in 3D from an axis: (`speed`/r + `rate`) r, r from the point or the
+    /// nearest of the axis.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct RadialVelocity in RADIAL_VELOCITY = Section {
+        name: "radial_velocity",
+        doc: "Initial velocity away from a point, or in 3D from an axis, as of a ring or a shell that a charge drives apart; \
+            it is added to `velocity` and `spin`. With `speed` all nodes are equally fast (one at the centre rests), with `rate` they \
+            are the faster the farther off they are: v = (speed / r + rate) r. What a rigid part can't do.",
+        rules: &[Rule::SomeOf(&["speed", "rate"])],
+        ..Section::EMPTY
+    };
+    speed: f64 = Quantity(Dimension::VELOCITY, Finite), Default("0"), "Speed, the same everywhere; negative: towards the centre.";
+    rate: f64 = Quantity(Dimension::RATE, Finite), Default("0"), "Speed per distance.";
+    centre: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "The point; in 3D one of the axis, where there is one.";
+    axis: Option<[f64; 3]> = Spatial(Dimension::NONE, Finite), Optional("from the point"),
+        "Direction of the axis, in 3D; any length but zero.";
+}
+
+impl RadialVelocity {
+    /// At a place, m/s.
+    pub(crate) fn at<const D: usize>(&self, x: [f64; D]) -> [f64; D]
+    where
+        Dim<D>: Rotate<D>,
+    {
+        let arm = minus(x, first(self.centre));
+        let arm = self.axis.map_or(arm, |axis| <Dim<D>>::perpendicular(arm, unit(axis).unwrap_or(ALONG_Z)));
+        let distance = length(arm);
+        times(self.rate + if distance > 0.0 { self.speed / distance } else { 0.0 }, arm)
+    }
+}
 
 section! {
     /// A Cauchy stress that varies linearly: σ(x) = σ₀ + (x − x₀) ∂σ/∂x + (y − y₀) ∂σ/∂y. Components xx, yy,

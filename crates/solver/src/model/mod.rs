@@ -29,7 +29,7 @@ pub use cavity::{Cavity, Inflow, Vent};
 pub use connection::{EXPONENT, Joint, KINDS, Weld};
 pub use contact::{Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Partners, Penalty, PenaltySource};
 pub use discrete::{PointMass, Spring};
-pub use initial::InitialStress;
+pub use initial::{InitialStress, RadialVelocity};
 pub use load::{Axis, Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 pub use motion::{Curve, CurveShape, Drive, Motion, Sine};
 pub use obstacle::{Obstacle, ObstacleShape};

@@ -1,14 +1,15 @@
 //! Parts of a [`super::Model`]: `[[part]]`.
 
-use super::initial::STRESS_INITIAL;
-use super::placement::{COPIES, MIRROR, ROTATION};
+use super::initial::{RADIAL_VELOCITY, STRESS_INITIAL};
+use super::placement::{ALONG_Z, COPIES, MIRROR, ROTATION};
 use super::{
-    EXTRUDE, InitialStress, Motion, PROFILE, Placement, Profile, REVOLVE, SHAPES, SHELL_SECTION, Shape, ShellSection, Sweep, Values,
-    section,
+    EXTRUDE, InitialStress, Motion, PROFILE, Placement, Profile, REVOLVE, RadialVelocity, SHAPES, SHELL_SECTION, Shape, ShellSection,
+    Sweep, Values, section,
 };
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, NotNegative, Positive};
 use crate::stress_state::STRESS_STATES;
+use crate::vector::{times, unit};
 use crate::vocabulary::Kind::{Angle, Choice, Name, Quantity, Reference, Spatial, Table};
 use crate::vocabulary::{Choices, Form, Kind, Rule, Section};
 
@@ -51,6 +52,12 @@ section! {
     velocity: [f64; 3] = Spatial(Dimension::VELOCITY, Finite), Default("[0, 0]"), "Initial velocity.";
     spin: f64 = Angle(Dimension::RATE, Finite), Default("0"),
         "Initial angular velocity about the centre of mass, counter-clockwise; not of an axisymmetric part.";
+    spin_axis: [f64; 3] = Spatial(Dimension::NONE, Finite), Default("[0, 0, 1]"),
+        "Direction of the axis of `spin`, in 3D, by the right-hand rule; any length but zero.";
+    spin_centre: Option<[f64; 3]> = Spatial(Dimension::LENGTH, Finite), Optional("the centre of mass"),
+        "Point about which `spin` turns the part, in 3D one of the axis: with another one than the centre of mass that moves, too.";
+    radial_velocity: Option<RadialVelocity> = Table(&RADIAL_VELOCITY), Optional("none"),
+        "Initial velocity away from a point or an axis; not of a rigid part.";
     stress_initial: Option<InitialStress> = Table(&STRESS_INITIAL), Optional("none"), "Stress at the start.";
     temperature_initial: Option<f64> = Quantity(Dimension::TEMPERATURE, Positive), Optional("that of the material"),
         "Temperature at the start, of laws that have one (`johnson_cook`).";
@@ -90,6 +97,13 @@ impl Part {
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
         STRESS_STATES.iter().any(|kind| kind.name == self.stress_state && kind.state.is_axisymmetric)
+    }
+
+    /// Its angular velocity at the start, 1/s.
+    #[must_use]
+    pub fn spin_vector(&self) -> [f64; 3] {
+        // About z it is as given, to the last digit.
+        if self.spin_axis == ALONG_Z { [0.0, 0.0, self.spin] } else { times(self.spin, unit(self.spin_axis).unwrap_or(ALONG_Z)) }
     }
 
     /// The names of its materials: that of its own, or those of the layers of its section one after the

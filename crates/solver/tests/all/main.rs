@@ -41,6 +41,7 @@ mod free_bodies;
 mod hardening;
 mod hourglass;
 mod initial;
+mod initial_motion;
 mod layers;
 mod loads;
 mod locking;

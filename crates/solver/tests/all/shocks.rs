@@ -3,8 +3,10 @@
 
 use crate::bodies::{add, faults, model, rectangle};
 use embate_solver::bench;
+use embate_solver::element::{ELEMENTS, ELEMENTS_OF_SPACE};
 use embate_solver::material::points;
-use embate_solver::model::{Constraint, Material, Model, Obstacle, ObstacleShape};
+use embate_solver::mesh::cell::CellKind;
+use embate_solver::model::{Constraint, Cuboid, Material, Model, Obstacle, ObstacleShape, Shape};
 use embate_solver::simulation::{Options, Simulation};
 use embate_solver::stress_state::STRESS_STATES;
 
@@ -32,7 +34,11 @@ fn piston(material: Material, size: [f64; 2], elements: usize, speed: f64, end: 
         ("tube.top", [None, Some(0.0)]),
     ] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
+        model.constraints.push(Constraint {
+            on: "block.bottom".into(),
+            velocity: embate_solver::model::in_3d(velocity),
+            ..Constraint::default()
+        });
     }
     model
 }
@@ -106,6 +112,46 @@ fn tall_elements_have_a_stable_step_under_viscosity() {
 }
 
 #[test]
+fn a_body_of_one_element_that_is_thrown_on_its_held_side_keeps_its_energy_under_viscosity() {
+    let elements = ELEMENTS.iter().map(|kind| (kind, STRESS_STATES.len())).chain(ELEMENTS_OF_SPACE.iter().map(|kind| (kind, 1)));
+    for (element, states) in elements.filter(|(kind, _)| matches!(kind.cell, CellKind::Quadrilateral | CellKind::Hexahedron)) {
+        for state in STRESS_STATES.iter().take(states).map(|state| if states > 1 { state.name } else { "" }) {
+            for mach in [1e-6, 1e-3, 0.03, 0.1] {
+                let material = bench::material("elastic");
+                let [bulk, shear] = points::plane(&material).unwrap().stiffness();
+                let sound = ((bulk + 4.0 / 3.0 * shear) / material.parameters["density"]).sqrt();
+                let mut model = model(5.0 / sound);
+                model.run.bulk_viscosity = [0.06, 1.2];
+                model.materials.insert("soft".into(), material);
+                let is_flat = element.dimension == 2;
+                let solid = Shape::Cuboid(Cuboid { size: [0.1; 3], elements: [1; 3], ..Cuboid::default() });
+                let shape = if is_flat { rectangle([0.0; 2], [0.1, 0.1], [1, 1]) } else { solid };
+                add(&mut model, "block", shape, [0.0; 2]);
+                let part = &mut model.parts[0];
+                (part.element, part.stress_state, part.velocity) =
+                    (element.name.into(), if is_flat { state.into() } else { String::from("plane_strain") }, [0.0, -mach * sound, 0.0]);
+                model.constraints.push(Constraint {
+                    on: "block.bottom".into(),
+                    velocity: [None, Some(0.0.into()), None],
+                    ..Constraint::default()
+                });
+                let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
+                let end = simulation.advance(f64::INFINITY, u64::MAX);
+                let ledger = simulation.ledger();
+                let taken = ledger.stores.bulk_viscosity / ledger.largest;
+                println!("{} {state} {mach}: drift {:.1e}, {taken:.3} taken, {} steps", element.name, ledger.drift(), simulation.steps());
+                assert!(
+                    end.is_ok() && ledger.drift() < 0.01 && taken > 0.1,
+                    "{} {state} {mach}: {end:?} {} {taken}",
+                    element.name,
+                    ledger.drift()
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn what_the_viscosity_books_is_what_it_takes_in_every_stress_state() {
     for state in STRESS_STATES {
         for law in ["elastic", "neo_hookean", "crushable_foam"] {
@@ -158,10 +204,14 @@ fn the_viscosity_of_a_fluid_takes_the_power_of_its_shear() {
     add(&mut model, "water", rectangle([0.0; 2], [1.0, 1.0], [8, 8]), [0.0; 2]);
     for (side, velocity) in [("water.bottom", [Some(0.0), Some(0.0)]), ("water.top", [Some(speed), Some(0.0)])] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
+        model.constraints.push(Constraint {
+            on: "block.bottom".into(),
+            velocity: embate_solver::model::in_3d(velocity),
+            ..Constraint::default()
+        });
     }
     for side in ["water.left", "water.right"] {
-        model.constraints.push(Constraint { on: side.into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });
+        model.constraints.push(Constraint { on: "block.bottom".into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });
     }
     let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
     simulation.advance(12.0, u64::MAX).unwrap();

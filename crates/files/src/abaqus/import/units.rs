@@ -1,13 +1,17 @@
 //! The units of a deck, which has none of its own: lengths, masses and times as the user names them, and
 //! quantities written with them.
 //!
-//! A quantity keeps the digits of the deck: `"210000 t/mm/s^2"`; the model file's reader rounds it once.
+//! A quantity keeps the digits of the deck: `"7.85e-9 t/mm^3"`; the model file's reader rounds it once. Where
+//! a unit has a name it goes by that: `"210000 MPa"`, not t/mm/s².
 
 use crate::abaqus::messages::UNITS;
 use crate::model_file::quantity_in_si;
 use embate_solver::error::Fault;
 use embate_solver::material::unit_system::UnitSystem;
 use embate_solver::quantity::Dimension;
+
+/// Units with names of their own.
+const NAMED: [&str; 9] = ["Pa", "kPa", "MPa", "GPa", "N", "kN", "MN", "J", "kJ"];
 
 /// Units of length, mass and time.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,7 +88,10 @@ impl Units {
         let above: Vec<String> = all.iter().filter(|(_, it)| *it > 0).map(|(name, it)| power(name, *it)).collect();
         let below: Vec<String> = all.iter().filter(|(_, it)| *it < 0).map(|(name, it)| format!("/{}", power(name, *it))).collect();
         let above = if above.is_empty() && !below.is_empty() { "1".to_string() } else { above.join(" ") };
-        above + &below.concat()
+        let made = above + &below.concat();
+        let in_si = |unit: &str| quantity_in_si(&format!("1 {unit}"));
+        let mut names = ["".to_string(), format!("/{}", self.length)].into_iter().flat_map(|per| NAMED.map(|name| name.to_string() + &per));
+        names.find(|name| in_si(name).is_some_and(|its| in_si(&made) == Some(its))).unwrap_or(made)
     }
 }
 
@@ -108,7 +115,13 @@ mod tests {
     fn quantities_keep_their_digits_and_get_the_decks_units() {
         let units = Units::parse("mm,t,s").unwrap();
         assert_eq!(units, Units::parse("s t mm").unwrap());
-        assert_eq!(units.write(210_000.0, Dimension::PRESSURE), "\"210000 t/mm/s^2\"");
+        assert_eq!(units.write(210_000.0, Dimension::PRESSURE), "\"210000 MPa\"");
+        assert_eq!(units.write(5.0, Dimension::FORCE), "\"5 N\"");
+        assert_eq!(units.write(5.0, Dimension::FORCE_PER_LENGTH), "\"5 N/mm\"");
+        let [milliseconds, imperial] = ["mm,kg,ms", "in,lb,s"].map(|words| Units::parse(words).unwrap());
+        assert_eq!(milliseconds.write(210.0, Dimension::PRESSURE), "\"210 GPa\"");
+        assert_eq!(milliseconds.write(5.0, Dimension::FORCE), "\"5 kN\"");
+        assert_eq!(imperial.write(5.0, Dimension::PRESSURE), "\"5 lb/in/s^2\"");
         assert_eq!(units.write(7.85e-9, Dimension::DENSITY), "\"7.85e-9 t/mm^3\"");
         assert_eq!(units.write(3.0, Dimension::RATE), "\"3 1/s\"");
         assert_eq!(units.write(0.3, Dimension::NONE), "0.3");

@@ -166,9 +166,9 @@ fn conditions_and_loads_keep_their_sizes_and_units() {
         "on = \"ground\"\nfixed = [\"x\", \"y\"]",
         "on = \"embate-node-7\"\ndisplacement = { y = \"a\" }",
         "value = [\"0 mm\", \"-6 mm\"]\nbetween = \"smooth_steps\"",
-        "force = [\"10 t/s^2\", \"0 t/s^2\"]",
+        "force = [\"10 N/mm\", \"0 N/mm\"]",
         "stress_state = \"plane_stress\"",
-        "young = \"1e9 t/mm/s^2\"",
+        "young = \"1e9 MPa\"",
         "scale = \"1 mm\"",
     ] {
         assert!(made.model.contains(text), "lacks {text}\n{}", made.model);

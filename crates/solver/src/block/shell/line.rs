@@ -355,7 +355,7 @@ impl ShellKernel<2> for Line {
                 hoop_moment += -(zz * area * z);
             }
             section += area;
-            membrane = membrane.max(facts.membrane_modulus(bulk, stiff));
+            membrane = membrane.max(facts.membrane_bound(bulk, stiff));
             shear = shear.max(stiff);
             shortest = shortest.min(length);
         }

@@ -433,7 +433,7 @@ pub(super) fn flux<L: Lane>(
         to.strained += volume * norm;
         to.volume += volume;
         let shear = to.moduli[1].max(own[3]);
-        to.moduli = [to.moduli[0].max(facts.membrane_modulus(own[2], own[3])), shear, shear];
+        to.moduli = [to.moduli[0].max(facts.membrane_bound(own[2], own[3])), shear, shear];
         least = least.min(determinant);
         if is_rate {
             let (work, lost) = (half * own[0], own[1]);

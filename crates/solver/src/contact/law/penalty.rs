@@ -13,8 +13,8 @@
 //! length, or automatic: the stiffness κ of the elements under the surface times the tributary length, the
 //! softer of both bodies; half of it in a double pass, where both passes act. What κ is:
 //!
-//! - `wave_modulus`: (K + 4µ/3) L / A, the modulus of plane waves over the height of the element; as stiff as
-//!   the element itself.
+//! - `wave_modulus`: M L / A with M = K + 4µ/3 (in plane stress E/(1 − ν²)), the modulus of plane waves over
+//!   the height of the element; as stiff as the element itself.
 //! - `bulk_modulus`: K L / A, as in Hallquist, Goudreau and Benson, Comput. Meth. Appl. Mech. Engng 51 (1985)
 //!   107-137 (K A² / V in 3D): softer for metals, nearly the same for rubber.
 //! - `time_step`: α m / (dt² A) with the node's mass m, its tributary length A, the first step dt and

@@ -10,7 +10,7 @@ use crate::mesh::messages::SHELLS;
 use crate::model::Sine;
 use crate::model::messages::{LIST_LENGTH, LIST_ORDER, OF_REVOLUTION, PERIOD, UNKNOWN_NAME};
 use crate::model::reference::{Reference, Wanted};
-use crate::model::{Constraint, CurveShape, Drive, Motion, Obstacle, ObstacleShape, Part};
+use crate::model::{Constraint, CurveShape, Drive, Motion, Obstacle, ObstacleShape, Part, RadialVelocity};
 use crate::quantity::{Dimension, Range};
 use crate::vocabulary::excerpt;
 use crate::vocabulary::suggestion;
@@ -177,6 +177,9 @@ impl Check<'_> {
     pub(super) fn part_motion(&mut self, path: &str, part: &Part) {
         self.vector(&format!("{path}.velocity"), part.velocity);
         self.number(&format!("{path}.spin"), part.spin);
+        self.direction(&format!("{path}.spin_axis"), part.spin_axis);
+        part.spin_centre.iter().for_each(|centre| self.vector(&format!("{path}.spin_centre"), *centre));
+        part.radial_velocity.iter().for_each(|radial| self.radial_velocity(path, part, radial));
         if part.is_axisymmetric() && part.spin != 0.0 && part.rigid.is_none() {
             let message = "`spin` rotates a part in its plane, which an axisymmetric body can't";
             self.fault(
@@ -188,6 +191,27 @@ impl Check<'_> {
         }
         if let Some(motion) = &part.rigid {
             self.motion(path, "rigid", motion, part.velocity, part.spin);
+        }
+    }
+
+    /// Velocities away from a point or an axis.
+    fn radial_velocity(&mut self, part_path: &str, part: &Part, radial: &RadialVelocity) {
+        let path = format!("{part_path}.radial_velocity");
+        self.number(&format!("{path}.speed"), radial.speed);
+        self.number(&format!("{path}.rate"), radial.rate);
+        self.vector(&format!("{path}.centre"), radial.centre);
+        radial.axis.iter().for_each(|axis| self.direction(&format!("{path}.axis"), *axis));
+        if part.rigid.is_some() {
+            let help = "leave one of them out; a rigid part moves by `velocity` and `spin`";
+            self.fault(&BEGINNING, path, "a rigid part can't go apart", help);
+        } else if part.is_axisymmetric() && (radial.axis.is_some() || radial.centre[0] != 0.0) {
+            let message = "in an axisymmetric part it points away from a point of the axis x = 0";
+            self.fault(
+                &OF_REVOLUTION,
+                path,
+                message,
+                "let `centre` be [0, y], without `axis`; away from the axis itself `velocity` = [v, 0] points",
+            );
         }
     }
 

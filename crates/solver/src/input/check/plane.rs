@@ -15,6 +15,13 @@ impl Check<'_> {
         let model = self.model;
         for (index, part) in model.parts.iter().enumerate() {
             self.flat(&format!("part[{index}].velocity"), part.velocity);
+            part.spin_centre.iter().for_each(|centre| self.flat(&format!("part[{index}].spin_centre"), *centre));
+            self.along_z(&format!("part[{index}].spin_axis"), part.spin_axis, "rotations in 2D are about z");
+            if let Some(radial) = &part.radial_velocity {
+                let path = format!("part[{index}].radial_velocity");
+                self.flat(&format!("{path}.centre"), radial.centre);
+                radial.axis.iter().for_each(|axis| self.along_z(&format!("{path}.axis"), *axis, "an axis in 2D is along z"));
+            }
             // What is left out is free: who holds z has written it.
             if part.rigid.as_ref().is_some_and(|motion| motion.velocity[2].is_some()) {
                 self.third(format!("part[{index}].rigid.z"), NO_Z);
@@ -107,8 +114,13 @@ impl Check<'_> {
 
     fn flat_axis(&mut self, path: &str, axis: &Axis) {
         self.flat(&format!("{path}.centre"), axis.centre);
-        if axis.direction[..2] != [0.0; 2] && axis.direction.iter().all(|component| component.is_finite()) {
-            self.third(format!("{path}.axis"), "rotations in 2D are about z");
+        self.along_z(&format!("{path}.axis"), axis.direction, "rotations in 2D are about z");
+    }
+
+    /// A direction out of the plane; one that is no number has its fault already.
+    fn along_z(&mut self, path: &str, direction: [f64; 3], message: &str) {
+        if direction[..2] != [0.0; 2] && direction.iter().all(|component| component.is_finite()) {
+            self.third(path.into(), message);
         }
     }
 

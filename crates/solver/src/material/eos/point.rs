@@ -79,6 +79,10 @@ where
     fn is_elastic(&self) -> bool {
         self.law.is_elastic()
     }
+    fn least_sheet_modulus(&self) -> f64 {
+        // The pressure stands beside whatever an anisotropic law has for it.
+        if self.law.is_elastic() { self.law.least_sheet_modulus() } else { f64::INFINITY }
+    }
     fn stored(&self) -> f64 {
         self.equation.energy()
     }

@@ -71,8 +71,9 @@ pub static NO_CHECKPOINT: Message = Message {
     code: "E0716",
     title: "nothing to continue from",
     example: Example::Command("resume results"),
-    cause: "The folder holds no checkpoint: its run kept none, or it is not a folder of results.",
-    remedy: "Set `run.checkpoint` or `run.checkpoint_steps`, and run the model.",
+    cause: "The folder is not there, is none of results, or its run kept no checkpoint: it was shorter than five \
+        seconds, or `run.checkpoint = 0` switches them off.",
+    remedy: "Run the model; `embate replay` needs no checkpoint.",
 };
 
 /// An older checkpoint is used.

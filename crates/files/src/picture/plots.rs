@@ -154,7 +154,13 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
     ];
     let mut panels: Vec<Panel> = quantities.iter().flat_map(|quantity| quantity.panels(table)).collect();
     if panels.is_empty() {
-        let remark = "no probe moves and no contact acts".into();
+        // Forces of one contact between many bodies cancel in its sum, but it has an energy.
+        let acts = table.columns.iter().enumerate().any(|(column, name)| {
+            ["contact.energy[", "contact.penetration[", "obstacle.energy["].iter().any(|kind| name.starts_with(kind)) && !table.is_zero(column)
+        });
+        let contacts = if acts { "the forces of each contact cancel: its sides are of the same bodies" } else { "no contact acts" };
+        let has_probes = quantities[0].axes.iter().any(|axis| !axis.is_empty());
+        let remark = if has_probes { format!("no probe moves; {contacts}") } else { format!("there is no probe; {contacts}") };
         panels.push(Panel { name: "history".into(), si: "", from_zero: false, height: 170.0, curves: Vec::new(), remark });
     }
     panels

@@ -26,6 +26,7 @@ type Faults = Arc<Mutex<Option<ResultsError>>>;
 impl Desk {
     fn write(&mut self, job: &Job, shown: Option<&dyn Shown>) {
         let begin = Instant::now();
+        self.writer.worked = self.worked;
         if let Err(fault) = guarded(|| self.writer.write(job, shown)) {
             let mut first = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
             first.get_or_insert(fault);

@@ -23,7 +23,7 @@ mod value;
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use manual::reference_markdown;
 pub use schema::schema;
-pub use starter::starter;
+pub use starter::{SCHEMA_NAME, STARTERS, Starter};
 
 pub(crate) use diagnostics::{Faults, Source};
 pub(crate) use manual::table as keys_table;

@@ -30,9 +30,18 @@ pub(super) fn head(left: &Left) -> String {
     }
     if let Some(command) = left.ran.as_ref().and_then(Provenance::command) {
         text += &format!("<p>To run it again:</p>\n<pre>{}</pre>\n", escape(&command));
+        if let Some(hash) = left.text("state_hash") {
+            text += &format!(
+                "<p class=\"faint\">With the same version of embate and the same model it ends with the same bits, on any number of \
+                 threads and on any machine: the state hash is <code>{}</code> again.</p>\n",
+                escape(hash)
+            );
+        }
     }
-    let mut rows = vec![("embate".to_string(), format!("version {}", left.version()))];
+    let mut rows = Vec::new();
     let mut add = |name: &str, value: Option<String>| rows.extend(value.map(|value| (name.to_string(), value)));
+    add("model", Some(left.name()).filter(|name| *name != left.title()));
+    add("embate", Some(format!("version {}", left.version())));
     add("ended", left.summary.as_ref().and(left.ended).map(date));
     add("state hash", left.text("state_hash").map(ToString::to_string));
     let threads = left.number("threads").map(|threads| format!("{threads:.0}"));

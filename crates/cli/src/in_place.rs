@@ -41,7 +41,8 @@ fn refuse_other(path: &Path, origin: &Origin, earlier: &Earlier) -> Result<(), F
     match &earlier.ran {
         Some(ran) if is_same_file(&ran.origin().path, &origin.path) => Ok(()),
         Some(ran) if !ran.origin().path.as_os_str().is_empty() => {
-            let what = format!("{} already holds results ({}) of another model, {}", path.display(), earlier.found, ran.origin().path.display());
+            let what =
+                format!("{} already holds results ({}) of another model, {}", path.display(), earlier.found, ran.origin().path.display());
             Err(refused(&format!("{what}; choose another folder with --out, or replace them with --force")))
         }
         _ => ResultFolder::refuse_existing(path).map_err(in_the_way),
@@ -64,7 +65,9 @@ pub(crate) fn decide(path: &Path, origin: &Origin, loaded: &Loaded, force: bool)
         Some(end) if end.status == "failed" && !end.is_for_want_of_room() => {
             Some(format!("it failed: {}", end.error.as_deref().unwrap_or("for no reason that is known")))
         }
-        Some(end) if loaded.model.run.max_steps.is_some_and(|most| end.steps >= most) => Some("it has done its `run.max_steps`".to_string()),
+        Some(end) if loaded.model.run.max_steps.is_some_and(|most| end.steps >= most) => {
+            Some("it has done its `run.max_steps`".to_string())
+        }
         _ => None,
     };
     if let Some(again) = again {

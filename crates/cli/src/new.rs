@@ -5,8 +5,8 @@ use crate::messages::NO_NAME;
 use crate::{Failure, terminal};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use embate_files::results::messages::{EXISTS, REFUSED};
 use embate_files::model_file::{SCHEMA_NAME, STARTERS, Starter};
+use embate_files::results::messages::{EXISTS, REFUSED};
 use embate_files::{model_file, results};
 use std::path::PathBuf;
 

@@ -158,7 +158,8 @@ fn no_checkpoint(path: &Path) -> CliError {
     let missing = |text: String| CliError::new(&NO_CHECKPOINT, text);
     let until = match Earlier::read(path) {
         _ if !path.exists() => {
-            return missing(format!("there is no folder {at}")).help("give the folder that `embate run` wrote: results/NAME, or that of --out");
+            return missing(format!("there is no folder {at}"))
+                .help("give the folder that `embate run` wrote: results/NAME, or that of --out");
         }
         Ok(None) => return missing(format!("{at} holds no results of embate")).help("give the folder that `embate run` wrote"),
         Ok(Some(Earlier { end: Some(end), .. })) => format!(" (status \"{}\", at {})", end.status, with_unit(end.time, "s")),

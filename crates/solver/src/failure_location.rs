@@ -31,7 +31,8 @@ where
         }
     }
 
-    /// Who sets the time step, in words; while it grows, or leads to the end of the run, who will set it, or would.
+    /// Who sets the time step, in words; while it grows, or leads to the end of the run, who will set it, or
+    /// would.
     pub(crate) fn governor_in_words(&self) -> String {
         self.governor_name(if self.governor == Governor::Schedule { self.bound_by } else { self.governor })
     }

@@ -63,7 +63,21 @@ fn states_by_the_clock_change_no_bit() {
     for (out, pause) in [("never", "0"), ("always", "1e-9")] {
         let answer = embate(
             &folder,
-            ["run", "model.toml", "--out", out, "--quiet", "--set", "run.max_steps=3000", "--set", &format!("run.checkpoint={pause}"), "--set", "run.end=1"],
+            [
+                "run",
+                "model.toml",
+                "--out",
+                out,
+                "--quiet",
+                "--threads",
+                "1",
+                "--set",
+                "run.max_steps=3000",
+                "--set",
+                &format!("run.checkpoint={pause}"),
+                "--set",
+                "run.end=1",
+            ],
         );
         assert_eq!(answer.code, Some(0), "{}", answer.err);
     }
@@ -156,7 +170,9 @@ fn results_of_the_same_model_are_replaced_when_it_was_edited_and_others_are_not(
 #[test]
 fn an_unfinished_run_that_is_run_again_continues() {
     let folder = fresh("kept-continued");
-    let write = |steps: u32| fs::write(folder.join("model.toml"), FLIGHT.replacen('\n', &format!("\nrun.checkpoint_steps = {steps}\n"), 1)).unwrap();
+    let write = |steps: u32| {
+        fs::write(folder.join("model.toml"), FLIGHT.replacen('\n', &format!("\nrun.checkpoint_steps = {steps}\n"), 1)).unwrap()
+    };
     write(10);
     assert_eq!(run(&folder, ["--quiet"]).code, Some(0));
     let whole = figures(&folder.join("out"));
@@ -167,7 +183,11 @@ fn an_unfinished_run_that_is_run_again_continues() {
         fs::rename(out.join(table), out.join(format!("{table}.part"))).unwrap();
     }
     let answer = run(&folder, []);
-    assert!(answer.code == Some(0) && answer.err.contains("holds this run unfinished") && answer.err.contains("continuing from step"), "{}", answer.err);
+    assert!(
+        answer.code == Some(0) && answer.err.contains("holds this run unfinished") && answer.err.contains("continuing from step"),
+        "{}",
+        answer.err
+    );
     assert_eq!(figures(&out)["state_hash"], whole["state_hash"]);
     // Edited, or without a state, it begins again.
     fs::remove_file(out.join("summary.json")).unwrap();
@@ -205,5 +225,41 @@ fn who_asks_for_more_threads_than_are_used_is_told_why() {
     let answer = embate(&folder, ["run", "model.toml", "--out", "out", "--force"]);
     assert!(answer.code == Some(0) && !answer.err.contains("instead of"), "{}", answer.err);
     // Nor does any line of progress speak of a schedule.
-    assert!(answer.err.contains("element") && !answer.err.contains("growth limit") && !answer.err.contains("the step before"), "{}", answer.err);
+    assert!(
+        answer.err.contains("element") && !answer.err.contains("growth limit") && !answer.err.contains("the step before"),
+        "{}",
+        answer.err
+    );
+}
+
+#[test]
+fn an_obstacle_that_acts_no_more_is_not_drawn() {
+    let folder = fresh("kept-gone");
+    for (name, model) in [
+        ("plane", FLIGHT.to_string()),
+        (
+            "solid",
+            FLIGHT.replace(
+                "rectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }",
+                "box = { corner = [0, 0, 0], size = [1, 1, 1], elements = [2, 2, 2] }",
+            ),
+        ),
+    ] {
+        let (normal, hidden) = if name == "solid" { ("[0, 0, 1]", "[0, 0, -9]") } else { ("[0, 1]", "[0, -9]") };
+        let obstacles = format!(
+            "\nobstacle = [{{ name = \"gone\", plane = {{ point = {hidden}, normal = {normal} }}, death = \"50 us\" }}, \
+             {{ name = \"stays\", plane = {{ point = {hidden}, normal = {normal} }} }}]\n"
+        );
+        fs::write(folder.join("model.toml"), model.replacen('\n', &obstacles, 1).replace("pictures = false", "pictures = true")).unwrap();
+        let answer = embate(&folder, ["run", "model.toml", "--out", name, "--quiet"]);
+        assert_eq!(answer.code, Some(0), "{}", answer.err);
+        let cells = |frame: usize| {
+            let text = fs::read(folder.join(name).join(format!("fields/obstacles-{frame:05}.vtu"))).unwrap();
+            let text = String::from_utf8_lossy(&text).into_owned();
+            let (_, after) = text.split_once("NumberOfCells=\"").unwrap();
+            after.split('"').next().unwrap().parse::<usize>().unwrap()
+        };
+        assert!(cells(1) == 2 * cells(3) && cells(3) > 0, "{name}: {} and {}", cells(1), cells(3));
+        assert!(folder.join(name).join("animation.gif").exists());
+    }
 }

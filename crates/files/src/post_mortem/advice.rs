@@ -392,7 +392,8 @@ impl<'a> Case<'a> {
             && let Some((path, interface)) = self.interface(&kind, &name)
         {
             self.softer(all, &path, interface, &format!("{kind} \"{name}\" presses where the energy changed most"));
-            // Where a spring is far stiffer than what it holds, neither a smaller step nor more elements nor damping help.
+            // Where a spring is far stiffer than what it holds, neither a smaller step nor more elements nor
+            // damping help.
             let is_too_stiff = matches!(&interface.law, ContactLaw::Penalty(Penalty::Automatic { scale, .. }) if *scale > TOO_STIFF);
             if interface.damping == 0.0 && !is_too_stiff {
                 all.push(Advice::new(format!("{path}.damping"), "try 0.1: it takes the chatter of surfaces that open and close"));

@@ -45,11 +45,7 @@ struct Thing {
 fn divided(path: &str) -> (&str, &str, &str) {
     let section = path.split(['.', '[']).next().unwrap_or(path);
     let is_named = ["material", "curve"].contains(&section);
-    let end = if is_named {
-        path.match_indices('.').nth(1).map_or(path.len(), |(at, _)| at)
-    } else {
-        path.find('.').unwrap_or(path.len())
-    };
+    let end = if is_named { path.match_indices('.').nth(1).map_or(path.len(), |(at, _)| at) } else { path.find('.').unwrap_or(path.len()) };
     let rest = path[end..].trim_start_matches('.');
     // A key of the model itself.
     if rest.is_empty() { ("", "", path) } else { (section, &path[..end], rest) }
@@ -65,7 +61,10 @@ fn things(written: &[(String, String)]) -> Vec<(String, Thing)> {
         }
         let found = all.iter().position(|(_, thing)| thing.at == at);
         let index = found.unwrap_or_else(|| {
-            let name = at.strip_prefix(section).unwrap_or_default().trim_start_matches('.').to_string();
+            let name = at.strip_prefix(section).unwrap_or_default().trim_start_matches('.');
+            // Who has no name has a number.
+            let number = name.trim_matches(['[', ']']).parse::<usize>();
+            let name = number.map_or(name.to_string(), |number| format!("{} {}", section.replace('_', " "), number + 1));
             all.push((section.to_string(), Thing { at: at.to_string(), name, keys: Vec::new() }));
             all.len() - 1
         });
@@ -89,12 +88,13 @@ fn snake(name: &str) -> String {
 
 /// What holds for a thing where nothing is written, as far as a reader must know it.
 fn unsaid(section: &str, thing: &Thing, all: &BTreeMap<String, String>) -> Vec<(String, String)> {
-    let is_said = |key: &str| thing.keys.iter().any(|(own, _)| own == key || own.strip_prefix(key).is_some_and(|rest| rest.starts_with('.')));
+    let is_said =
+        |key: &str| thing.keys.iter().any(|(own, _)| own == key || own.strip_prefix(key).is_some_and(|rest| rest.starts_with('.')));
     let value = |key: &str| all.get(&format!("{}.{key}", thing.at)).map(|value| plain(value)).filter(|value| !value.is_empty());
     let mut found = Vec::new();
     let mut add = |key: &str, value: Option<String>| {
         if let Some(value) = value.filter(|_| !is_said(key)) {
-            found.push((key.to_string(), format!("{value} (not said)")));
+            found.push((key.to_string(), format!("{value} (default)")));
         }
     };
     match section {
@@ -130,9 +130,8 @@ pub(super) fn section(left: &Left) -> String {
     let mut body = made_of(&ran.parts, left);
     for (number, (title, sections)) in GROUPS.iter().enumerate() {
         let is_last = number + 1 == GROUPS.len();
-        let is_here = |section: &str| {
-            sections.contains(&section) || (is_last && !GROUPS.iter().any(|(_, sections)| sections.contains(&section)))
-        };
+        let is_here =
+            |section: &str| sections.contains(&section) || (is_last && !GROUPS.iter().any(|(_, sections)| sections.contains(&section)));
         let mut lines = Vec::new();
         for (section, thing) in &all {
             let is_initial = |key: &str| section == "part" && INITIAL.iter().any(|own| key.split('.').next() == Some(own));
@@ -153,7 +152,7 @@ pub(super) fn section(left: &Left) -> String {
         };
         if !lines.is_empty() {
             let head = if *title == "Run" { ["", "key", "value"] } else { ["name", "key", "value"] };
-            body += &format!("<h3>{}</h3>\n{}", escape(title), table(&head, &lines, 3));
+            body += &format!("<h3>{}</h3>\n<div class=\"chosen\">{}</div>\n", escape(title), table(&head, &lines, 3));
         }
     }
     body
@@ -185,7 +184,8 @@ fn made_of(parts: &[PartMade], left: &Left) -> String {
              tetrahedron, 0 where an element collapses.</p>\n";
     for part in parts.iter().filter(|part| part.shape < POOR) {
         let at: Vec<String> = part.worst.iter().map(|x| format!("{} m", significant(*x))).collect();
-        body += &paragraph(&format!("The worst element of part \"{}\", at ({}), has the shape {:.3}.", part.name, at.join(", "), part.shape));
+        body +=
+            &paragraph(&format!("The worst element of part \"{}\", at ({}), has the shape {:.3}.", part.name, at.join(", "), part.shape));
     }
     body
 }

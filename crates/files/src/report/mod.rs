@@ -2,8 +2,9 @@
 //! (`embate report`).
 //!
 //! What a run left is read here (`Left`), from `summary.json`, `run.json` and the history; `model.rs` says
-//! what ran, `chosen.rs` that in the words of its file, `outcome.rs` how it ended and its figures, `energies.rs` the ledger, `pictures.rs` puts pictures
-//! and plots in, `html.rs` has the frame of the page and escapes all that comes from files.
+//! what ran, `chosen.rs` that in the words of its file, `outcome.rs` how it ended and its figures,
+//! `energies.rs` the ledger, `pictures.rs` puts pictures and plots in, `html.rs` has the frame of the page
+//! and escapes all that comes from files.
 
 mod chosen;
 mod energies;

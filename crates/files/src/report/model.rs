@@ -87,7 +87,9 @@ pub(super) fn section(left: &Left) -> String {
     let texts = |thing: &Thing<'_>, names: &[&str]| -> Vec<String> { names.iter().map(|name| thing.value(name)).collect() };
     let mut body = String::new();
     let count = |key: &str| left.number(key).map(|number| (key.to_string(), format!("{number:.0}")));
-    body += &facts(&[count("elements"), count("nodes")].into_iter().flatten().collect::<Vec<_>>());
+    if left.ran.as_ref().is_none_or(|ran| ran.parts.is_empty()) {
+        body += &facts(&[count("elements"), count("nodes")].into_iter().flatten().collect::<Vec<_>>());
+    }
     let chosen = super::chosen::section(left);
     let is_in_words = !chosen.is_empty();
     body += &chosen;

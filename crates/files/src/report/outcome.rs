@@ -4,6 +4,7 @@
 use super::Left;
 use super::html::{escape, facts, section};
 use crate::messages;
+use crate::numbers::grouped;
 use crate::post_mortem::shown;
 use crate::program;
 use crate::results::Provenance;
@@ -116,7 +117,7 @@ pub(super) fn figures(left: &Left) -> String {
     let mut add = |name: &str, value: Option<String>| rows.extend(value.map(|value| (name.to_string(), value)));
     let number = |path: &str| summary.pointer(path).and_then(Value::as_f64);
     let si = |path: &str, si: &str| number(path).map(|value| shown(value, si));
-    let count = |path: &str| number(path).map(|value| format!("{value:.0}"));
+    let count = |path: &str| number(path).map(|value| grouped(value as u64));
     let mass = if left.is_of_whole_bodies { "kg" } else { "kg/m" };
     add("time reached", si("/time_end", "s"));
     add("steps", count("/steps"));
@@ -139,7 +140,11 @@ pub(super) fn figures(left: &Left) -> String {
             } else {
                 format!("{unverified:.0} were inside a body without contact: see the warnings")
             };
-            Some(format!("{pairs:.0} pairs checked for crossing, {:.0} crossings found; {verdict}", number("/contact/crossings_found")?))
+            Some(format!(
+                "{} pairs checked for crossing, {} crossings found; {verdict}",
+                grouped(pairs as u64),
+                grouped(number("/contact/crossings_found")? as u64)
+            ))
         }),
     );
     add("mass added for longer steps", si("/mass_added", mass));

@@ -108,6 +108,11 @@ impl Cost {
         self.0.store(u64::try_from(cost.as_nanos()).unwrap_or(BUSY - 1).min(BUSY - 1), Ordering::Relaxed);
     }
 
+    /// There will be none.
+    pub(super) fn give_up(&self) {
+        self.end(Duration::MAX);
+    }
+
     /// `None`: it is at it.
     fn get(&self) -> Option<Duration> {
         Some(self.0.load(Ordering::Relaxed)).filter(|&nanoseconds| nanoseconds != BUSY).map(Duration::from_nanos)
@@ -136,6 +141,11 @@ impl CheckpointClock {
     pub(super) fn is_due(&self) -> bool {
         let Some(cost) = self.written.get() else { return false };
         self.pause.until_next(self.kept, self.handed + cost).is_some_and(|pause| self.since.elapsed() >= pause)
+    }
+
+    /// Whether states are kept though no one has asked for them.
+    pub(super) fn is_of_itself(&self) -> bool {
+        self.pause == Pause::Doubling
     }
 
     /// A state is asked for.
@@ -177,7 +187,10 @@ mod tests {
             Pause::of(&model)
         };
         assert_eq!([of(None, None), of(None, Some(7)), of(Some(0.0), None)], [Pause::Doubling, Pause::Never, Pause::Never]);
-        assert_eq!([of(Some(5.0), None), of(Some(5.0), Some(7)), of(Some(1e300), None)], [Pause::Every(FIRST), Pause::Every(FIRST), Pause::Never]);
+        assert_eq!(
+            [of(Some(5.0), None), of(Some(5.0), Some(7)), of(Some(1e300), None)],
+            [Pause::Every(FIRST), Pause::Every(FIRST), Pause::Never]
+        );
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! `run.json`: what ran, so that it can be known, and run again, when the model has changed since: the
 //! version of the program, where the model came from, and what it was, key by key.
 //!
-//! Written when a run begins, and again when it continues. Read by `embate diff`, `report`, `replay` and `run`.
+//! Written when a run begins, and again when it continues. Read by `embate diff`, `report`, `replay` and
+//! `run`.
 
 use super::{Checkpoints, ResultsError, write_whole};
 use crate::checkpoint::{Identity, Origin};

@@ -6,14 +6,15 @@
 
 use super::ResultsError;
 use super::atomic::write_whole;
+use super::checkpoints::{CheckpointClock, Checkpoints, Cost};
 use super::folder::ResultFolder;
 use super::messages::NO_PICTURES;
-use super::checkpoints::{CheckpointClock, Checkpoints, Cost};
 use super::report::{Report, RunStatus};
 use super::reported::Spent;
-use super::writer::{Job, Writer};
+use super::writer::{Job, Kept, Writer};
 use super::writer_channel::WriterChannel;
 use crate::checkpoint::Checkpoint;
+use crate::checkpoint::messages::NO_STATES;
 use crate::post_mortem;
 use crate::threads::Threads;
 use embate_solver::error::Notice;
@@ -58,8 +59,10 @@ struct Keeping {
     clock: CheckpointClock,
     user_cpu_seconds: Option<fn() -> Option<f64>>,
     /// When it was last asked, at which step, and after how many steps it wants to be asked again.
-    asked: (Instant, u64),
+    asked: Option<(Instant, u64)>,
     stride: u64,
+    /// Whether the run must have the state that comes next: the user asked for it.
+    is_wanted: bool,
 }
 
 /// Wall time after which a recorder wants to be asked again whether a state is due.
@@ -70,14 +73,15 @@ impl Keeping {
         Self {
             clock: CheckpointClock::new(checkpoints.pause, cost),
             user_cpu_seconds: checkpoints.user_cpu_seconds,
-            asked: (Instant::now(), 0),
+            asked: None,
             stride: 1,
+            is_wanted: true,
         }
     }
 
     /// Learns how long steps take.
     fn look_at_the_clock(&mut self, step: u64) {
-        let (then, before) = std::mem::replace(&mut self.asked, (Instant::now(), step));
+        let Some((then, before)) = self.asked.replace((Instant::now(), step)) else { return };
         let steps = step.saturating_sub(before);
         if steps > 0 {
             let wanted = ANSWER.as_secs_f64() * steps as f64 / then.elapsed().as_secs_f64().max(1e-9);
@@ -184,7 +188,8 @@ impl<'a> Recorder<'a> {
 
     /// What the run has cost so far; the writer adds its own time.
     fn spent(&self, user_cpu: Option<f64>) -> Spent {
-        let now = Spent { wall: self.begin.elapsed().as_secs_f64(), user_cpu, output: 0.0, waited: self.writer_channel.waited().as_secs_f64() };
+        let now =
+            Spent { wall: self.begin.elapsed().as_secs_f64(), user_cpu, output: 0.0, waited: self.writer_channel.waited().as_secs_f64() };
         now.after(self.before)
     }
 
@@ -213,6 +218,9 @@ impl<'a> Recorder<'a> {
         let end = self.writer_channel.end();
         if let Some(message) = end.pictures_missing {
             report.warnings.push(Notice::new(&NO_PICTURES, format!("pictures are missing: {message}")));
+        }
+        if let Some(message) = end.states_missing {
+            report.warnings.push(Notice::new(&NO_STATES, format!("checkpoints are missing: {message}")));
         }
         let closed = end.result;
 
@@ -288,7 +296,8 @@ impl Observer for Recorder<'_> {
         let spent = self.spent(user_cpu);
         if let Some(keeping) = &mut self.keeping {
             keeping.clock.take();
-            let job = Job { state: Some((Arc::new(state), spent)), ..self.job() };
+            let is_wanted = std::mem::replace(&mut keeping.is_wanted, true);
+            let job = Job { state: Some(Kept { state: Arc::new(state), spent, is_wanted }), ..self.job() };
             self.writer_channel.give(job);
         }
         if let Some(keeping) = &mut self.keeping {
@@ -327,6 +336,7 @@ impl Observer for Recorder<'_> {
         self.is_stopped |= matches!(control, Control::Stop | Control::KeepAndStop);
         let Some(keeping) = &mut self.keeping else { return control };
         keeping.look_at_the_clock(progress.step);
+        let is_told = control == Control::Keep;
         let control = match control {
             Control::Stop => Control::KeepAndStop,
             Control::Continue if keeping.clock.is_due() => Control::Keep,
@@ -334,6 +344,8 @@ impl Observer for Recorder<'_> {
         };
         if matches!(control, Control::Keep | Control::KeepAndStop) {
             keeping.clock.ask();
+            // Who did not ask for states does not lose a run because there is no room for one.
+            keeping.is_wanted = control == Control::KeepAndStop || !keeping.clock.is_of_itself() || is_told;
         }
         control
     }

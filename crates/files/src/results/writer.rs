@@ -2,12 +2,12 @@
 //! `writer_channel`; [`Writer::close`] completes the files.
 
 use super::atomic::{write_whole, write_whole_in_pieces};
+use super::checkpoints::{Checkpoints, Cost};
 use super::csv::CsvStream;
 use super::decimated::ThinnedRows;
 use super::folder::ResultFolder;
 use super::hashes;
 use super::lines::Lines;
-use super::checkpoints::{Checkpoints, Cost};
 use super::provenance::Provenance;
 use super::reported::{Reported, Spent};
 use super::{HASHES, ResultsError};
@@ -40,16 +40,26 @@ pub(super) struct Job {
     /// Cells of all frames from here on, where they are others than before.
     pub(super) cells: Option<Cells>,
     pub(super) frame: Option<Frame>,
-    /// To be kept once all before it is written, with what the run had cost then.
-    pub(super) state: Option<(Arc<State>, Spent)>,
+    /// To be kept once all before it is written.
+    pub(super) state: Option<Kept>,
     /// What follows shows a failure: a state that is kept later is of a step before it.
     pub(super) is_failing: bool,
+}
+
+/// A state that is to be kept.
+#[derive(Debug)]
+pub(super) struct Kept {
+    pub(super) state: Arc<State>,
+    /// What the run had cost then.
+    pub(super) spent: Spent,
+    /// Whether the user asked for it; else the run continues where it can't be written.
+    pub(super) is_wanted: bool,
 }
 
 impl Job {
     /// Memory that it needs until it is done.
     pub(super) fn bytes(&self) -> usize {
-        let state: usize = self.state.iter().flat_map(|(state, _)| &state.sections).map(|section| section.bytes.len()).sum();
+        let state: usize = self.state.iter().flat_map(|kept| &kept.state.sections).map(|section| section.bytes.len()).sum();
         let cells = self.cells.as_ref().map_or(0, Cells::bytes);
         8 * self.rows.len() + cells + self.frame.as_ref().map_or(0, bytes) + state
     }
@@ -86,6 +96,8 @@ pub(super) struct Writer {
     /// How long it has been at work, and how long at the last state.
     pub(super) worked: Duration,
     cost: Cost,
+    /// Why there are no states from some time on.
+    states_missing: Option<String>,
 }
 
 /// How the files were completed.
@@ -94,6 +106,8 @@ pub(super) struct Closed {
     pub(super) result: Result<(), ResultsError>,
     /// Why there are no pictures, if they are missing.
     pub(super) pictures_missing: Option<String>,
+    /// Why states are missing that no one had asked for.
+    pub(super) states_missing: Option<String>,
 }
 
 impl Writer {
@@ -129,6 +143,7 @@ impl Writer {
             before_failure: None,
             worked: Duration::ZERO,
             cost: Cost::default(),
+            states_missing: None,
         })
     }
 
@@ -178,6 +193,7 @@ impl Writer {
             before_failure: None,
             worked: Duration::ZERO,
             cost: Cost::default(),
+            states_missing: None,
         })
     }
 
@@ -214,7 +230,7 @@ impl Writer {
     }
 
     /// Writes a checkpoint of what is reported so far and the state there.
-    fn keep(&mut self, (state, spent): &(Arc<State>, Spent)) -> Result<(), ResultsError> {
+    fn keep(&mut self, Kept { state, spent, .. }: &Kept) -> Result<(), ResultsError> {
         let (mut reported, film) = match self.before_failure.take() {
             Some(before) => before,
             None => self.reported_so_far()?,
@@ -241,11 +257,21 @@ impl Writer {
         }
         // What is not reported can't be continued from.
         match &job.state {
-            Some(state) => {
+            Some(kept) => {
                 let begin = Instant::now();
-                let kept = reported.and_then(|()| self.keep(state));
-                self.cost.end(begin.elapsed());
-                kept
+                let done = reported.and_then(|()| match self.keep(kept) {
+                    Err(fault) if !kept.is_wanted => {
+                        self.states_missing = Some(fault.to_string());
+                        Ok(())
+                    }
+                    done => done,
+                });
+                if self.states_missing.is_some() {
+                    self.cost.give_up()
+                } else {
+                    self.cost.end(begin.elapsed())
+                }
+                done
             }
             None => reported,
         }
@@ -286,7 +312,7 @@ impl Writer {
                 picture::plots(&self.columns, &self.plot_rows.rows(), &self.title, self.of_whole_bodies, side).map_err(|e| e.to_string())
             })
         });
-        Closed { result, pictures_missing: made.and_then(Result::err) }
+        Closed { result, pictures_missing: made.and_then(Result::err), states_missing: self.states_missing }
     }
 }
 

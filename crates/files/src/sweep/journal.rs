@@ -2,8 +2,9 @@
 //! `sweep.journal` gets a line for each that has ended.
 //!
 //! Lines come from `run.rs`; a program that starts again finds them here and leaves those runs out.
-//! `sweep.json` is written whole before the first run. A sweep with more runs takes over those that it has. A line of the journal counts only with its end, so
-//! what was cut off by the end of a program or a machine is a run that has to be done again.
+//! `sweep.json` is written whole before the first run. A sweep with more runs takes over those that it has. A
+//! line of the journal counts only with its end, so what was cut off by the end of a program or a machine is
+//! a run that has to be done again.
 
 use super::{Keep, SweepError};
 use crate::plain;

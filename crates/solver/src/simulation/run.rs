@@ -324,7 +324,7 @@ where
                 self.pause(output_cursor);
                 return Ok(());
             }
-            let until = rows.next().min(frames.next());
+            let until = if self.shows() { rows.next().min(frames.next()) } else { rows.next() };
             let stage = output_cursor.steps(self.system.step, state_steps).min(last - self.system.step).min(observer.stride().max(1));
             let result = self.continue_run(until.min(pause), stage);
             // A stop for the state alone leaves no trace.

@@ -112,7 +112,12 @@ where
     pub fn now(&self, bodies: &Bodies<D>, time: f64) -> Outline {
         let body = bodies.state(self.body);
         let place = |&point: &[f64; D]| in_3d(body.place(point));
-        Outline { name: self.name.clone(), points: self.points.iter().map(place).collect(), facets: self.facets.clone(), is_gone: time >= self.death }
+        Outline {
+            name: self.name.clone(),
+            points: self.points.iter().map(place).collect(),
+            facets: self.facets.clone(),
+            is_gone: time >= self.death,
+        }
     }
 }
 

@@ -13,6 +13,7 @@ mod diff;
 mod explain;
 mod fit;
 mod import;
+mod in_place;
 mod input;
 mod interrupt;
 mod list;

@@ -10,6 +10,7 @@ mod examples;
 mod far;
 mod fit;
 mod hashes;
+mod kept;
 #[cfg(unix)]
 mod links;
 mod lock;

@@ -35,7 +35,7 @@ fn piston(material: Material, size: [f64; 2], elements: usize, speed: f64, end: 
     ] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
         model.constraints.push(Constraint {
-            on: "block.bottom".into(),
+            on: side.into(),
             velocity: embate_solver::model::in_3d(velocity),
             ..Constraint::default()
         });
@@ -205,13 +205,13 @@ fn the_viscosity_of_a_fluid_takes_the_power_of_its_shear() {
     for (side, velocity) in [("water.bottom", [Some(0.0), Some(0.0)]), ("water.top", [Some(speed), Some(0.0)])] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
         model.constraints.push(Constraint {
-            on: "block.bottom".into(),
+            on: side.into(),
             velocity: embate_solver::model::in_3d(velocity),
             ..Constraint::default()
         });
     }
     for side in ["water.left", "water.right"] {
-        model.constraints.push(Constraint { on: "block.bottom".into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });
+        model.constraints.push(Constraint { on: side.into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });
     }
     let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
     simulation.advance(12.0, u64::MAX).unwrap();

@@ -62,7 +62,13 @@ fn schema() -> String {
 /// class (CFC) or corner (Hz) of a filter.
 #[pyfunction]
 #[pyo3(signature = (expression, names, values, class_number, corner))]
-fn channel(expression: &str, names: Vec<String>, values: Vec<Vec<f64>>, class_number: Option<f64>, corner: Option<f64>) -> PyResult<Vec<f64>> {
+fn channel(
+    expression: &str,
+    names: Vec<String>,
+    values: Vec<Vec<f64>>,
+    class_number: Option<f64>,
+    corner: Option<f64>,
+) -> PyResult<Vec<f64>> {
     use embate_solver::channel::{self, filter::Filter};
     let filter = corner.map(Filter::Corner).or(class_number.map(Filter::Class));
     let wrong = |wrong: embate_solver::expression::Wrong| {

@@ -1,5 +1,5 @@
-//! Low-pass filters without phase: of the channel frequency classes of SAE J211/1 and ISO 6487, and Butterworth
-//! ones with a corner.
+//! Low-pass filters without phase: of the channel frequency classes of SAE J211/1 and ISO 6487, and
+//! Butterworth ones with a corner.
 //!
 //! A Butterworth filter of second order runs over the samples forwards and backwards:
 //!

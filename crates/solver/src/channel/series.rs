@@ -93,8 +93,8 @@ fn over_stroke(force: &[f64], way: &[f64]) -> Vec<f64> {
     work.into_iter().zip(way).zip(force).map(mean).collect()
 }
 
-/// HIC: the largest (t₂ − t₁) (∫ a/g dt/(t₂ − t₁))^2.5 with t₂ − t₁ ≤ `most`, s; ends between rows lie where a
-/// straight line between the integrals has them. Negative means count as zero.
+/// HIC: the largest (t₂ − t₁) (∫ a/g dt/(t₂ − t₁))^2.5 with t₂ − t₁ ≤ `most`, s; ends between rows lie where
+/// a straight line between the integrals has them. Negative means count as zero.
 ///
 /// Source: J. Versace, 15th Stapp Car Crash Conference (1971); FMVSS 208, S6.
 fn hic(times: &[f64], acceleration: &[f64], most: f64) -> f64 {

@@ -1,10 +1,11 @@
 //! Deformation gradient and velocity gradient in the middle of elements, for output.
 //!
-//! With the Jacobians J₀ = ∂X/∂ξ at the start and J = ∂x/∂ξ now: F = J J₀⁻¹, and L = (∂v/∂ξ) J⁻¹. The gradients
-//! of the shape functions in the middle are those of the plane that fits the nodes of the reference cell
-//! best: b_a = G⁻¹ (ξ_a − ξ̄), G = Σ (ξ_a − ξ̄)(ξ_a − ξ̄)ᵀ, which for every kind of cell are the isoparametric
-//! ones there. Cells of fewer dimensions than the model (shells, beams, bars) are completed by their normals,
-//! the first of which is stretched with the thickness; beams and bars keep their cross-section.
+//! With the Jacobians J₀ = ∂X/∂ξ at the start and J = ∂x/∂ξ now: F = J J₀⁻¹, and L = (∂v/∂ξ) J⁻¹. The
+//! gradients of the shape functions in the middle are those of the plane that fits the nodes of the reference
+//! cell best: b_a = G⁻¹ (ξ_a − ξ̄), G = Σ (ξ_a − ξ̄)(ξ_a − ξ̄)ᵀ, which for every kind of cell are the
+//! isoparametric ones there. Cells of fewer dimensions than the model (shells, beams, bars) are completed by
+//! their normals, the first of which is stretched with the thickness; beams and bars keep their
+//! cross-section.
 
 use crate::mesh::cell::CellKind;
 use crate::rotation::{Square, inverse};

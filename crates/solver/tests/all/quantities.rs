@@ -1,5 +1,5 @@
-//! Reactions, resultants, cuts, accelerations, spins and fields of probes: against balances that share nothing
-//! with how they are found, and closed forms.
+//! Reactions, resultants, cuts, accelerations, spins and fields of probes: against balances that share
+//! nothing with how they are found, and closed forms.
 
 use crate::bodies::*;
 use embate_solver::model::{
@@ -232,7 +232,7 @@ fn a_body_that_falls_and_spins_has_its_acceleration_and_spin() {
 
 #[test]
 fn a_driven_rotation_has_the_torque_that_turns_the_body() {
-    // A block whose left side is led around its middle from rest at a constant angular acceleration: the
+    // A block whose left side rotates about its middle from rest at a constant angular acceleration: the
     // torque about the middle of the side, less that of the rest of the body's inertia, is what it says.
     let mut model = model(4e-4);
     add(&mut model, "block", rectangle([-0.05, -0.05], [0.1, 0.1], [6, 6]), [0.0, 0.0]);

@@ -34,11 +34,7 @@ fn piston(material: Material, size: [f64; 2], elements: usize, speed: f64, end: 
         ("tube.top", [None, Some(0.0)]),
     ] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint {
-            on: side.into(),
-            velocity: embate_solver::model::in_3d(velocity),
-            ..Constraint::default()
-        });
+        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
     }
     model
 }
@@ -204,11 +200,7 @@ fn the_viscosity_of_a_fluid_takes_the_power_of_its_shear() {
     add(&mut model, "water", rectangle([0.0; 2], [1.0, 1.0], [8, 8]), [0.0; 2]);
     for (side, velocity) in [("water.bottom", [Some(0.0), Some(0.0)]), ("water.top", [Some(speed), Some(0.0)])] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint {
-            on: side.into(),
-            velocity: embate_solver::model::in_3d(velocity),
-            ..Constraint::default()
-        });
+        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
     }
     for side in ["water.left", "water.right"] {
         model.constraints.push(Constraint { on: side.into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });

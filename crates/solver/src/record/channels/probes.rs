@@ -99,8 +99,8 @@ impl Probe {
         self.nodes.iter().fold([0.0; D], |sum, &(node, weight)| plus(sum, times(weight, value(node as usize))))
     }
 
-    /// Angular velocity ω of its nodes as if they were rigid, I ω = Σ m (x − c) × v, rad/s; zero about an axis
-    /// on which all of them lie.
+    /// Angular velocity ω of its nodes as if they were rigid, I ω = Σ m (x − c) × v, rad/s; zero about an
+    /// axis on which all of them lie.
     fn spin<const D: usize>(&self, system: &System<D>) -> [f64; 3]
     where
         Dim<D>: Dimension<D>,

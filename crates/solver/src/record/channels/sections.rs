@@ -106,8 +106,8 @@ where
     }
 }
 
-/// Adds the slots of nodes beyond, chunk by chunk, where a chunk has nodes on both sides; the nodes of a chunk
-/// ascend.
+/// Adds the slots of nodes beyond, chunk by chunk, where a chunk has nodes on both sides; the nodes of a
+/// chunk ascend.
 fn add_slots(nodes: &[u32], first: u32, is_beyond: &impl Fn(u32) -> bool, mut add: impl FnMut(u32, u32)) {
     let mut begin = 0;
     while begin < nodes.len() {

@@ -232,8 +232,8 @@ fn a_body_that_falls_and_spins_has_its_acceleration_and_spin() {
 
 #[test]
 fn a_driven_rotation_has_the_torque_that_turns_the_body() {
-    // A block whose left side rotates about its middle from rest at a constant angular acceleration: the
-    // torque about the middle of the side, less that of the rest of the body's inertia, is what it says.
+    // All nodes rotate about the middle from rest at a constant angular acceleration α: the torque is I α of
+    // the lumped masses.
     let mut model = model(4e-4);
     add(&mut model, "block", rectangle([-0.05, -0.05], [0.1, 0.1], [6, 6]), [0.0, 0.0]);
     model.curves.insert("up".into(), Curve { shape: CurveShape::Expression("1e6*t".into()), dimension: None });

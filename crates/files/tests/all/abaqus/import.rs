@@ -338,8 +338,9 @@ fn values_behind_those_that_are_read_are_reported() {
     let text = deck("CPE4R", "*CLOAD\n3,2,10.,7\n*BOUNDARY\n1,1,2,0.,5\n").replace("1000.\n", "1000., 20.\n");
     let report = imported("behind", &text, "m,kg,s").unwrap().0.report;
     for keyword in ["CLOAD", "BOUNDARY", "DENSITY"] {
-        let is_said =
-            |entry: &&embate_files::abaqus::import::Entry| entry.outcome == Outcome::Ignored && entry.text.contains("does not act");
+        let is_said = |entry: &&embate_files::abaqus::import::Entry| {
+            entry.outcome == Outcome::Ignored && entry.text.contains("further values do not act")
+        };
         assert_eq!(
             report.entries.iter().filter(|entry| entry.keyword == keyword).filter(is_said).count(),
             1,

@@ -144,7 +144,7 @@ fn each_is_refused(text: &dyn Fn(&str) -> String, cases: &[(&str, &str, &str)]) 
 fn what_only_the_plane_knows_is_refused_in_3d_on_its_line() {
     let cases = [
         (
-            "[[obstacle]]\ncircle = { centre = [0, -2], radius = 1 }",
+            "[[obstacle]]\ncircle = { centre = [0, -2, 0], radius = 1 }",
             "obstacle[0].circle",
             "there are no circles in 3D | take `sphere` or `cylinder`",
         ),

@@ -3,7 +3,7 @@
 
 use crate::bodies::{every_step, faults, simulation, value};
 use crate::patches::{DENSITY, material};
-use embate_solver::model::{Cuboid, Model, Motion, Part, RadialVelocity, Rectangle, Ring, Run, Shape, ShellSection};
+use embate_solver::model::{Cuboid, Model, Motion, Part, Probe, ProbeAt, RadialVelocity, Rectangle, Ring, Run, Shape, ShellSection};
 
 type Vector = [f64; 3];
 
@@ -13,6 +13,7 @@ fn model(element: &str, shape: Shape, end: f64) -> Model {
         run: Run { end, ..Run::default() },
         materials: [("m".to_string(), material("elastic", 0.3))].into(),
         parts: vec![Part { name: "body".into(), material: "m".into(), element: element.into(), shape, ..Part::default() }],
+        probes: vec![Probe { name: "body".into(), at: ProbeAt::Set { set: "body".into() } }],
         ..Model::default()
     }
 }

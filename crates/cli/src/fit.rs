@@ -25,15 +25,16 @@ pub(crate) struct Arguments {
     /// `material.steel.yield=200MPa:600MPa`; may be repeated
     #[arg(long, value_name = "KEY=BOUNDS", required = true)]
     vary: Vec<String>,
-    /// What was measured: OUTPUT=VALUE, where OUTPUT is as in `embate sweep`, for example `at=1ms(tip.y)=3.2mm`,
-    /// or COLUMN=FILE with a curve over time, a CSV file whose first line may name units:
-    /// `time [ms],tip.y [mm]`; may be repeated
+    /// What was measured: OUTPUT=VALUE, where OUTPUT is as in `embate sweep`, for example
+    /// `at=1ms(tip.y)=3.2mm`, or COLUMN=FILE with a curve over time, a CSV file whose first line may name
+    /// units: `time [ms],tip.y [mm]`; may be repeated
     #[arg(long, value_name = "WHAT=MEASURED", required = true)]
     measured: Vec<String>,
     /// Length of the differences between runs that give the derivatives, as a part of the bounds' distance
     #[arg(long, value_name = "PART", default_value_t = 0.01)]
     step: f64,
-    /// Relative change of the sum of squares, or of the keys as parts of the bounds' distance, at which it ends
+    /// Relative change of the sum of squares, or of the keys as parts of the bounds' distance, at which it
+    /// ends
     #[arg(long, value_name = "PART", default_value_t = 1e-3)]
     tolerance: f64,
     /// Most runs, about

@@ -1,5 +1,5 @@
-//! Pieces of a model in texts of their own: checked by themselves when a program gives them one by one, or added
-//! to the model of a file.
+//! Pieces of a model in texts of their own: checked by themselves when a program gives them one by one, or
+//! added to the model of a file.
 //!
 //! A piece is read as the sections of a model file are; what it lacks may still come.
 

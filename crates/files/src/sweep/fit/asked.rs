@@ -99,7 +99,8 @@ fn target(text: &str) -> Result<Target, Wrong> {
     Ok(Target { outputs, values, size: if size > 0.0 { size } else { 1.0 } })
 }
 
-/// A curve over time of a table with two columns, whose first line may name them with units: `time [ms],tip.y [mm]`.
+/// A curve over time of a table with two columns, whose first line may name them with units:
+/// `time [ms],tip.y [mm]`.
 fn curve(file: &Path) -> Result<Vec<[f64; 2]>, Wrong> {
     let shown = file.display();
     let text =

@@ -1,7 +1,7 @@
 //! Fits: values of keys with which a model follows what was measured, by least squares.
 //!
-//! The walk: keys with their bounds and what was measured (`asked.rs`) -> a search (`search.rs`), which asks for
-//! runs -> these, as a sweep whose values go together ([`super::Sweep`]) -> the table of all runs. The
+//! The walk: keys with their bounds and what was measured (`asked.rs`) -> a search (`search.rs`), which asks
+//! for runs -> these, as a sweep whose values go together ([`super::Sweep`]) -> the table of all runs. The
 //! program's command `fit` asks and reports; `embate.calibrate` of Python does the same with scipy.
 
 mod asked;
@@ -30,7 +30,8 @@ pub struct Wanted<'a> {
     pub measured: &'a [String],
     /// Length of the differences between runs, a part of the range of each key.
     pub step: f64,
-    /// Relative change of the sum of squares, or change of all keys as parts of their ranges, at which it ends.
+    /// Relative change of the sum of squares, or change of all keys as parts of their ranges, at which it
+    /// ends.
     pub tolerance: f64,
     /// Most runs, about.
     pub runs: usize,
@@ -72,8 +73,8 @@ pub struct Fitted {
     pub path: String,
     /// SI.
     pub value: f64,
-    /// Standard error, SI, as far as the fit is linear near the value; infinite where what was measured does not
-    /// say the value.
+    /// Standard error, SI, as far as the fit is linear near the value; infinite where what was measured does
+    /// not say the value.
     pub error: f64,
     /// Unit in SI; may be empty.
     pub unit: String,

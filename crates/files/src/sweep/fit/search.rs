@@ -111,7 +111,8 @@ impl Search {
 
 impl Found {
     /// Standard errors of the variables, from s² (JᵀJ)⁻¹ with s² the sum of squares over the degrees of
-    /// freedom: infinite where the differences don't depend on a variable, or only on a combination of it with others.
+    /// freedom: infinite where the differences don't depend on a variable, or only on a combination of it
+    /// with others.
     pub(super) fn errors(&self) -> Vec<f64> {
         let count = self.at.len();
         let normal = normal(&self.derivatives, count);

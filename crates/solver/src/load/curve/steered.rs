@@ -3,8 +3,8 @@
 
 use crate::archive::{Archive, ArchiveResult, Persist};
 
-/// Half a step before the last change, the change, and its end: time (s) and value of each. Change and end are
-/// at one time where the value jumps; it is the old one until then and at that time.
+/// Half a step before the last change, the change, and its end: time (s) and value of each. Change and end
+/// are at one time where the value jumps; it is the old one until then and at that time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Steered {
     points: [[f64; 2]; 3],

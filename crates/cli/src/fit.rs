@@ -11,7 +11,8 @@ use crate::progress::Display;
 use crate::sweep::reported;
 use crate::{Failure, machine, terminal};
 use clap::Args;
-use embate_files::sweep::fit::{Ended, Fit, Fitting, TABLE_NAME, Wanted};
+use embate_files::numbers::significant;
+use embate_files::sweep::fit::{Ended, Fit, Fitted, Fitting, TABLE_NAME, Wanted};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -106,14 +107,12 @@ fn closing(ended: &Ended, fit: &Fit<'_>, arguments: &Arguments, folder: &Path) -
         per_cent(ended.residual),
         per_cent(ended.residual_first),
     );
-    let row = |key: &embate_files::sweep::fit::Fitted| {
-        let error = if key.error.is_finite() {
-            format!("± {}", with_unit(key.error, &key.unit))
-        } else {
-            "what was measured does not say it".into()
-        };
+    let shown = |value: f64, unit: &str| if unit.is_empty() { significant(value) } else { with_unit(value, unit) };
+    let row = |key: &Fitted| {
+        let error =
+            if key.error.is_finite() { format!("± {}", shown(key.error, &key.unit)) } else { "what was measured does not say it".into() };
         let bound = if key.is_at_bound { "at its bound" } else { "" };
-        vec![key.path.clone(), with_unit(key.value, &key.unit), error, bound.to_string()]
+        vec![key.path.clone(), shown(key.value, &key.unit), error, bound.to_string()]
     };
     let rows: Vec<Vec<String>> = ended.keys.iter().map(row).collect();
     let set: String = ended.keys.iter().map(|key| format!(" --set {}={:?}", key.path, key.value)).collect();

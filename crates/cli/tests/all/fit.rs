@@ -103,13 +103,13 @@ fn what_can_not_be_is_reported_before_anything_runs() {
     let vary = ["--vary", "part.block.velocity[0]=1:9"];
     let measured = ["--measured", "last(P.x)=5.37mm"];
     for (arguments, code, word) in [
-        (vec!["--vary", "part.block.velocity[0]=9:1", measured[0], measured[1]], 2, "E0906"),
-        (vec![vary[0], vary[1], "--measured", "P.x=nowhere.csv"], 2, "E0907"),
+        (vec!["--vary", "part.block.velocity[0]=9:1", measured[0], measured[1]], 2, "E0907"),
+        (vec![vary[0], vary[1], "--measured", "P.x=nowhere.csv"], 2, "E0908"),
         (vec![vary[0], vary[1], "--measured", "last(Q.x)=1"], 2, "E0902"),
         (vec!["--vary", "part.block.velosity[0]=1:9", measured[0], measured[1]], 2, "velosity"),
         (vec!["--vary", "material.steel.density=-5:5", measured[0], measured[1]], 2, "must be"),
         (vec![vary[0], vary[1], measured[0], measured[1], "--step", "0"], 2, "--step is 0"),
-        (vec!["--vary", "run.energy_limit=1e-300:2e-300", measured[0], measured[1], "--set", "part.block.velocity=[7, 3]"], 1, "E0908"),
+        (vec!["--vary", "run.energy_limit=1e-300:2e-300", measured[0], measured[1], "--set", "part.block.velocity=[7, 3]"], 1, "E0909"),
     ] {
         let (answer, folder) = fit("fit-refused", &arguments);
         assert_eq!(answer.code, Some(code), "{arguments:?}: {}", answer.err);

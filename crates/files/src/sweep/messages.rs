@@ -51,7 +51,7 @@ pub(super) static BUSY: Message = Message {
 };
 
 pub(super) static BOUNDS: Message = Message {
-    code: "E0906",
+    code: "E0907",
     title: "bounds of a fit that can't be",
     example: Example::Command("fit model.toml --vary material.steel.young=300GPa:100GPa --measured last(block.vx)=1"),
     cause: "A key has no bounds, they are not two or three numbers in ascending order, or a key has bounds twice.",
@@ -59,7 +59,7 @@ pub(super) static BOUNDS: Message = Message {
 };
 
 pub(super) static MEASURED: Message = Message {
-    code: "E0907",
+    code: "E0908",
     title: "a measurement of a fit that can't be",
     example: Example::Command("fit model.toml --vary material.steel.young=100GPa:300GPa --measured block.vx=nowhere.csv"),
     cause: "There is no number and no table behind the name, or the table has not two columns of numbers.",
@@ -67,7 +67,7 @@ pub(super) static MEASURED: Message = Message {
 };
 
 pub(super) static FIRST_RUN: Message = Message {
-    code: "E0908",
+    code: "E0909",
     title: "a fit whose first run fails",
     example: Example::Command("fit model.toml --vary run.energy_limit=1e-300:2e-300 --measured last(block.vx)=1"),
     cause: "The search begins in the middle of the bounds, or at the first value between them, and there the model fails.",

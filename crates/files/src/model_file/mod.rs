@@ -9,6 +9,7 @@
 mod build;
 mod decimal;
 mod diagnostics;
+mod library;
 mod manual;
 pub(crate) mod messages;
 mod reader;
@@ -21,12 +22,13 @@ mod units;
 mod value;
 
 pub use diagnostics::{Diagnostic, Diagnostics};
+pub use library::{LibraryMaterial, LibraryValue, library, library_material};
 pub use manual::reference_markdown;
 pub use schema::schema;
 pub use starter::starter;
 
 pub(crate) use diagnostics::{Faults, Source};
-pub(crate) use manual::table as keys_table;
+pub(crate) use manual::{row as key_row, table as keys_table};
 pub(crate) use reader::{Document, Record, Vocabulary};
 pub(crate) use template::{Change, Template};
 pub(crate) use tree::Node;
@@ -104,6 +106,7 @@ impl Loaded {
         let Some(source) = self.sources.get(place.source) else { return KeyPlace::default() };
         let line = |at: usize| 1 + source.text.bytes().take(at).filter(|&byte| byte == b'\n').count();
         let is_somewhere = place.end > place.start && place.source == 0;
+        let node = node.filter(|_| !self.is_of_library(path));
         let written = node.filter(|node| !matches!(node.value, tree::Value::Table(_)) || node.place.end > node.place.start);
         let written = written.and_then(|node| source.text.get(node.place.start..node.place.end)).map(str::to_string);
         KeyPlace {
@@ -111,6 +114,13 @@ impl Loaded {
             line: if is_somewhere { line(place.start) } else { 0 },
             written: written.filter(|_| node.is_some()),
         }
+    }
+
+    /// Whether the value of a key came with `from`: it stands where that does.
+    fn is_of_library(&self, path: &str) -> bool {
+        let place = |path: &str| self.root.find(path).1.map(|node| node.place);
+        let from = path.strip_prefix("material.").and_then(|_| path.rsplit_once('.')).map(|(material, _)| format!("{material}.from"));
+        from.is_some_and(|from| from != path && place(&from).is_some_and(|at| place(path) == Some(at)))
     }
 
     /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines

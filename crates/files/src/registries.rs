@@ -3,6 +3,14 @@
 //!
 //! Nothing is named here: a new material, element, search or field shows up by itself.
 
+mod curves;
+mod library;
+
+pub use curves::law_curves;
+pub use library::library_markdown;
+
+use crate::model_file::key_row;
+use embate_solver::input::sections::section;
 use embate_solver::quantity::Parameter;
 use embate_solver::stress_state::STRESS_STATES;
 use embate_solver::{contact, element, failure, material, output};
@@ -38,6 +46,8 @@ pub struct Entry {
     pub rows: Vec<Vec<String>>,
 }
 
+/// The registry of shapes, whose tables docs/model-file.md has.
+const SHAPES: &str = "shapes";
 /// Columns of the tables of parameters.
 const PARAMETERS: &[&str] = &["key", "symbol", "unit", "range", "left out", "meaning"];
 /// Columns of the table of fields, where all entries share one.
@@ -92,9 +102,16 @@ pub fn registries() -> Vec<Registry> {
     });
     let laws = contact::law::LAWS.iter().map(|law| Entry::new(law.name, law.doc, law.source).with(law.parameters, "optional"));
     let fields = output::FIELDS.iter().map(|kind| Entry { rows: vec![field(kind)], ..Entry::new(kind.name, kind.doc, "") });
+    let shapes = section("part").into_iter().flat_map(|part| part.groups.iter().filter(|group| group.title == "Shapes"));
+    let shapes = shapes.flat_map(|group| group.keys).filter_map(|key| {
+        let inner = key.kind.inner()?;
+        let rows = inner.all_keys().map(|key| key_row(key).to_vec()).collect();
+        Some(Entry { rows, ..Entry::new(key.name, inner.doc, "") })
+    });
     let registry = |name, doc, title, keys, entries| Registry { name, doc, title, keys, entries };
     vec![
         registry("elements", "Element formulations", "Elements", &["part.element", "part.element_triangles"], elements.collect()),
+        registry(SHAPES, "Shapes of parts, and groups of mesh files", "Shapes", &["part.SHAPE"], shapes.collect()),
         registry("stress-states", "Stress states", "Stress states", &["part.stress_state"], states.collect()).starting_with_the_default(),
         registry("materials", "Material laws", "Materials", &["material.NAME.law"], materials.collect()),
         registry("failure", "Criteria of failure", "Criteria of failure", &["material.failure"], criteria.collect()),
@@ -118,7 +135,7 @@ fn row(parameter: &Parameter, without: &str) -> Vec<String> {
     vec![
         parameter.name.to_string(),
         parameter.symbol.to_string(),
-        unit(parameter.dimension.unit()),
+        unit(parameter.unit()),
         format!("{}{many}", parameter.range),
         default,
         parameter.doc.to_string(),
@@ -142,14 +159,14 @@ fn unit(unit: String) -> String {
 const OPENING: &str = "# Elements, laws and fields
 
 What a model can name, with its parameters, its source, and the examples and verification cases that use it. `embate list` prints the same. Keys and where they stand: [the model file](model-file.md);
-equations: [theory](theory.md). This page is made from the registries of the program.
+equations: [theory](theory.md); materials with values: [the library](materials.md). This page is made from the registries of the program, the curves of the laws from the laws.
 ";
 
 /// The text of `docs/elements-and-laws.md`; `uses` are the links to models that name an entry of a registry.
 #[must_use]
 pub fn markdown(uses: &dyn Fn(&Registry, &Entry) -> Vec<String>) -> String {
     let mut out = OPENING.to_string();
-    for registry in registries() {
+    for registry in registries().into_iter().filter(|registry| registry.name != SHAPES) {
         // Writing to a string can't fail.
         let keys: Vec<String> = registry.keys.iter().map(|key| format!("`{key}`")).collect();
         let _ = writeln!(out, "\n## {}\n\n{}: {}.", registry.title, registry.doc, keys.join(", "));
@@ -163,6 +180,9 @@ pub fn markdown(uses: &dyn Fn(&Registry, &Entry) -> Vec<String>) -> String {
             let _ = writeln!(out, "\n### `{}`\n\n{}{stop}{default}", entry.name, sentence(&entry.doc));
             if !entry.rows.is_empty() {
                 table(&mut out, PARAMETERS, entry.rows.iter());
+            }
+            if registry.name == "materials" && curves::has_curve(entry.name) {
+                let _ = writeln!(out, "\n![Stress under uniaxial stress, law {0}](images/law-{0}.svg)", entry.name);
             }
             if !entry.source.is_empty() {
                 let _ = writeln!(out, "\nSource: {}.", entry.source.trim_end_matches('.'));

@@ -179,6 +179,10 @@ pub struct Parameter {
     /// Most values of a list; 0: a single number. A list without a default may not be left out, one with a
     /// default may be empty.
     pub list: usize,
+    /// A value as people write it, for messages; empty: what is usual for its dimension.
+    pub example: &'static str,
+    /// Whether it is an angle: a number in rad, or a text such as `25 deg`.
+    pub is_angle: bool,
     /// One line: what it is.
     pub doc: &'static str,
 }
@@ -187,7 +191,7 @@ impl Parameter {
     /// A number that must be given.
     #[must_use]
     pub const fn new(name: &'static str, symbol: &'static str, dimension: Dimension, range: Range, doc: &'static str) -> Self {
-        Self { name, symbol, dimension, range, default: None, list: 0, doc }
+        Self { name, symbol, dimension, range, default: None, list: 0, example: "", is_angle: false, doc }
     }
 
     /// The same with a value for when it is left out.
@@ -200,5 +204,23 @@ impl Parameter {
     #[must_use]
     pub const fn list(self, most: usize) -> Self {
         Self { list: most, ..self }
+    }
+
+    /// The same with a value as people write it.
+    #[must_use]
+    pub const fn such_as(self, example: &'static str) -> Self {
+        Self { example, ..self }
+    }
+
+    /// The same as an angle.
+    #[must_use]
+    pub const fn angle(self) -> Self {
+        Self { is_angle: true, ..self }
+    }
+
+    /// The SI unit of its values; empty for a pure number.
+    #[must_use]
+    pub fn unit(&self) -> String {
+        if self.is_angle { "rad".into() } else { self.dimension.unit() }
     }
 }

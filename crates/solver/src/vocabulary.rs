@@ -78,6 +78,8 @@ pub struct Key {
     pub kind: Kind,
     /// Whether it may be left out.
     pub need: Need,
+    /// A number as people write it, for messages; empty: what is usual for its kind.
+    pub example: &'static str,
     /// One line: what it is.
     pub doc: &'static str,
 }
@@ -236,7 +238,7 @@ pub struct More {
 }
 
 pub(crate) const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> Key {
-    Key { name, kind, need, doc }
+    Key { name, kind, need, example: "", doc }
 }
 
 impl Key {

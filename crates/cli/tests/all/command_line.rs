@@ -110,6 +110,39 @@ fn one_list_can_be_chosen() {
 }
 
 #[test]
+fn one_thing_is_listed_by_its_name() {
+    for (name, [with, without]) in [
+        ("j2", ["rate_exponent", "saturation"]),
+        ("hex8_reduced", ["Elements", "hex8_full"]),
+        ("von_mises", ["Pa", "pressure"]),
+        ("ring", ["inner", "extrude"]),
+        ("steel DP600", ["EN 10346", "steel S355"]),
+    ] {
+        let answer = embate(here(), ["list", name]);
+        assert_eq!(answer.code, Some(0), "{name}: {}", answer.err);
+        assert!(answer.out.contains(with) && !answer.out.contains(without), "{name}: {}", answer.out);
+    }
+    let answer = embate(here(), ["list", "j3"]);
+    assert!(answer.code == Some(2) && answer.err.contains("did you mean `j2`"), "{}", answer.err);
+}
+
+#[test]
+fn the_library_of_materials_is_listed() {
+    let all = embate(here(), ["list", "materials", "--library"]);
+    assert_eq!(all.code, Some(0), "{}", all.err);
+    for material in embate_files::model_file::library() {
+        assert!(all.out.contains(&format!("\n  {} (", material.name)), "{}", material.name);
+    }
+    assert_eq!(embate(here(), ["list", "--library"]).out, all.out);
+    let one = embate(here(), ["list", "materials", "--library", "steel DP600"]);
+    assert!(one.code == Some(0) && one.out.contains("hardening_exponent") && one.out.contains("source of"), "{}", one.out);
+    assert_eq!(embate(here(), ["list", "steel DP600"]).out, one.out);
+    let wrong = embate(here(), ["list", "--library", "DP600"]);
+    assert!(wrong.code == Some(2) && wrong.err.contains("did you mean `steel DP600`?"), "{}", wrong.err);
+    assert_eq!(embate(here(), ["list", "elements", "--library"]).code, Some(2));
+}
+
+#[test]
 fn the_schema_is_json() {
     let answer = embate(here(), ["schema"]);
     assert_eq!(answer.code, Some(0));

@@ -148,7 +148,9 @@ fn is_free(key: &str) -> bool {
         Some(rest) => free.ends_with('.') || rest.is_empty() || rest.starts_with(['.', '[']),
         None => false,
     };
-    FREE.iter().any(|free| is(&free))
+    // Where the values of a material come from does not act.
+    let is_origin = key.starts_with("material.") && key.ends_with(".from");
+    is_origin || FREE.iter().any(|free| is(&free))
 }
 
 /// A mesh by its size and the bits of its numbers.

@@ -68,6 +68,9 @@ pub fn reference_markdown() -> String {
             };
             further(&mut out, more, registry);
         }
+        if section.name == "material" {
+            out.push_str(LIBRARY);
+        }
         groups_after(&mut out, section);
     }
     registries(&mut out);
@@ -102,17 +105,23 @@ fn tables_in(out: &mut String, keys: &[Key]) {
     }
 }
 
+/// A key: its name, what its value may be, what holds where it is left out, what it means.
+pub(crate) fn row(key: &Key) -> [String; 4] {
+    let left_out = match key.need {
+        Need::Required => "required".to_string(),
+        Need::Optional(text) => text.to_string(),
+        Need::Default(text) => format!("`{text}`"),
+        Need::Value(value) => format!("`{value}`"),
+    };
+    [key.name.to_string(), words(key), left_out, key.doc.to_string()]
+}
+
 /// A table of keys, and the rules between them.
 pub(crate) fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
     out.push_str("| key | value | left out | meaning |\n|---|---|---|---|\n");
     for key in keys {
-        let left_out = match key.need {
-            Need::Required => "required".to_string(),
-            Need::Optional(text) => text.to_string(),
-            Need::Default(text) => format!("`{text}`"),
-            Need::Value(value) => format!("`{value}`"),
-        };
-        let _ = writeln!(out, "| `{}` | {} | {left_out} | {} |", key.name, words(key), key.doc);
+        let [name, value, left_out, doc] = row(key);
+        let _ = writeln!(out, "| `{name}` | {value} | {left_out} | {doc} |");
     }
     out.push('\n');
     for rule in rules {
@@ -137,6 +146,27 @@ pub(crate) fn table(out: &mut String, keys: &[Key], rules: &[Rule]) {
         out.push('\n');
     }
 }
+
+/// Beside the keys of materials.
+const LIBRARY: &str = "\
+### Materials of the library
+
+`from` takes law and keys of a [material of the library](materials.md), each with its source; keys that stand beside it take the place of those of the library:
+
+```toml
+[material.hull]
+from = \"steel DP600\"
+failure = { plastic_strain = 0.4 }
+
+[material.die]
+from = \"steel\"
+young = \"206 GPa\"
+```
+
+Another `law` beside `from` is a fault. With another `eos`, the keys of the material's own equation of state are left out. `run.json` and the report have all values and
+where they began.
+
+";
 
 /// What prescribes the motion of a rigid body.
 const FAULTS_AND_WARNINGS: &str = "\

@@ -9,6 +9,7 @@
 mod build;
 mod decimal;
 mod diagnostics;
+mod library;
 mod manual;
 pub(crate) mod messages;
 mod piece;
@@ -23,6 +24,7 @@ mod units;
 mod value;
 
 pub use diagnostics::{Diagnostic, Diagnostics};
+pub use library::{LibraryMaterial, LibraryValue, library, library_material};
 pub use manual::reference_markdown;
 pub use piece::check_piece;
 pub use python::python;
@@ -30,7 +32,7 @@ pub use schema::schema;
 pub use starter::{SCHEMA_NAME, STARTERS, Starter};
 
 pub(crate) use diagnostics::{Faults, Source};
-pub(crate) use manual::table as keys_table;
+pub(crate) use manual::{row as key_row, table as keys_table};
 pub(crate) use reader::{Document, Record, Vocabulary};
 pub(crate) use template::{Change, Template};
 pub(crate) use tree::Node;
@@ -123,6 +125,7 @@ impl Loaded {
         let Some(source) = self.sources.get(place.source) else { return KeyPlace::default() };
         let line = |at: usize| 1 + source.text.bytes().take(at).filter(|&byte| byte == b'\n').count();
         let is_somewhere = place.end > place.start && place.source == 0;
+        let node = node.filter(|_| !self.is_of_library(path));
         let written = node.filter(|node| !matches!(node.value, tree::Value::Table(_)) || node.place.end > node.place.start);
         let written = written.and_then(|node| source.text.get(node.place.start..node.place.end)).map(str::to_string);
         KeyPlace {
@@ -150,11 +153,20 @@ impl Loaded {
             tree::Value::List(items) if items.iter().any(|item| matches!(item.value, tree::Value::Table(_))) => {
                 items.iter().zip(0..).for_each(|(item, index): (_, usize)| self.note(item, format!("{path}[{index}]"), all));
             }
+            // What came with `from` stands there.
+            _ if self.is_of_library(&path) => {}
             _ => {
                 let written = self.sources.get(node.place.source).and_then(|source| source.text.get(node.place.start..node.place.end));
                 all.push((path, on_a_line(written.unwrap_or_default())));
             }
         }
+    }
+
+    /// Whether the value of a key came with `from`: it stands where that does.
+    fn is_of_library(&self, path: &str) -> bool {
+        let place = |path: &str| self.root.find(path).1.map(|node| node.place);
+        let from = path.strip_prefix("material.").and_then(|_| path.rsplit_once('.')).map(|(material, _)| format!("{material}.from"));
+        from.is_some_and(|from| from != path && place(&from).is_some_and(|at| place(path) == Some(at)))
     }
 
     /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines

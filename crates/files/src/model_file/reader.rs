@@ -435,6 +435,7 @@ impl Reader<'_> {
                 }
             }
             Rule::SomeOf(names) if !names.iter().any(&has) => {
+                names.iter().for_each(|name| self.faults.cover(&record.key(name)));
                 (place, format!("{what} needs {}", list(names, "or")), "add one of them".to_string())
             }
             Rule::NotBoth(one, other) if has(one) && has(other) => (
@@ -495,7 +496,9 @@ fn keys_of(section: &Section, entries: &[Entry]) -> (Vec<Key>, bool) {
     let mut complete = true;
     for more in section.more {
         let chosen = entries.iter().find(|entry| entry.key == more.by).map(|entry| &entry.node.value);
-        let required = section.all_keys().any(|key| key.name == more.by && key.need == Need::Required);
+        let is_needed = |rule: &Rule| matches!(rule, Rule::SomeOf(names) if names.contains(&more.by));
+        let required =
+            section.all_keys().any(|key| key.name == more.by && key.need == Need::Required) || section.all_rules().any(is_needed);
         let further = if let Some(Value::Text(text)) = chosen { (more.keys)(text) } else { None };
         complete &= further.is_some() || (chosen.is_none() && !required);
         for key in further.into_iter().flatten() {

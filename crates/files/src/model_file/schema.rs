@@ -4,7 +4,7 @@
 //! prints it.
 
 use super::tree::{self, Value};
-use super::units;
+use super::{library, units};
 use embate_solver::input::sections::{SECTIONS, TOP};
 use embate_solver::material;
 use embate_solver::quantity::{Dimension, Range};
@@ -123,13 +123,22 @@ fn of_section(section: &Section) -> Json {
 fn variants(section: &Section) -> Json {
     let names: Vec<&str> = material::registry().iter().map(|kind| kind.name).collect();
     let Some((more, others)) = section.more.split_first() else { return Json::List(vec![of_table(section, &all(section))]) };
-    let variant = |name: &&str| {
+    // With `from`, nothing else is needed; without it, the deciding key is.
+    let variant = |name: &&str, from: &[&str]| {
         let mut keys = all(section);
         keys.extend((more.keys)(name).into_iter().flatten());
         let mut rules = Vec::new();
         for other in others {
             keys_by(other, &mut keys, &mut rules);
         }
+        if from.is_empty() {
+            keys.retain(|key| key.name != "from");
+        } else {
+            rules.clear();
+            keys.iter_mut().filter(|key| key.need == Need::Required).for_each(|key| key.need = Need::Optional(""));
+        }
+        let needed = if from.is_empty() { more.by } else { "from" };
+        keys.iter_mut().filter(|key| key.name == needed).for_each(|key| key.need = Need::Required);
         let mut table = of_table(section, &keys);
         if !rules.is_empty() {
             table = table.with("allOf", Json::List(rules));
@@ -139,10 +148,17 @@ fn variants(section: &Section) -> Json {
             && let Some((_, decides)) = properties.iter_mut().find(|(key, _)| key == more.by)
         {
             *decides = object([("const", text(*name))]);
+            if let Some((_, origin)) = properties.iter_mut().find(|(key, _)| key == "from") {
+                *origin = choice(from);
+            }
         }
         table
     };
-    Json::List(names.iter().map(variant).collect())
+    let of_library = |law: &str| -> Vec<&str> {
+        library().iter().filter(|material| material.law == law).map(|material| material.name.as_str()).collect()
+    };
+    let from_library = names.iter().map(|law| (law, of_library(law))).filter(|(_, from)| !from.is_empty());
+    Json::List(names.iter().map(|name| variant(name, &[])).chain(from_library.map(|(law, from)| variant(law, &from))).collect())
 }
 
 /// Keys that come with the values of a key that may be left out: each only with its value, and there if that
@@ -220,14 +236,14 @@ fn has(all: &[Key], by: &str, value: &str) -> Json {
 
 fn of_key(key: &Key) -> Json {
     let json = match key.kind {
-        Kind::Quantity(dimension, range) => quantity(dimension, range),
+        Kind::Quantity(dimension, range) => quantity_like(dimension, range, key.example),
         Kind::Angle(dimension, range) => {
             let example = if dimension == Dimension::RATE { "30 rad/s" } else { "30 deg" };
             any([number(range), object([("type", text("string")), ("examples", texts([example]))])])
         }
         Kind::Vector(dimension, range) => list(quantity(dimension, range), Some(2)),
         Kind::Spatial(dimension, range) => between(object([("type", text("array")), ("items", quantity(dimension, range))]), [2, 3]),
-        Kind::Quantities(dimension, range, least) => at_least(quantity(dimension, range), least),
+        Kind::Quantities(dimension, range, least) => at_least(quantity_like(dimension, range, key.example), least),
         Kind::Value => quantity(Dimension::VELOCITY, Range::Finite),
         Kind::Values => at_least(quantity(Dimension::VELOCITY, Range::Finite), 1),
         Kind::Points(least) => points(least),
@@ -350,7 +366,14 @@ fn number(range: Range) -> Json {
 
 /// A number, or a text with a unit.
 fn quantity(dimension: Dimension, range: Range) -> Json {
-    any([number(range), object([("type", text("string")), ("examples", texts([units::example(dimension).as_str()]))])])
+    quantity_like(dimension, range, "")
+}
+
+/// The same with an example of its own, unless that is empty.
+fn quantity_like(dimension: Dimension, range: Range, own: &str) -> Json {
+    let usual = units::example(dimension);
+    let example = if own.is_empty() { usual.as_str() } else { own };
+    any([number(range), object([("type", text("string")), ("examples", texts([example]))])])
 }
 
 fn of_value(value: &Value) -> Json {

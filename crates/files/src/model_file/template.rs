@@ -6,7 +6,7 @@
 
 use super::diagnostics::{Diagnostics, Faults, Source};
 use super::tree::{self, Node, Place, Value};
-use super::{FILE_NAME, GivenMeshes, Loaded, build, name_of, parsed, parsed_as, piece, reader, set, source};
+use super::{FILE_NAME, GivenMeshes, Loaded, build, library, name_of, parsed, parsed_as, piece, reader, set, source};
 use crate::PathPolicy;
 use crate::model_file::messages::OVERRIDE;
 use embate_solver::error::Fault;
@@ -171,6 +171,7 @@ impl Template {
                 faults.beside(&OVERRIDE, "", Some(place(&change.key)), wrong);
             }
         }
+        library::expand(&mut root, &mut faults);
         (root, faults)
     }
 }

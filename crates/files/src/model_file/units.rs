@@ -46,9 +46,10 @@ struct Entry(&'static str, [i32; 5], u128, i32, &'static [&'static str]);
 const ALL: &[&str] = &["f", "p", "n", "u", "µ", "μ", "m", "c", "d", "da", "h", "k", "M", "G", "T", "P"];
 const SMALL: &[&str] = &["f", "p", "n", "u", "µ", "μ", "m"];
 const LARGE: &[&str] = &["k", "M"];
+const VOLUMES: &[&str] = &["u", "µ", "μ", "m", "c", "d", "h"];
 
-/// Every unit. Inch, foot and pound are exact by definition (1959); the pound-force is the pound times
-/// 9.80665 m/s².
+/// Every unit. Inch, foot, mile and pound are exact by definition (1959); the pound-force is the pound times
+/// 9.80665 m/s², the kilogram-force the kilogram times that. `cc` is a cubic centimetre.
 const TABLE: &[Entry] = &[
     Entry("m", [0, 1, 0, 0, 0], 1, 0, ALL),
     Entry("g", [1, 0, 0, 0, 0], 1, -3, ALL),
@@ -63,12 +64,18 @@ const TABLE: &[Entry] = &[
     Entry("Hz", [0, 0, -1, 0, 0], 1, 0, ALL),
     Entry("K", [0, 0, 0, 1, 0], 1, 0, SMALL),
     Entry("t", [1, 0, 0, 0, 0], 1, 3, LARGE),
+    Entry("L", [0, 3, 0, 0, 0], 1, -3, VOLUMES),
+    Entry("l", [0, 3, 0, 0, 0], 1, -3, VOLUMES),
+    Entry("cc", [0, 3, 0, 0, 0], 1, -6, &[]),
     Entry("in", [0, 1, 0, 0, 0], 254, -4, &[]),
     Entry("ft", [0, 1, 0, 0, 0], 3048, -4, &[]),
     Entry("lb", [1, 0, 0, 0, 0], 45_359_237, -8, &[]),
     Entry("lbf", [1, 1, -2, 0, 0], 44_482_216_152_605, -13, &[]),
+    Entry("kgf", [1, 1, -2, 0, 0], 980_665, -5, &[]),
     Entry("psi", [1, -1, -2, 0, 0], 44_482_216_152_605, -13, &[]), // divided by in² in `lookup`
     Entry("ksi", [1, -1, -2, 0, 0], 44_482_216_152_605, -10, &[]),
+    Entry("atm", [1, -1, -2, 0, 0], 101_325, 0, &[]),
+    Entry("mph", [0, 1, -1, 0, 0], 44_704, -5, &[]),
     Entry("rpm", [0, 0, -1, 0, 0], 6, 0, &[]), // degrees in `plain`: 360 deg in 60 s
     Entry("rad", [0, 0, 0, 0, 0], 1, 0, SMALL),
     Entry("deg", [0, 0, 0, 0, 0], 1, 0, &[]),
@@ -108,6 +115,13 @@ const MEANT: &[(&str, &str)] = &[
     ("radian", "rad"),
     ("radians", "rad"),
     ("percent", "%"),
+    ("ccm", "cc"),
+    ("cbm", "m^3"),
+    ("liter", "L"),
+    ("litre", "L"),
+    ("liters", "L"),
+    ("litres", "L"),
+    ("kp", "kgf"),
     ("mps", "m/s"),
     ("kph", "km/h"),
     ("kmh", "km/h"),
@@ -496,6 +510,13 @@ mod tests {
             ("1 lbf/in^2", 6_894.757_293_168_362),
             ("5 %", 0.05),
             ("2 bar", 2e5),
+            ("7.85 g/cc", 7850.0),
+            ("3 L", 0.003),
+            ("250 ml", 2.5e-4),
+            ("1.2 kg/l", 1200.0),
+            ("60 mph", 26.8224),
+            ("2 kgf", 19.6133),
+            ("3 atm", 303_975.0),
             ("5mm", 0.005),
             ("1e3 mm", 1.0),
             ("1.5E+3mm", 1.5),

@@ -383,9 +383,11 @@ pub(super) fn words(kind: Kind) -> String {
 
 /// A value as a person writes it, in TOML.
 pub(super) fn example(key: &Key) -> String {
-    let number = |dimension: Dimension| match dimension {
-        Dimension::NONE => "0.3".to_string(),
-        _ => format!("\"{}\"", units::example(dimension)),
+    let number = |dimension: Dimension| match (key.example, dimension) {
+        ("", Dimension::NONE) => "0.3".to_string(),
+        ("", _) => format!("\"{}\"", units::example(dimension)),
+        (own, _) if own.parse::<f64>().is_ok() => own.to_string(),
+        (own, _) => format!("\"{own}\""),
     };
     match key.kind {
         Kind::Quantity(dimension, _) => number(dimension),

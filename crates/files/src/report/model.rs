@@ -72,7 +72,7 @@ fn parameters(thing: &Thing<'_>) -> String {
     let law = laws.iter().find(|kind| kind.name == law);
     let one = |(key, value): (&String, &String)| {
         let name = key.strip_prefix(&before)?;
-        let unit = law.and_then(|law| law.parameters.iter().find(|own| own.name == name)).map_or(String::new(), |own| own.dimension.unit());
+        let unit = law.and_then(|law| law.parameters.iter().find(|own| own.name == name)).map_or(String::new(), |own| own.unit());
         let value = match value.parse::<f64>() {
             Ok(number) if unit == "Pa" || unit.is_empty() => shown(number, &unit),
             _ => format!("{value} {unit}").trim_end().to_string(),
@@ -109,7 +109,14 @@ pub(super) fn section(left: &Left) -> String {
     };
     let parts = listed(keys, "part").iter().map(of_part).collect();
     tables("Parts", &["name", "shape", "elements", "material", "state"], parts);
-    let materials = named(keys, "material").iter().map(|(name, it)| vec![name.clone(), it.value("law"), parameters(it)]).collect();
+    let of_material = |(name, it): &(String, Thing<'_>)| {
+        let origin = match it.value("from") {
+            from if from.is_empty() => String::new(),
+            from => format!(" (from {from})"),
+        };
+        vec![name.clone(), format!("{}{origin}", it.value("law")), parameters(it)]
+    };
+    let materials = named(keys, "material").iter().map(of_material).collect();
     tables("Materials", &["name", "law", "values"], materials);
     let interface = [
         ("interface.law.kind", "law"),

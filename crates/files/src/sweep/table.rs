@@ -119,10 +119,10 @@ fn unit_of(path: &str, model: &Model) -> Option<String> {
         let law = &model.materials.get(*steps.get(1)?)?.law;
         let laws = material::registry();
         let kind = laws.iter().find(|kind| kind.name == *law)?;
-        Some(kind.parameters.iter().find(|parameter| Some(&parameter.name) == steps.get(2))?.dimension)
+        kind.parameters.iter().find(|parameter| Some(&parameter.name) == steps.get(2)).copied()
     };
     if section.is_some_and(|section| section.name == "material") && steps.len() == 3 {
-        return of_law().map(|dimension| all_around(dimension, model).unit());
+        return of_law().map(|parameter| if parameter.is_angle { parameter.unit() } else { all_around(parameter.dimension, model).unit() });
     }
     // Names and numbers of tables and items are no keys.
     let named = section.is_some_and(|section| matches!(section.form, Form::Named | Form::Repeated));

@@ -8,7 +8,7 @@ use embate_solver::vocabulary::{Choices, Form, Group, Key, Kind, Need, Rule, Sec
 use std::fmt::Write;
 
 const fn key(name: &'static str, kind: Kind, need: Need, doc: &'static str) -> Key {
-    Key { name, kind, need, doc }
+    Key { name, kind, need, example: "", doc }
 }
 
 use Kind::{Choice, Quantity, Reference, References, Spatial, Table, Text};

@@ -5,6 +5,7 @@
 mod abaqus;
 mod damaged_state;
 mod gmsh;
+mod library;
 mod model_file;
 mod picture;
 mod picture_space;

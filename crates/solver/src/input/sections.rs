@@ -13,9 +13,9 @@ use crate::model::{
 };
 use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
-use crate::vocabulary::Kind::{Choice, Flag, Quantities, Quantity, Table, Text};
+use crate::vocabulary::Kind::{Angle, Choice, Flag, Quantities, Quantity, Table, Text};
 use crate::vocabulary::Need::{self, Optional, Required};
-use crate::vocabulary::{Choices, Form, Key, More, Section, key};
+use crate::vocabulary::{Choices, Form, Key, More, Rule, Section, key};
 use crate::{element, material, output};
 
 /// Largest number of elements of a model.
@@ -59,11 +59,19 @@ pub static MOVED: &[(&str, &str)] = &[("wall", "walls are obstacles now: [[obsta
 
 static MATERIAL: Section = Section {
     name: "material",
-    doc: "A material: a law and its parameters. Parts refer to it by its name.",
+    doc: "A material: a law and its parameters, or a material of the library by `from`, of which any key can be given another value \
+        here. Parts refer to it by its name.",
     form: Form::Named,
     required: true,
     keys: &[
-        key("law", Choice(Choices::Laws), Required, "Name of the law."),
+        key(
+            "from",
+            Text,
+            Optional("no other material"),
+            "Name of a material of the library, as `embate list materials --library` shows them: the law and the keys are its own, but \
+                for those that are given here.",
+        ),
+        key("law", Choice(Choices::Laws), Optional("that of `from`"), "Name of the law."),
         key("failure", Table(&FAILURE), Optional("nothing fails"), "When elements of this material fail: they are taken out of the model."),
         key(
             "eos",
@@ -74,6 +82,7 @@ static MATERIAL: Section = Section {
                 needs it.",
         ),
     ],
+    rules: &[Rule::SomeOf(&["law", "from"])],
     more: &[More { by: "law", keys: law_keys }, More { by: "eos", keys: equation_keys }],
     ..Section::EMPTY
 };
@@ -88,6 +97,7 @@ impl Material {
         };
         let list = |(key, datum): (&String, &Datum)| if let Datum::Numbers(it) = datum { Some((key.clone(), it.clone())) } else { None };
         Self {
+            from: values.get("from"),
             law: values.get("law"),
             eos: values.get("eos"),
             parameters: numbers(values),
@@ -153,9 +163,13 @@ fn equation_keys(name: &str) -> Option<Vec<Key>> {
 
 fn parameter_keys(parameters: &[Parameter]) -> Vec<Key> {
     let need = |default: Option<f64>| default.map_or(Required, Need::Value);
-    let kind_of = |p: &Parameter| if p.list > 0 { Quantities(p.dimension, p.range, 1) } else { Quantity(p.dimension, p.range) };
+    let kind_of = |p: &Parameter| match (p.list, p.is_angle) {
+        (1.., _) => Quantities(p.dimension, p.range, 1),
+        (0, true) => Angle(p.dimension, p.range),
+        (0, false) => Quantity(p.dimension, p.range),
+    };
     let need_of = |p: &Parameter| if p.list > 0 && p.default.is_some() { Optional("none") } else { need(p.default) };
-    parameters.iter().map(|p| key(p.name, kind_of(p), need_of(p), p.doc)).collect()
+    parameters.iter().map(|p| Key { example: p.example, ..key(p.name, kind_of(p), need_of(p), p.doc) }).collect()
 }
 
 /// The section of this name.

@@ -32,15 +32,16 @@ impl Law for ArrudaBoyce {
         doc: "rubber elasticity of eight chains, which stiffens towards a locking stretch",
         source: "Arruda and Boyce, J. Mech. Phys. Solids 41 (1993) 389-412",
         parameters: &[
-            DENSITY,
-            Parameter::new("shear", "µ₀", Dimension::PRESSURE, Range::Positive, "shear modulus at rest"),
+            DENSITY.such_as("1000 kg/m^3"),
+            Parameter::new("shear", "µ₀", Dimension::PRESSURE, Range::Positive, "shear modulus at rest").such_as("0.3 MPa"),
             Parameter::new(
                 "locking_stretch",
                 "λ_m",
                 Dimension::NONE,
                 Range::Between(1.0, 1000.0),
                 "stretch at which the chains are straight",
-            ),
+            )
+            .such_as("5"),
             BULK,
         ],
     };

@@ -83,6 +83,7 @@ impl Law for Chaboche {
             )
             .or(10.0),
             Parameter::new("backstress_modulus", "C", Dimension::PRESSURE, Range::Positive, "initial moduli of up to three backstresses")
+                .such_as("20 GPa")
                 .list(PARTS),
             Parameter::new(
                 "backstress_recall",

@@ -41,8 +41,8 @@ impl Law for CrushableFoam {
         doc: "foam that is crushed: yields under pressure and shear, hardens along a measured curve (Deshpande and Fleck)",
         source: "Deshpande and Fleck, J. Mech. Phys. Solids 48 (2000) 1253-1283",
         parameters: &[
-            DENSITY,
-            YOUNG,
+            DENSITY.such_as("100 kg/m^3"),
+            YOUNG.such_as("100 MPa"),
             POISSON,
             Parameter::new(
                 "plastic_poisson",
@@ -53,7 +53,7 @@ impl Law for CrushableFoam {
             )
             .or(0.0),
             PLASTIC_STRAIN,
-            STRESS,
+            STRESS.such_as("1 MPa"),
             Parameter::new(
                 "tension_cutoff",
                 "p_t",
@@ -61,6 +61,7 @@ impl Law for CrushableFoam {
                 Range::NotNegative,
                 "mean stress in tension at which it tears; 0: none",
             )
+            .such_as("1 MPa")
             .or(0.0),
         ],
     };

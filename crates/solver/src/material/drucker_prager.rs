@@ -49,18 +49,21 @@ impl Law for DruckerPrager {
         source: "Drucker and Prager, Q. Appl. Math. 10 (1952) 157-165; de Souza Neto et al., Computational Methods \
             for Plasticity (2008), 8.3",
         parameters: &[
-            DENSITY,
-            YOUNG,
+            DENSITY.such_as("2000 kg/m^3"),
+            YOUNG.such_as("50 MPa"),
             POISSON,
-            Parameter::new("cohesion", "c", Dimension::PRESSURE, Range::Positive, "shear strength without pressure"),
+            Parameter::new("cohesion", "c", Dimension::PRESSURE, Range::Positive, "shear strength without pressure").such_as("20 kPa"),
             Parameter::new(
                 "friction_angle",
                 "φ",
                 Dimension::NONE,
                 Range::NotNegative,
                 "angle of internal friction, below 90 deg, fitted to compression",
-            ),
+            )
+            .angle()
+            .such_as("30 deg"),
             Parameter::new("dilation_angle", "ψ", Dimension::NONE, Range::NotNegative, "angle of dilation, at most the angle of friction")
+                .angle()
                 .or(0.0),
         ],
     };

@@ -61,8 +61,10 @@ impl Law for JohnsonCook {
                 Dimension::PRESSURE,
                 Range::NotNegative,
                 "what a plastic strain of one adds to the flow stress",
-            ),
-            Parameter::new("hardening_exponent", "n", Dimension::NONE, Range::UpTo(0.0, 1.0), "exponent of the plastic strain"),
+            )
+            .such_as("500 MPa"),
+            Parameter::new("hardening_exponent", "n", Dimension::NONE, Range::UpTo(0.0, 1.0), "exponent of the plastic strain")
+                .such_as("0.3"),
             Parameter::new(
                 "rate_coefficient",
                 "C",
@@ -95,8 +97,10 @@ impl Law for JohnsonCook {
                 Dimension::TEMPERATURE,
                 Range::Positive,
                 "melting point: no shear strength from there on",
-            ),
-            Parameter::new("specific_heat", "c", Dimension::SPECIFIC_HEAT, Range::Positive, "heat per mass and temperature"),
+            )
+            .such_as("1790 K"),
+            Parameter::new("specific_heat", "c", Dimension::SPECIFIC_HEAT, Range::Positive, "heat per mass and temperature")
+                .such_as("477 J/kg/K"),
             Parameter::new("taylor_quinney", "χ", Dimension::NONE, Range::UpTo(0.0, 1.0), "share of the plastic work that heats").or(0.9),
             Parameter::new(
                 "damage",

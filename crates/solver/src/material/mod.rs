@@ -5,6 +5,7 @@
 //! need. To add a law: one file, one line in `laws!`. Blocks see laws erased, as [`points::PointLaw`]: the
 //! kernel of a law is compiled once, not once per element.
 
+mod curve;
 pub mod eos;
 pub mod hardening;
 mod parameters;
@@ -18,6 +19,7 @@ mod stress_constrained;
 pub mod unit_system;
 pub mod variable;
 
+pub use curve::uniaxial_curve;
 pub use j2::J2With;
 pub(crate) use parameters::young_and_poisson;
 pub use parameters::{BULK, DENSITY, POISSON, ParameterFault, Parameters, YOUNG, bulk_and_shear};

@@ -32,9 +32,10 @@ impl Law for MooneyRivlin {
         doc: "rubber elasticity from both invariants of the left Cauchy-Green tensor; shear modulus at rest 2 (C₁₀ + C₀₁)",
         source: "Rivlin, Phil. Trans. R. Soc. A 241 (1948) 379-397",
         parameters: &[
-            DENSITY,
-            Parameter::new("c10", "C₁₀", Dimension::PRESSURE, Range::Positive, "coefficient of the first invariant"),
-            Parameter::new("c01", "C₀₁", Dimension::PRESSURE, Range::NotNegative, "coefficient of the second invariant"),
+            DENSITY.such_as("1000 kg/m^3"),
+            Parameter::new("c10", "C₁₀", Dimension::PRESSURE, Range::Positive, "coefficient of the first invariant").such_as("0.2 MPa"),
+            Parameter::new("c01", "C₀₁", Dimension::PRESSURE, Range::NotNegative, "coefficient of the second invariant")
+                .such_as("0.05 MPa"),
             BULK,
         ],
     };

@@ -25,7 +25,7 @@ impl Law for NeoHookean {
         name: "neo_hookean",
         doc: "compressible rubber elasticity for large strains, from the left Cauchy-Green tensor",
         source: "Simo and Taylor, Comput. Meth. Appl. Mech. Engng 85 (1991) 273-310",
-        parameters: &[DENSITY, YOUNG, POISSON],
+        parameters: &[DENSITY.such_as("1000 kg/m^3"), YOUNG.such_as("5 MPa"), POISSON.such_as("0.49")],
     };
     const FAMILY: Family = Family::Hyperelastic;
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 0];

@@ -24,7 +24,7 @@ impl Law for Null {
         doc: "fluid: pressure from an equation of state (`eos`), no shear stress but that of a viscosity",
         source: "Landau and Lifshitz, Fluid Mechanics (1987), section 15",
         parameters: &[
-            DENSITY,
+            DENSITY.such_as("1000 kg/m^3"),
             Parameter::new(
                 "viscosity",
                 "µ",

@@ -42,10 +42,11 @@ impl Law for Ogden {
         doc: "rubber elasticity from powers of the principal stretches; shear modulus at rest ½ Σ µ_k α_k",
         source: "Ogden, Proc. R. Soc. A 326 (1972) 565-584",
         parameters: &[
-            DENSITY,
+            DENSITY.such_as("1000 kg/m^3"),
             Parameter::new("mu", "µ_k", Dimension::PRESSURE, Range::Finite, "moduli of up to three terms, each of its exponent's sign")
+                .such_as("0.63 MPa")
                 .list(TERMS),
-            Parameter::new("alpha", "α_k", Dimension::NONE, Range::Finite, "their exponents, as many as moduli").list(TERMS),
+            Parameter::new("alpha", "α_k", Dimension::NONE, Range::Finite, "their exponents, as many as moduli").such_as("1.3").list(TERMS),
             BULK,
         ],
     };

@@ -89,7 +89,7 @@ impl Law for OrthotropicElastic {
                 .or(0.0),
             Parameter::new("shear_31", "G₃₁", Dimension::PRESSURE, Range::NotNegative, "shear modulus out of the plane; 0: as shear_12")
                 .or(0.0),
-            Parameter::new("angle", "θ", Dimension::NONE, Range::Finite, "angle from x to axis 1, counter-clockwise").or(0.0),
+            Parameter::new("angle", "θ", Dimension::NONE, Range::Finite, "angle from x to axis 1, counter-clockwise").angle().or(0.0),
         ],
     };
     const MESSAGES: &'static [&'static Message] = &[&NOT_POSITIVE];

@@ -68,7 +68,7 @@ pub const YOUNG: Parameter = Parameter::new("young", "E", Dimension::PRESSURE, R
 /// Poisson's ratio.
 pub const POISSON: Parameter = Parameter::new("poisson", "ν", Dimension::NONE, Range::Between(-1.0, 0.5), "Poisson's ratio");
 /// Bulk modulus of a rubber.
-pub const BULK: Parameter = Parameter::new("bulk", "K", Dimension::PRESSURE, Range::Positive, "bulk modulus");
+pub const BULK: Parameter = Parameter::new("bulk", "K", Dimension::PRESSURE, Range::Positive, "bulk modulus").such_as("2 GPa");
 
 /// Bulk modulus K = E / (3(1 − 2ν)) and shear modulus µ = E / (2(1 + ν)).
 #[must_use]

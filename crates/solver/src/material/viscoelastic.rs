@@ -50,8 +50,8 @@ impl Law for Viscoelastic {
         doc: "elasticity whose shear modulus relaxes (Prony series), in rate form; strains up to some 10 %, any rotation",
         source: "Simo and Hughes, Computational Inelasticity (1998), 10.3",
         parameters: &[
-            DENSITY,
-            YOUNG,
+            DENSITY.such_as("1200 kg/m^3"),
+            YOUNG.such_as("3 GPa"),
             POISSON,
             Parameter::new(
                 "shear_ratio",
@@ -60,8 +60,10 @@ impl Law for Viscoelastic {
                 Range::Between(0.0, 1.0),
                 "up to four parts of the shear modulus that relax; below 1 in sum",
             )
+            .such_as("0.3")
             .list(BRANCHES),
             Parameter::new("relaxation_time", "τ_k", Dimension::TIME, Range::Positive, "time in which each part falls to 1/e")
+                .such_as("10 ms")
                 .list(BRANCHES),
         ],
     };

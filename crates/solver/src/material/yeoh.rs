@@ -27,8 +27,8 @@ impl Law for Yeoh {
         doc: "rubber elasticity with a cubic in the first invariant, which stiffens at large stretch; shear modulus at rest 2 C₁₀",
         source: "Yeoh, Rubber Chem. Technol. 66 (1993) 754-771",
         parameters: &[
-            DENSITY,
-            Parameter::new("c10", "C₁₀", Dimension::PRESSURE, Range::Positive, "linear coefficient"),
+            DENSITY.such_as("1000 kg/m^3"),
+            Parameter::new("c10", "C₁₀", Dimension::PRESSURE, Range::Positive, "linear coefficient").such_as("0.2 MPa"),
             Parameter::new("c20", "C₂₀", Dimension::PRESSURE, Range::Finite, "quadratic coefficient; above −√(3 C₁₀ C₃₀)").or(0.0),
             Parameter::new("c30", "C₃₀", Dimension::PRESSURE, Range::NotNegative, "cubic coefficient").or(0.0),
             BULK,

@@ -197,6 +197,8 @@ impl Model {
 /// `[material.NAME]`: a law of the registry and its parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Material {
+    /// Name in the library of materials of that which its values began with; empty: none.
+    pub from: String,
     /// Name in the material registry.
     pub law: String,
     /// Name in the registry of equations of state; empty: none, the pressure is the law's own.

@@ -258,8 +258,12 @@ fn every_parameter_of_every_law_refuses_every_bad_value() {
     for law in material::registry() {
         for parameter in law.parameters {
             let (dimension, range) = (parameter.dimension, parameter.range);
-            let kind = if parameter.list > 0 { Kind::Quantities(dimension, range, 1) } else { Kind::Quantity(dimension, range) };
-            let key = Key { name: parameter.name, kind, need: Need::Required, doc: "" };
+            let kind = match (parameter.list, parameter.is_angle) {
+                (1.., _) => Kind::Quantities(dimension, range, 1),
+                (0, true) => Kind::Angle(dimension, range),
+                (0, false) => Kind::Quantity(dimension, range),
+            };
+            let key = Key { name: parameter.name, kind, need: Need::Required, example: "", doc: "" };
             try_all(&key, &format!("material.steel.{}", parameter.name), &[format!("material.steel.law={}", law.name)]);
         }
     }

@@ -20,7 +20,7 @@ impl Equation for IdealGas {
         doc: "gas with constant specific heats: p = (γ − 1) ρ e",
         source: "Landau and Lifshitz, Fluid Mechanics (1987), section 83",
         parameters: &[
-            Parameter::new("gamma", "γ", Dimension::NONE, Range::UpTo(1.0, 10.0), "ratio of the specific heats"),
+            Parameter::new("gamma", "γ", Dimension::NONE, Range::UpTo(1.0, 10.0), "ratio of the specific heats").such_as("1.4"),
             Parameter::new(
                 "pressure_initial",
                 "p_0",
@@ -28,6 +28,7 @@ impl Equation for IdealGas {
                 Range::NotNegative,
                 "pressure at the start; it or energy_initial",
             )
+            .such_as("101325 Pa")
             .or(0.0),
             super::ENERGY.or(0.0),
         ],

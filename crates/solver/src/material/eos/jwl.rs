@@ -27,11 +27,11 @@ impl Equation for Jwl {
         doc: "gases of an explosive that has burned at the start (Jones, Wilkins, Lee)",
         source: "Lee, Hornig and Kury, UCRL-50422 (1968)",
         parameters: &[
-            Parameter::new("pressure_a", "A", Dimension::PRESSURE, Range::Finite, "first pressure"),
-            Parameter::new("pressure_b", "B", Dimension::PRESSURE, Range::Finite, "second pressure"),
-            Parameter::new("r1", "R1", Dimension::NONE, Range::Positive, "decay of the first pressure with v"),
-            Parameter::new("r2", "R2", Dimension::NONE, Range::Positive, "decay of the second pressure with v"),
-            Parameter::new("omega", "ω", Dimension::NONE, Range::Positive, "Grüneisen parameter of the expanded gas"),
+            Parameter::new("pressure_a", "A", Dimension::PRESSURE, Range::Finite, "first pressure").such_as("371 GPa"),
+            Parameter::new("pressure_b", "B", Dimension::PRESSURE, Range::Finite, "second pressure").such_as("3.2 GPa"),
+            Parameter::new("r1", "R1", Dimension::NONE, Range::Positive, "decay of the first pressure with v").such_as("4.15"),
+            Parameter::new("r2", "R2", Dimension::NONE, Range::Positive, "decay of the second pressure with v").such_as("0.95"),
+            Parameter::new("omega", "ω", Dimension::NONE, Range::Positive, "Grüneisen parameter of the expanded gas").such_as("0.3"),
             super::ENERGY,
         ],
     };

@@ -16,7 +16,9 @@ impl Equation for Linear {
         name: "linear",
         doc: "pressure in proportion to the compression: p = K µ, µ = ρ/ρ₀ − 1",
         source: "definition of the bulk modulus",
-        parameters: &[Parameter::new("bulk_modulus", "K", Dimension::PRESSURE, Range::Positive, "pressure per compression µ")],
+        parameters: &[
+            Parameter::new("bulk_modulus", "K", Dimension::PRESSURE, Range::Positive, "pressure per compression µ").such_as("2.2 GPa")
+        ],
     };
 
     fn new(parameters: &Parameters<'_>) -> Self {

@@ -34,11 +34,12 @@ impl Equation for MieGruneisen {
         doc: "solid or liquid in strong shocks, u_s = c0 + s1 u_p + ..., heat by the Grüneisen parameter",
         source: "Meyers, Dynamic Behavior of Materials (1994), chapter 5",
         parameters: &[
-            Parameter::new("c0", "c0", Dimension::VELOCITY, Range::Positive, "speed of weak shocks"),
-            Parameter::new("s1", "s1", Dimension::NONE, Range::NotNegative, "growth of the shock speed with the particle speed"),
+            Parameter::new("c0", "c0", Dimension::VELOCITY, Range::Positive, "speed of weak shocks").such_as("4000 m/s"),
+            Parameter::new("s1", "s1", Dimension::NONE, Range::NotNegative, "growth of the shock speed with the particle speed")
+                .such_as("1.5"),
             Parameter::new("s2", "s2", Dimension::NONE, Range::Finite, "second coefficient, of (u_p/u_s) u_p").or(0.0),
             Parameter::new("s3", "s3", Dimension::NONE, Range::Finite, "third coefficient, of (u_p/u_s)² u_p").or(0.0),
-            Parameter::new("gamma0", "γ0", Dimension::NONE, Range::NotNegative, "Grüneisen parameter at the start"),
+            Parameter::new("gamma0", "γ0", Dimension::NONE, Range::NotNegative, "Grüneisen parameter at the start").such_as("2"),
             Parameter::new("gamma_slope", "a", Dimension::NONE, Range::Finite, "its change times v with the compression: Γ = γ0 + a µ")
                 .or(0.0),
             super::ENERGY.or(0.0),

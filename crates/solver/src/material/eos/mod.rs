@@ -94,7 +94,8 @@ pub trait Equation: Copy + Send + Sync + 'static {
 
 /// Energy at the start, of equations that need none.
 pub(super) const ENERGY: Parameter =
-    Parameter::new("energy_initial", "E_0", Dimension::PRESSURE, Range::NotNegative, "energy at the start per initial volume, J/m^3");
+    Parameter::new("energy_initial", "E_0", Dimension::PRESSURE, Range::NotNegative, "energy at the start per initial volume, J/m^3")
+        .such_as("7 GPa");
 
 /// What every equation may have besides: the limit of its pressure in tension. Left out: none.
 pub const TENSION: Parameter = Parameter::new(
@@ -103,7 +104,8 @@ pub const TENSION: Parameter = Parameter::new(
     Dimension::PRESSURE,
     Range::NotNegative,
     "largest tension that the pressure reaches: 0 for a liquid that cavitates, the spall strength of a solid",
-);
+)
+.such_as("0 Pa");
 
 /// Someone who does something with an equation's type.
 trait EquationVisitor {

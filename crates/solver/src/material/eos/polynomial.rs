@@ -21,7 +21,9 @@ impl Equation for Polynomial {
         doc: "p = C0 + C1 µ + C2 µ² + C3 µ³ + (C4 + C5 µ + C6 µ²) E, µ = ρ/ρ₀ − 1; C2 and C6 only in compression",
         source: "Hallquist, DYNA2D, UCID-18756 (1988)",
         parameters: &[
-            Parameter::new("coefficients", "C0..C3", Dimension::PRESSURE, Range::Finite, "C0, C1, C2, C3; those left out are 0").list(4),
+            Parameter::new("coefficients", "C0..C3", Dimension::PRESSURE, Range::Finite, "C0, C1, C2, C3; those left out are 0")
+                .such_as("2.2 GPa")
+                .list(4),
             Parameter::new("coefficients_energy", "C4..C6", Dimension::NONE, Range::Finite, "C4, C5, C6; those left out are 0")
                 .or(0.0)
                 .list(3),

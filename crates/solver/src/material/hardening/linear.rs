@@ -33,6 +33,7 @@ impl Hardening for Linear {
                 Range::Finite,
                 "plastic modulus dσ_y/dε_p (not the tangent modulus); negative: the flow stress falls, down to zero",
             )
+            .such_as("1 GPa")
             .or(0.0),
             RATE_REFERENCE,
             RATE_EXPONENT,

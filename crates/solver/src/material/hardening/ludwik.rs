@@ -79,8 +79,9 @@ impl Hardening for Ludwik {
                 Dimension::PRESSURE,
                 Range::NotNegative,
                 "what a plastic strain of one adds to the flow stress",
-            ),
-            Parameter::new("hardening_exponent", "n", Dimension::NONE, Range::UpTo(0.0, 1.0), "exponent"),
+            )
+            .such_as("500 MPa"),
+            Parameter::new("hardening_exponent", "n", Dimension::NONE, Range::UpTo(0.0, 1.0), "exponent").such_as("0.3"),
             RATE_REFERENCE,
             RATE_EXPONENT,
         ],

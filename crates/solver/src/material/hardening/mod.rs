@@ -25,7 +25,8 @@ use crate::quantity::{Dimension, Parameter, Range};
 use embate_lanes::Lane;
 
 /// Initial yield stress.
-pub(super) const YIELD: Parameter = Parameter::new("yield", "σ_y", Dimension::PRESSURE, Range::Positive, "initial yield stress");
+pub(super) const YIELD: Parameter =
+    Parameter::new("yield", "σ_y", Dimension::PRESSURE, Range::Positive, "initial yield stress").such_as("355 MPa");
 
 /// A flow stress σ_y(ε_p), nowhere negative. Where it falls, it does so by less than 3µ per plastic strain:
 /// the return has one solution then.

@@ -24,9 +24,10 @@ impl Hardening for Swift {
             DENSITY,
             YOUNG,
             POISSON,
-            Parameter::new("strength", "K", Dimension::PRESSURE, Range::Positive, "flow stress at a strain of one"),
-            Parameter::new("strain_offset", "ε_0", Dimension::NONE, Range::Positive, "strain at first yield: the yield stress is K ε_0^n"),
-            Parameter::new("hardening_exponent", "n", Dimension::NONE, Range::UpTo(0.0, 1.0), "exponent"),
+            Parameter::new("strength", "K", Dimension::PRESSURE, Range::Positive, "flow stress at a strain of one").such_as("900 MPa"),
+            Parameter::new("strain_offset", "ε_0", Dimension::NONE, Range::Positive, "strain at first yield: the yield stress is K ε_0^n")
+                .such_as("0.002"),
+            Parameter::new("hardening_exponent", "n", Dimension::NONE, Range::UpTo(0.0, 1.0), "exponent").such_as("0.2"),
             RATE_REFERENCE,
             RATE_EXPONENT,
         ],

@@ -20,6 +20,7 @@ pub(crate) const PLASTIC_STRAIN: Parameter = Parameter::new(
     Range::NotNegative,
     "equivalent plastic strains of the curve's points (logarithmic), ascending from 0",
 )
+.such_as("0")
 .list(POINTS);
 /// Stresses of the points.
 pub(crate) const STRESS: Parameter = Parameter::new(
@@ -29,6 +30,7 @@ pub(crate) const STRESS: Parameter = Parameter::new(
     Range::Positive,
     "true flow stresses of the points, as many as plastic strains; the last one holds from there on",
 )
+.such_as("355 MPa")
 .list(POINTS);
 
 /// Start, stress and slope of every line; lines that are not there start at infinity.

@@ -34,14 +34,16 @@ impl Hardening for Voce {
                 Dimension::PRESSURE,
                 Range::Positive,
                 "flow stress at which hardening ends; below `yield` the material softens",
-            ),
+            )
+            .such_as("600 MPa"),
             Parameter::new(
                 "saturation_rate",
                 "b",
                 Dimension::NONE,
                 Range::Positive,
                 "how fast: after a plastic strain of 1/b 63 % are done",
-            ),
+            )
+            .such_as("10"),
             Parameter::new("hardening", "H", Dimension::PRESSURE, Range::Finite, "plastic modulus that stays").or(0.0),
             RATE_REFERENCE,
             RATE_EXPONENT,

@@ -188,7 +188,7 @@ fn keys_of(section: &'static Section, tables: &mut Tables) -> Vec<(Key, String)>
         // Of arrays; only Python has it.
         keys.iter_mut().filter(|(key, _)| key.name == "mesh").for_each(|(_, of)| of.push_str(" | ArrayMesh"));
         let doc = "Which group of the arrays given as `mesh`; left out where there is but one.";
-        let group = Key { name: "group", kind: Kind::Reference, need: Need::Optional("the only group"), doc };
+        let group = Key { name: "group", kind: Kind::Reference, need: Need::Optional("the only group"), doc, example: "" };
         keys.push((group, "str".into()));
     }
     keys

@@ -13,7 +13,7 @@ fn model(element: &str, shape: Shape, end: f64) -> Model {
         run: Run { end, ..Run::default() },
         materials: [("m".to_string(), material("elastic", 0.3))].into(),
         parts: vec![Part { name: "body".into(), material: "m".into(), element: element.into(), shape, ..Part::default() }],
-        probes: vec![Probe { name: "body".into(), at: ProbeAt::Set { set: "body".into() } }],
+        probes: vec![Probe { name: "body".into(), at: ProbeAt::Set { set: "body".into() }, ..Probe::default() }],
         ..Model::default()
     }
 }

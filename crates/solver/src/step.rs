@@ -127,7 +127,8 @@ where
     /// Elements that are evaluated less often, where the model wants it.
     pub(crate) subcycling: Option<Subcycling>,
     pub(crate) positions: Vec<[f64; D]>,
-    /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to.
+    /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to, and reactions of held
+    /// ones, N/m.
     pub(crate) positions_old: Vec<[f64; D]>,
     /// v^{n+1/2}.
     pub(crate) velocities: Vec<[f64; D]>,
@@ -561,12 +562,24 @@ where
     /// Hands over the reactions in the last update of nodes that are held: the node, what holds it, and its
     /// force, N/m; nodes of rigid bodies have none.
     pub(crate) fn reactions(&self, mut see: impl FnMut(u32, &NodeConstraint<D>, [f64; D])) {
-        let nodes = nodes!(self, velocities_old, self.time_step);
         for (node, held) in self.constraints.held() {
-            if self.bodies.of_node(node).is_none() && self.skins.carrier(node as usize).is_none() {
-                see(node, held, nodes.reaction(node as usize, self.velocities[node as usize]));
-            }
+            see(node, held, self.reaction(node));
         }
+    }
+
+    /// Force (N/m) in the last update of what holds a node; nodes of rigid bodies have none.
+    pub(crate) fn reaction(&self, node: u32) -> [f64; D] {
+        if self.joins.of_node(node).is_some() {
+            let nodes = nodes!(self, velocities_old, self.time_step);
+            return nodes.reaction(node as usize, self.velocities[node as usize]);
+        }
+        // The velocity update has left it there.
+        self.positions_old[node as usize]
+    }
+
+    /// Whether the velocity update advances a node by itself.
+    pub(crate) fn is_advanced(&self, node: u32) -> bool {
+        self.bodies.of_node(node).is_none() && self.skins.carrier(node as usize).is_none()
     }
 
     /// The same of rotations that are held: moments, N (N m).

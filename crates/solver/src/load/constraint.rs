@@ -51,6 +51,12 @@ impl<const D: usize> NodeConstraint<D> {
         let _ = self.add(direction, velocity, source);
     }
 
+    /// Its one direction and the condition that gave it, or several that are across each other as given.
+    pub(crate) fn directions(&self) -> Option<impl Iterator<Item = (u32, [f64; D])>> {
+        let is_own = self.directions.iter().zip(&self.given).all(|((direction, _), given)| direction == given);
+        is_own.then(|| self.sources.iter().copied().zip(self.given.iter().copied()))
+    }
+
     /// The parts of a reaction R (N/m, N) that each condition takes: along its own direction a_k, with Σ µ_k
     /// a_k = R. What two conditions hold alike goes to the first.
     pub(crate) fn share_out(&self, reaction: [f64; D], mut add: impl FnMut(u32, [f64; D])) {

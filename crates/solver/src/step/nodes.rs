@@ -192,20 +192,21 @@ where
     }
 
     /// Updates the velocities of the nodes from `first` on (a multiple of eight) and sums their works; groups
-    /// that move as one are left out. The next positions of free nodes follow at once.
+    /// that move as one are left out. The next positions of free nodes follow at once; those of held ones have
+    /// room for the forces of what holds them until the nodes are moved.
     pub(crate) fn update(&self, first: usize, velocities: &mut [[f64; D]], positions_next: &mut [[f64; D]]) -> Sums {
-        let mut sums = self.level.run(Free { nodes: self, first, velocities: &mut *velocities, positions_next });
-        for (group, velocities) in velocities.chunks_mut(BATCH).enumerate() {
+        let mut sums = self.level.run(Free { nodes: self, first, velocities: &mut *velocities, positions_next: &mut *positions_next });
+        for (group, (velocities, reactions)) in velocities.chunks_mut(BATCH).zip(positions_next.chunks_mut(BATCH)).enumerate() {
             let first = first + group * BATCH;
             if self.free.get(first / BATCH) == Some(&true) || self.skins.leads(first..first + velocities.len()) {
                 continue;
             }
-            for (node, v) in (first..).zip(velocities) {
+            for (node, (v, reaction)) in (first..).zip(velocities.iter_mut().zip(reactions)) {
                 if self.bodies.of_node(node as u32).is_none()
                     && self.joins.of_node(node as u32).is_none()
                     && self.skins.carrier(node).is_none()
                 {
-                    *v = self.advance(&self.pull(node), &mut sums);
+                    *v = self.pull(node).advance_held(self.dt, &mut sums, reaction);
                 }
             }
         }
@@ -284,6 +285,12 @@ where
 
     /// v^{n+½} after Δt, and its part in the ledger.
     pub(super) fn advance(&self, dt: f64, sums: &mut Sums) -> [f64; D] {
+        self.advance_held(dt, sums, &mut [0.0; D])
+    }
+
+    /// The same with the force of what is prescribed, N/m.
+    #[inline]
+    pub(super) fn advance_held(&self, dt: f64, sums: &mut Sums, reaction: &mut [f64; D]) -> [f64; D] {
         let (pull, m, old) = (self, self.mass, self.old);
         let free = pull.unheld(dt);
         let v = pull.held(free);
@@ -307,6 +314,7 @@ where
         }
         if pull.held.is_some() {
             let impulse = applied(&pull.inertia(), std::array::from_fn(|d| v[d] - free[d]));
+            *reaction = times(1.0 / dt, impulse);
             sums.constraint += dot(impulse, mean);
             sums.external_old += dot(impulse, old);
         }

@@ -11,7 +11,7 @@ use crate::model::{Load, Model};
 use crate::rotation::Rotate;
 use crate::step::System;
 use crate::tensor::Dim;
-use crate::vector::minus;
+use crate::vector::{dot, minus, times};
 
 /// The groups of a system.
 pub(super) fn of_system<const D: usize>(model: &Model, system: &System<D>) -> Vec<Box<dyn Channel<D>>>
@@ -41,6 +41,10 @@ struct Held<const D: usize> {
     names: Vec<(&'static str, String)>,
     /// Mean of the nodes at the start, m.
     points: Vec<[f64; D]>,
+    /// Nodes that are held along directions across each other: node, condition, direction; by node.
+    simple: Vec<(u32, u32, [f64; D])>,
+    /// Whether there are other held nodes.
+    has_oblique: bool,
 }
 
 impl<const D: usize> Held<D>
@@ -54,7 +58,19 @@ where
         let mesh = &system.mesh;
         let nodes = model.symmetries.iter().map(|it| mesh.on_symmetry(it));
         let nodes = nodes.chain(model.constraints.iter().map(|it| mesh.nodes(&it.on).unwrap_or_default()));
-        Self { names, points: nodes.map(|nodes| mesh.mean_place(&nodes)).collect() }
+        let points: Vec<[f64; D]> = nodes.map(|nodes| mesh.mean_place(&nodes)).collect();
+        let (mut simple, mut has_oblique) = (Vec::new(), false);
+        for (node, held) in system.constraints.held().filter(|(node, _)| system.is_advanced(*node)) {
+            match held.directions() {
+                // What closes a join around its axis is no condition of the model.
+                Some(own) => {
+                    simple.extend(own.filter(|(source, _)| (*source as usize) < points.len()).map(|(source, n)| (node, source, n)))
+                }
+                None => has_oblique = true,
+            }
+        }
+        simple.sort_by_key(|&(node, source, _)| (node, source));
+        Self { names, points, simple, has_oblique }
     }
 }
 
@@ -76,18 +92,29 @@ where
         let (first, width) = (row.len(), D + <Dim<D>>::MOMENT.len());
         row.resize(first + width * self.points.len(), 0.0);
         let mut add = |source: u32, values: &mut dyn Iterator<Item = f64>, from: usize| {
-            // What closes a join around its axis is no condition of the model.
             if (source as usize) < self.points.len() {
                 row[first + width * source as usize + from..].iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
             }
         };
-        system.reactions(|node, held, reaction| {
-            held.share_out(reaction, |source, force| {
-                let Some(&point) = self.points.get(source as usize) else { return };
-                let about = <Dim<D>>::moment_vector(minus(system.positions[node as usize], point), force);
-                add(source, &mut force.into_iter().chain(moment::<D>(about)), 0);
+        let mut push = |node: u32, source: u32, force: [f64; D]| {
+            let about = <Dim<D>>::moment_vector(minus(system.positions[node as usize], self.points[source as usize]), force);
+            add(source, &mut force.into_iter().chain(moment::<D>(about)), 0);
+        };
+        for &(node, source, direction) in &self.simple {
+            let along = dot(system.reaction(node), direction);
+            push(node, source, times(along, direction));
+        }
+        if self.has_oblique {
+            system.reactions(|node, held, reaction| {
+                if system.is_advanced(node) && held.directions().is_none() {
+                    held.share_out(reaction, |source, force| {
+                        if (source as usize) < self.points.len() {
+                            push(node, source, force);
+                        }
+                    });
+                }
             });
-        });
+        }
         system.moment_reactions(|_, held, reaction| held.share_out(reaction, |source, own| add(source, &mut moment::<D>(own), D)));
     }
 }

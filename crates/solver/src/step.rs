@@ -127,8 +127,8 @@ where
     /// Elements that are evaluated less often, where the model wants it.
     pub(crate) subcycling: Option<Subcycling>,
     pub(crate) positions: Vec<[f64; D]>,
-    /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to, and reactions of held
-    /// ones, N/m.
+    /// x^{n-1}; from the velocity update on those x^{n+1} of free nodes that it leads to, and reactions of
+    /// held ones, N/m.
     pub(crate) positions_old: Vec<[f64; D]>,
     /// v^{n+1/2}.
     pub(crate) velocities: Vec<[f64; D]>,

@@ -192,8 +192,8 @@ where
     }
 
     /// Updates the velocities of the nodes from `first` on (a multiple of eight) and sums their works; groups
-    /// that move as one are left out. The next positions of free nodes follow at once; those of held ones have
-    /// room for the forces of what holds them until the nodes are moved.
+    /// that move as one are left out. The next positions of free nodes follow at once; those of held ones
+    /// have room for the forces of what holds them until the nodes are moved.
     pub(crate) fn update(&self, first: usize, velocities: &mut [[f64; D]], positions_next: &mut [[f64; D]]) -> Sums {
         let mut sums = self.level.run(Free { nodes: self, first, velocities: &mut *velocities, positions_next: &mut *positions_next });
         for (group, (velocities, reactions)) in velocities.chunks_mut(BATCH).zip(positions_next.chunks_mut(BATCH)).enumerate() {

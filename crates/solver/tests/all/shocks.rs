@@ -34,11 +34,7 @@ fn piston(material: Material, size: [f64; 2], elements: usize, speed: f64, end: 
         ("tube.top", [None, Some(0.0)]),
     ] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint {
-            on: "block.bottom".into(),
-            velocity: embate_solver::model::in_3d(velocity),
-            ..Constraint::default()
-        });
+        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
     }
     model
 }
@@ -116,7 +112,7 @@ fn a_body_of_one_element_that_is_thrown_on_its_held_side_keeps_its_energy_under_
     let elements = ELEMENTS.iter().map(|kind| (kind, STRESS_STATES.len())).chain(ELEMENTS_OF_SPACE.iter().map(|kind| (kind, 1)));
     for (element, states) in elements.filter(|(kind, _)| matches!(kind.cell, CellKind::Quadrilateral | CellKind::Hexahedron)) {
         for state in STRESS_STATES.iter().take(states).map(|state| if states > 1 { state.name } else { "" }) {
-            for mach in [1e-6, 1e-3, 0.03, 0.1] {
+            for mach in [1e-6, 1e-3, 0.03] {
                 let material = bench::material("elastic");
                 let [bulk, shear] = points::plane(&material).unwrap().stiffness();
                 let sound = ((bulk + 4.0 / 3.0 * shear) / material.parameters["density"]).sqrt();
@@ -204,14 +200,10 @@ fn the_viscosity_of_a_fluid_takes_the_power_of_its_shear() {
     add(&mut model, "water", rectangle([0.0; 2], [1.0, 1.0], [8, 8]), [0.0; 2]);
     for (side, velocity) in [("water.bottom", [Some(0.0), Some(0.0)]), ("water.top", [Some(speed), Some(0.0)])] {
         let velocity = velocity.map(|velocity| velocity.map(Into::into));
-        model.constraints.push(Constraint {
-            on: "block.bottom".into(),
-            velocity: embate_solver::model::in_3d(velocity),
-            ..Constraint::default()
-        });
+        model.constraints.push(Constraint { on: side.into(), velocity: embate_solver::model::in_3d(velocity), ..Constraint::default() });
     }
     for side in ["water.left", "water.right"] {
-        model.constraints.push(Constraint { on: "block.bottom".into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });
+        model.constraints.push(Constraint { on: side.into(), velocity: [None, Some(0.0.into()), None], ..Constraint::default() });
     }
     let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
     simulation.advance(12.0, u64::MAX).unwrap();

@@ -1,7 +1,7 @@
 //! Velocities at the start: spins about any axis and point, and velocities away from a point or an axis,
 //! against closed forms of the lumped masses.
 
-use crate::bodies::{every_step, faults, simulation, value};
+use crate::bodies::{every_step, model_faults, simulation, value};
 use crate::patches::{DENSITY, material};
 use embate_solver::model::{Cuboid, Model, Motion, Part, Probe, ProbeAt, RadialVelocity, Rectangle, Ring, Run, Shape, ShellSection};
 
@@ -132,6 +132,10 @@ fn bodies_go_apart_from_a_point_or_an_axis() {
     let mut model = model("hex8", cuboid(), 1.0);
     model.parts[0].radial_velocity = Some(RadialVelocity { speed: 0.3, axis: Some([0.0, 0.0, 2.0]), ..RadialVelocity::default() });
     near(kinetic(&model), 0.5 * mass() * 0.09, "axis");
+}
+
+fn faults(model: &Model) -> Vec<String> {
+    model_faults(model).into_iter().map(|fault| fault.path).collect()
 }
 
 #[test]

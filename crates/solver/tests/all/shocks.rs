@@ -112,7 +112,7 @@ fn a_body_of_one_element_that_is_thrown_on_its_held_side_keeps_its_energy_under_
     let elements = ELEMENTS.iter().map(|kind| (kind, STRESS_STATES.len())).chain(ELEMENTS_OF_SPACE.iter().map(|kind| (kind, 1)));
     for (element, states) in elements.filter(|(kind, _)| matches!(kind.cell, CellKind::Quadrilateral | CellKind::Hexahedron)) {
         for state in STRESS_STATES.iter().take(states).map(|state| if states > 1 { state.name } else { "" }) {
-            for mach in [1e-6, 1e-3, 0.03, 0.1] {
+            for mach in [1e-6, 1e-3, 0.03] {
                 let material = bench::material("elastic");
                 let [bulk, shear] = points::plane(&material).unwrap().stiffness();
                 let sound = ((bulk + 4.0 / 3.0 * shear) / material.parameters["density"]).sqrt();

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Arguments {
     #[command(flatten)]
     model: ModelArguments,
-    /// Folder for check.png [default: results/NAME]
+    /// Folder for check.png, which is replaced [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Show the hundred elements with the shortest stable steps, and the first step without them

@@ -1,6 +1,8 @@
 //! What `run` and `check` share: reading a model, making it ready, and where its results go.
 
 use crate::cli_error::CliError;
+use crate::numbers::grouped;
+use crate::recording::Manner;
 use crate::{Failure, machine, terminal};
 use clap::Args;
 use embate_files::PathPolicy;
@@ -77,6 +79,18 @@ pub(crate) fn warn(loaded: &Loaded, simulation: &Simulation) {
     let warnings = loaded.reported(simulation.model_warnings());
     if warnings.count > 0 {
         terminal::report_error(&warnings.rendered);
+    }
+}
+
+/// Says why a model runs on fewer threads than were asked for.
+pub(crate) fn warn_of_threads(simulation: &Simulation, manner: &Manner) {
+    let (asked, used) = (manner.options().threads, simulation.threads());
+    if !manner.quiet && asked > used {
+        terminal::report_error(&format!(
+            "one thread instead of {asked}: the model has {} elements, and below {} more threads cost more than they bring",
+            grouped(simulation.elements() as u64),
+            grouped(Simulation::THREADS_FROM as u64)
+        ));
     }
 }
 

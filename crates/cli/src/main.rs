@@ -12,6 +12,7 @@ mod cpu;
 mod diff;
 mod explain;
 mod import;
+mod in_place;
 mod input;
 mod interrupt;
 mod list;

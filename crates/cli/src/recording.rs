@@ -8,11 +8,12 @@ use crate::progress::Display;
 use crate::watch::Watched;
 use crate::{Failure, cpu, terminal};
 use clap::Args;
+use embate_files::checkpoint::Origin;
 use embate_files::checkpoint::messages::LAST_GOOD;
 use embate_files::model_file::Loaded;
 use embate_files::post_mortem::{self, Failed};
 use embate_files::results::messages::NO_POST_MORTEM;
-use embate_files::results::{OnProgress, Recorder, Report, ResultsError, RunStatus};
+use embate_files::results::{Checkpoints, OnProgress, Pause, Recorder, Report, ResultsError, RunStatus};
 use embate_solver::error::Error;
 use embate_solver::simulation::{ContactSearch, Control, Observer, Options, Progress, Simulation};
 use embate_viewer::Tap;
@@ -71,7 +72,7 @@ impl<'r> Recording<'r> {
     /// A run from its beginning, or from where it was stopped, to its end.
     pub(crate) fn of(loaded: &'r Loaded, path: &'r Path, manner: &'r Manner, is_verbose: bool) -> Self {
         let run = &loaded.model.run;
-        let keeps_last_good = run.checkpoint.is_some() || run.checkpoint_steps.is_some();
+        let keeps_last_good = run.checkpoint_steps.is_some() || matches!(Pause::of(&loaded.model), Pause::Every(_));
         Self { loaded, path, checkpoints: path, keeps_last_good, manner, is_verbose, watched: None }
     }
 }
@@ -82,6 +83,12 @@ const ROOM: usize = 64 << 20;
 /// What an error of results is before anything was run.
 pub(crate) fn in_the_way(error: ResultsError) -> Failure {
     Failure::Input(CliError::new(error.kind(), error))
+}
+
+/// What makes a run known and continued.
+pub(crate) fn checkpoints(loaded: &Loaded, origin: Origin, simulation: &Simulation) -> Checkpoints {
+    let model = &loaded.model;
+    Checkpoints::of(model, origin).with_cpu(cpu::user_seconds).with_words(loaded, simulation.part_meshes(model))
 }
 
 /// Runs a simulation by `go` and records it by what `make` makes, to the last word.

@@ -2,13 +2,15 @@
 //! and the same bits.
 
 use crate::Failure;
+use crate::cli_error::CliError;
 use crate::input;
 use crate::recording::{self, Manner, Recording, in_the_way};
-use crate::resume::{Place, no_checkpoint, ready, refuse_changes, usage};
+use crate::resume::{Place, ready, refuse_changes, usage};
 use clap::Args;
+use embate_files::checkpoint::messages::NO_CHECKPOINT;
 use embate_files::checkpoint::{self, Checkpoint, Identity, Origin};
 use embate_files::model_file;
-use embate_files::results::{Recorder, ResultFolder};
+use embate_files::results::{Provenance, Recorder, ResultFolder};
 use embate_files::threads::Threads;
 use embate_solver::model::Model;
 use embate_solver::simulation::{Observer, Options, Simulation};
@@ -90,16 +92,17 @@ fn nearest(path: &Path, time: f64, options: &Options, place: &Place) -> Result<(
         origin = Some(checkpoint);
     }
     // From the start; what the model must be is known all the same.
-    match origin {
-        Some(checkpoint) => {
-            let origin = checkpoint.origin.clone();
-            let (loaded, _) = place.load(&origin, &[])?;
-            refuse_changes(
-                &Identity::of(&loaded.model).differences_in_steps(&checkpoint.identity),
-                "limits, checkpoints and output may change",
-            )?;
-            Ok((origin, None))
-        }
-        None => Err(Failure::Input(no_checkpoint(path).and("  the run itself would show this stretch with a denser `output`"))),
-    }
+    let (origin, identity) = match origin {
+        Some(checkpoint) => (checkpoint.origin, checkpoint.identity),
+        None => match Provenance::read(path).map_err(in_the_way)? {
+            Some(ran) => (ran.origin(), ran.keys),
+            None => {
+                let cli_error = CliError::new(&NO_CHECKPOINT, format!("{} holds neither a checkpoint nor run.json", path.display()));
+                return Err(Failure::Input(cli_error.help("give the folder that `embate run` wrote: results/NAME, or that of --out")));
+            }
+        },
+    };
+    let (loaded, _) = place.load(&origin, &[])?;
+    refuse_changes(&Identity::of(&loaded.model).differences_in_steps(&identity), "limits, checkpoints and output may change")?;
+    Ok((origin, None))
 }

@@ -4,6 +4,7 @@
 use crate::cli_error::CliError;
 use crate::input::{self, Leave, ModelArguments, key_and_value};
 use crate::messages::USAGE;
+use crate::numbers::with_unit;
 use crate::recording::{self, Manner, Recording};
 use crate::watch::Watching;
 use crate::{Failure, terminal};
@@ -11,7 +12,7 @@ use clap::Args;
 use embate_files::checkpoint::messages::{MODEL_CHANGED, NO_CHECKPOINT, OLDER};
 use embate_files::checkpoint::{self, Checkpoint, CheckpointError, Identity, Origin};
 use embate_files::model_file::{self, Loaded};
-use embate_files::results::{Checkpoints, Recorder};
+use embate_files::results::{Earlier, Recorder};
 use embate_files::threads::Threads;
 use embate_solver::model::Model;
 use embate_solver::simulation::{Options, Simulation};
@@ -69,8 +70,15 @@ impl Place {
 
 pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.folder;
+    if arguments.until.is_none() && arguments.set.is_empty() && is_done(path, &arguments.place) {
+        if !arguments.manner.quiet {
+            let text = format!("the run in {} is done: it has reached its end; --until TIME continues to a later one", path.display());
+            terminal::report_error(&text);
+        }
+        return Ok(());
+    }
     let options = arguments.manner.options();
-    let mut past = newest(path, &options)?;
+    let past = newest(path, &options)?;
     let mut set = arguments.set.clone();
     if let Some(until) = &arguments.until {
         let until = model_file::time(until).map_err(|wrong| usage(format!("--until: {wrong}")))?;
@@ -83,27 +91,55 @@ pub(crate) fn resume(arguments: &Arguments) -> Result<(), Failure> {
         set.push(format!("run.end={until:e}"));
     }
     let (loaded, origin) = arguments.place.load(&past.origin, &set)?;
-    let model = &loaded.model;
-    refuse_changes(&Identity::of(model).differences(&past.identity), "the end, limits, checkpoints and output may change")?;
-    let mut simulation = ready(model, &options, &past)?;
-    past.release_state();
-    input::warn(&loaded, &simulation);
-    if !arguments.manner.quiet {
-        terminal::report_error(&format!("continuing from step {} at {:.6e} s", past.state.step, past.state.time));
+    Continuing { path, past, loaded, origin, manner: &arguments.manner, is_verbose: arguments.verbose, watching: &arguments.watching }.go()
+}
+
+/// Whether a run has nothing left to do, by its model as it is now.
+fn is_done(path: &Path, place: &Place) -> bool {
+    let Ok(Some(Earlier { end: Some(end), ran: Some(ran), .. })) = Earlier::read(path) else { return false };
+    // Without the model its own word counts.
+    let wanted = place.load(&ran.origin(), &[]).map_or(0.0, |(loaded, _)| loaded.model.run.end);
+    end.is_done_at(wanted)
+}
+
+/// A run that continues from a checkpoint.
+pub(crate) struct Continuing<'a> {
+    pub(crate) path: &'a Path,
+    pub(crate) past: Checkpoint,
+    pub(crate) loaded: Loaded,
+    pub(crate) origin: Origin,
+    pub(crate) manner: &'a Manner,
+    pub(crate) is_verbose: bool,
+    pub(crate) watching: &'a Watching,
+}
+
+impl Continuing<'_> {
+    /// Runs it to its end.
+    pub(crate) fn go(self) -> Result<(), Failure> {
+        let Self { path, mut past, loaded, origin, manner, is_verbose, watching } = self;
+        let (model, options) = (&loaded.model, manner.options());
+        refuse_changes(&Identity::of(model).differences(&past.identity), "the end, limits, checkpoints and output may change")?;
+        let mut simulation = ready(model, &options, &past)?;
+        past.release_state();
+        input::warn(&loaded, &simulation);
+        input::warn_of_threads(&simulation, manner);
+        if !manner.quiet {
+            terminal::report_error(&format!("continuing from step {} at {:.6e} s", past.state.step, past.state.time));
+        }
+        let watched = watching.begin(model, &simulation, path)?;
+        let frame = simulation.frame();
+        let make = |simulation: &Simulation, on_progress| {
+            let shown = (simulation.cells(), &frame);
+            let checkpoints = recording::checkpoints(&loaded, origin, simulation);
+            Recorder::reopen(path, (model, &past), simulation.history_columns(), shown, options.thread_count(), checkpoints, on_progress)
+        };
+        let recording = Recording { watched, ..Recording::of(&loaded, path, manner, is_verbose) };
+        recording::record(recording, &mut simulation, make, Simulation::run)
     }
-    let watched = arguments.watching.begin(model, &simulation, path)?;
-    let frame = simulation.frame();
-    let make = |simulation: &Simulation, on_progress| {
-        let shown = (simulation.cells(), &frame);
-        let checkpoints = Checkpoints::of(model, origin);
-        Recorder::reopen(path, (model, &past), simulation.history_columns(), shown, options.thread_count(), checkpoints, on_progress)
-    };
-    let recording = Recording { watched, ..Recording::of(&loaded, path, &arguments.manner, arguments.verbose) };
-    recording::record(recording, &mut simulation, make, Simulation::run)
 }
 
 /// The newest sound checkpoint of a run; what is wrong with newer ones is reported.
-fn newest(path: &Path, options: &Options) -> Result<Checkpoint, Failure> {
+pub(crate) fn newest(path: &Path, options: &Options) -> Result<Checkpoint, Failure> {
     let none = |faults: Vec<CheckpointError>| {
         let reported = faults.into_iter().map(|fault| CliError::new(fault.kind(), fault));
         Failure::Input(reported.reduce(CliError::and).unwrap_or_else(|| no_checkpoint(path)))
@@ -116,10 +152,25 @@ fn newest(path: &Path, options: &Options) -> Result<Checkpoint, Failure> {
     Ok(checkpoint)
 }
 
-/// That there is nothing to continue from.
-pub(crate) fn no_checkpoint(path: &Path) -> CliError {
-    let cli_error = CliError::new(&NO_CHECKPOINT, format!("there is no checkpoint in {}", path.display()));
-    cli_error.help("a run leaves some with `run.checkpoint`, and one when it is stopped by Ctrl-C or SIGTERM")
+/// That there is nothing to continue from, and why.
+fn no_checkpoint(path: &Path) -> CliError {
+    let at = path.display();
+    let missing = |text: String| CliError::new(&NO_CHECKPOINT, text);
+    let until = match Earlier::read(path) {
+        _ if !path.exists() => {
+            return missing(format!("there is no folder {at}"))
+                .help("give the folder that `embate run` wrote: results/NAME, or that of --out");
+        }
+        Ok(None) => return missing(format!("{at} holds no results of embate")).help("give the folder that `embate run` wrote"),
+        Ok(Some(Earlier { end: Some(end), .. })) => format!(" (status \"{}\", at {})", end.status, with_unit(end.time, "s")),
+        Ok(Some(_)) => " (it was cut off)".to_string(),
+        Err(_) => String::new(),
+    };
+    let text = format!("there is no checkpoint in {at}: the run{until} kept none, so it can't continue");
+    missing(text).help(
+        "`embate run` runs it from the start, and `embate replay` shows a stretch of it; runs keep checkpoints from 5 s on, unless \
+            `run.checkpoint = 0`",
+    )
 }
 
 /// Arguments that can't be.

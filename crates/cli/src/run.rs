@@ -1,19 +1,21 @@
 //! `embate run`: a model from its file to its results.
 
-use crate::Failure;
 use crate::cli_error::CliError;
+use crate::in_place::{self, InPlace};
 use crate::input::{self, ModelArguments};
 use crate::recording::{self, Manner, Recording, in_the_way};
+use crate::resume::{self, Continuing};
 use crate::watch::Watching;
+use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::model_file::{self, Loaded};
 use embate_files::post_mortem;
 use embate_files::results::messages::NO_POST_MORTEM;
-use embate_files::results::{Checkpoints, Recorder, ResultFolder};
+use embate_files::results::{Recorder, ResultFolder};
 use embate_solver::error::{Error, Fault, MEMORY};
 use embate_solver::model::Model;
 use embate_solver::simulation::Simulation;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Which model, where to and how.
 #[derive(Args)]
@@ -28,7 +30,8 @@ pub(crate) struct Arguments {
     /// How contact was searched, besides the summary
     #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
-    /// Replace results that are there
+    /// Replace results that are there; of this model they need it only if it is as it was, or they took more
+    /// than ten minutes
     #[arg(long)]
     force: bool,
     #[command(flatten)]
@@ -36,13 +39,29 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let refuse = |folder: &Path| if arguments.force { Ok(()) } else { ResultFolder::refuse_existing(folder).map_err(in_the_way) };
+    let origin = input::origin(&arguments.model);
     // Before any work is done.
-    arguments.out.as_deref().map_or(Ok(()), refuse)?;
+    arguments.out.as_deref().map_or(Ok(()), |out| in_place::refuse_others(out, &origin, arguments.force))?;
     let loaded = load(arguments)?;
     let model = &loaded.model;
     let path = folder(arguments, model)?;
-    refuse(&path)?;
+    let force = match in_place::decide(&path, &origin, &loaded, arguments.force)? {
+        InPlace::Nothing => arguments.force,
+        InPlace::Replaced(what) => {
+            if !arguments.manner.quiet {
+                terminal::report_error(&format!("{what} in {} are replaced", path.display()));
+            }
+            true
+        }
+        InPlace::Continued => {
+            if !arguments.manner.quiet {
+                terminal::report_error(&format!("{} holds this run unfinished; with --force it begins again", path.display()));
+            }
+            let past = resume::newest(&path, &arguments.manner.options())?;
+            let Arguments { manner, verbose, watching, .. } = arguments;
+            return Continuing { path: &path, past, loaded, origin, manner, is_verbose: *verbose, watching }.go();
+        }
+    };
     let options = arguments.manner.options();
     let mut simulation = input::simulation(model, &options).map_err(|error| match &error {
         Error::Model(faults) => with_page(CliError::from(&error), arguments, &loaded, faults),
@@ -50,12 +69,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     // Also of a quiet run, and before it: who reads them late has waited for nothing.
     input::warn(&loaded, &simulation);
+    input::warn_of_threads(&simulation, &arguments.manner);
     let watched = arguments.watching.begin(model, &simulation, &path)?;
     // Only now: a model that can't run must not cost the results of an earlier one.
-    let folder = ResultFolder::create(&path, arguments.force).map_err(in_the_way)?;
-    let checkpoints = Checkpoints::of(model, input::origin(&arguments.model));
+    let folder = ResultFolder::create(&path, force).map_err(in_the_way)?;
     let make = |simulation: &Simulation, on_progress| {
         let shown = (simulation.history_columns(), simulation.cells());
+        let checkpoints = recording::checkpoints(&loaded, origin, simulation);
         Recorder::keeping(folder, model, shown, options.thread_count(), Some(checkpoints), on_progress)
     };
     let recording = Recording { watched, ..Recording::of(&loaded, &path, &arguments.manner, arguments.verbose) };

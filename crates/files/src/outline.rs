@@ -88,14 +88,21 @@ pub(crate) struct LineReader {
 }
 
 impl LineReader {
-    /// Lines of a frame in 2D, in model order.
+    /// Lines of a frame in 2D, in model order; without points what is gone.
     pub(crate) fn lines(&mut self, frame: &Frame) -> Vec<Line> {
         let far = self.far(frame);
-        frame.outlines.iter().map(|outline| line(&outline.points, far)).collect()
+        frame.outlines.iter().map(|outline| line(if outline.is_gone { &[] } else { &outline.points }, far)).collect()
     }
 
-    /// Surfaces of a frame in 3D, in model order.
+    /// Surfaces of a frame in 3D, in model order; without points and facets what is gone.
     pub(crate) fn surfaces(&mut self, frame: &Frame) -> Vec<Surface> {
+        let gone = Surface { points: Vec::new(), facets: Vec::new(), is_endless: false };
+        let all = self.all_surfaces(frame).into_iter().zip(&frame.outlines);
+        all.map(|(surface, outline)| if outline.is_gone { gone.clone() } else { surface }).collect()
+    }
+
+    /// Surfaces of a frame in 3D, in model order, also of what is gone.
+    pub(crate) fn all_surfaces(&mut self, frame: &Frame) -> Vec<Surface> {
         let far = self.far(frame);
         frame.outlines.iter().map(|outline| Surface::of(outline, far)).collect()
     }
@@ -265,7 +272,7 @@ mod tests {
     }
 
     fn surface(points: Vec<[f64; 3]>, facets: Vec<[u32; 4]>) -> Surface {
-        let outlines = vec![Outline { name: "o".into(), points, facets }];
+        let outlines = vec![Outline { name: "o".into(), points, facets, is_gone: false }];
         let frame = Frame { outlines, ..Frame::of(&[[-1.0, 0.0, 0.5], [0.0, 2.0, 1.0]]) };
         LineReader::default().surfaces(&frame).remove(0)
     }

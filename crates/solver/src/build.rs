@@ -51,7 +51,7 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// Below so many elements threads cost more than they bring.
-const SERIAL: usize = 4096;
+pub(crate) const SERIAL: usize = 4096;
 
 /// Builds the system of a model at time zero, on a mesh that stands for the model's (`None`: its own); with
 /// it come all warnings of the model.

@@ -27,8 +27,14 @@ where
             }
             Governor::Given => "`run.time_step`".into(),
             Governor::Contact => "bodies that come at each other fast".into(),
-            Governor::Schedule => "growth limit or end of the run".into(),
+            Governor::Schedule => "the step before".into(),
         }
+    }
+
+    /// Who sets the time step, in words; while it grows, or leads to the end of the run, who will set it, or
+    /// would.
+    pub(crate) fn governor_in_words(&self) -> String {
+        self.governor_name(if self.governor == Governor::Schedule { self.bound_by } else { self.governor })
     }
 
     /// An element by group and number, with its part and place, in words.

@@ -11,12 +11,14 @@ pub struct Outline {
     /// In 3D: facets of it, each by its points, outward by the right-hand rule; a triangle repeats its
     /// last point.
     pub facets: Vec<[u32; 4]>,
+    /// Whether it acts no more (`death`): then it is not drawn.
+    pub is_gone: bool,
 }
 
 impl Outline {
     /// A line in 2D.
     #[must_use]
     pub fn line(name: &str, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
-        Self { name: name.into(), points: points.into_iter().map(|[x, y]| [x, y, 0.0]).collect(), facets: Vec::new() }
+        Self { name: name.into(), points: points.into_iter().map(|[x, y]| [x, y, 0.0]).collect(), ..Self::default() }
     }
 }

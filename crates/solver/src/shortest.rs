@@ -29,7 +29,7 @@ impl Shortest {
         let governed = system.governor != Governor::Schedule || self.time_step.is_infinite();
         if governed && system.time_step < 0.999 * self.time_step {
             self.time_step = system.time_step;
-            self.governor = system.governor_name(system.governor);
+            self.governor = system.governor_in_words();
         }
     }
 }

@@ -4,6 +4,7 @@
 mod clock;
 mod output_cursor;
 mod memory;
+mod part_meshes;
 pub(crate) mod run;
 mod state;
 mod steering;
@@ -11,6 +12,7 @@ mod summary;
 mod time_step_costs;
 mod tiny;
 
+pub use part_meshes::PartMeshed;
 pub use state::State;
 pub use time_step_costs::{CostlyElement, TimeStepCosts};
 
@@ -242,6 +244,10 @@ macro_rules! either {
 pub(crate) use either;
 
 impl Simulation {
+    /// A model of fewer elements runs on one thread, whatever was asked for: more would cost more than they
+    /// bring.
+    pub const THREADS_FROM: usize = crate::build::SERIAL;
+
     /// Makes a model ready: everything at time zero is known, velocities are those of the first half step.
     ///
     /// # Errors
@@ -276,6 +282,18 @@ impl Simulation {
             Either::Plane(_) => 2,
             Either::Space(_) => 3,
         }
+    }
+
+    /// Threads that it runs on; changes no result.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        either!(self, run => run.threads)
+    }
+
+    /// What its parts are made of, as they were meshed; `model`: the one it was made from.
+    #[must_use]
+    pub fn part_meshes(&self, model: &Model) -> Vec<PartMeshed> {
+        either!(self, run => part_meshes::of(&run.system, model))
     }
 
     /// Lets the run keep states in memory, in so many bytes for all of them together: see

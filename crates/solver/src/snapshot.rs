@@ -51,7 +51,7 @@ where
 
     fn outlined(&self) -> Cow<'_, Frame> {
         let mut frame = Frame { time: self.system.time, step: self.system.step, dimension: D, ..Frame::default() };
-        frame.outlines.extend(self.system.outlines.iter().map(|outline| outline.now(&self.system.bodies)));
+        frame.outlines.extend(self.system.outlines.iter().map(|outline| outline.now(&self.system.bodies, self.system.time)));
         if !frame.outlines.is_empty() {
             self.coordinates(0..self.nodes(), &mut frame.coordinates);
         }
@@ -72,6 +72,6 @@ where
             self.of_cells(0..self.elements().len(), &mut columns);
         }
         frame.outlines.clear();
-        frame.outlines.extend(self.system.outlines.iter().map(|outline| outline.now(&self.system.bodies)));
+        frame.outlines.extend(self.system.outlines.iter().map(|outline| outline.now(&self.system.bodies, self.system.time)));
     }
 }

@@ -118,6 +118,8 @@ where
     /// Step that will lead to the next positions, s.
     pub(crate) time_step: f64,
     pub(crate) governor: Governor,
+    /// The same without growth and the end of the run.
+    pub(crate) bound_by: Governor,
     /// The stable step by nodes, where the model wants it.
     pub(crate) nodal_bound: Option<NodalBound>,
     /// The stable step by the assembled mesh, where the model wants it.

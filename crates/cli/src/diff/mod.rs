@@ -135,6 +135,14 @@ fn again(arguments: &Arguments, runs: &[RunLeft; 2], [from, to]: [u64; 2]) -> Re
     }
     let Ok(mut sides) = <[Again; 2]>::try_from(sides) else { return Ok(()) };
     let pairing = Pairing::new(&sides[0].simulation, &sides[1].simulation);
+    if pairing.is_empty() && ends_alike(runs) {
+        // Other meshes, the same places and velocities: at rest, say.
+        let lines: String = pairing.left_out.iter().map(|line| format!("  {line}\n")).collect();
+        return Ok(terminal::print(&format!(
+            "both end in the same state, after other steps; no part has the same mesh in both, so there are no nodes to compare on the \
+                way\n{lines}"
+        ))?);
+    }
     if pairing.is_empty() {
         let cli_error = CliError::new(&NOTHING_IN_COMMON, "no part has the same mesh in both runs, so no node has a counterpart");
         return Err(Failure::Input(pairing.left_out.iter().fold(cli_error, |text, line| text.and(format!("  {line}")))).into());
@@ -166,6 +174,11 @@ fn again(arguments: &Arguments, runs: &[RunLeft; 2], [from, to]: [u64; 2]) -> Re
         }
     }
     Ok(())
+}
+
+/// Whether both have come to their ends with the same hash.
+fn ends_alike(runs: &[RunLeft; 2]) -> bool {
+    matches!([&runs[0].end, &runs[1].end], [Some(a), Some(b)] if a.state_hash == b.state_hash)
 }
 
 /// The model of a run, if it is the one that ran.

@@ -137,6 +137,27 @@ fn a_starter_model_is_made_once() {
 }
 
 #[test]
+fn every_template_is_checked_without_a_warning_and_makes_pictures() {
+    let folder = fresh("templates");
+    for starter in embate_files::model_file::STARTERS {
+        let name = starter.name;
+        let made = embate(&folder, ["new", name, "--template", name]);
+        assert_eq!(made.code, Some(0), "{}", made.err);
+        let schema = fs::read_to_string(folder.join(name).join("embate.schema.json")).unwrap();
+        assert!(serde_json::from_str::<serde_json::Value>(&schema).unwrap()["properties"]["part"].is_object());
+        let checked = embate(&folder, ["check", name]);
+        assert!(checked.code == Some(0) && checked.err.is_empty(), "{name}: {}", checked.err);
+        assert!(checked.out.contains("no initial penetrations"), "{name}: {}", checked.out);
+        let ran = embate(&folder, ["run", name, "--quiet", "--set", "run.max_steps=40"]);
+        assert!(ran.code == Some(0) && ran.err.is_empty(), "{name}: {}", ran.err);
+        let results = folder.join("results").join(name);
+        assert!(["final.png", "animation.gif", "energy.svg", "history.svg"].iter().all(|file| results.join(file).exists()), "{name}");
+    }
+    let unknown = embate(&folder, ["new", "x", "--template", "cube"]);
+    assert!(unknown.code == Some(2) && unknown.err.contains("drop-test"), "{}", unknown.err);
+}
+
+#[test]
 fn a_closed_pipe_is_quiet() {
     let mut child = Command::new(env!("CARGO_BIN_EXE_embate")).arg("list").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stdout.take());

@@ -9,6 +9,7 @@ mod estimates;
 mod examples;
 mod far;
 mod hashes;
+mod kept;
 #[cfg(unix)]
 mod links;
 mod lock;

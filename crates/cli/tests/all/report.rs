@@ -26,6 +26,10 @@ fn a_report_of_a_run_is_one_file_that_holds_all() {
         "Histories",
         "Figures of the run",
         "<td>block</td>",
+        "<td>4 quad4</td>",
+        "<td>young</td><td>200 GPa</td>",
+        "<td>safety</td><td>0.8</td>",
+        "is <code>",
     ] {
         assert!(page.contains(part), "{part}");
     }

@@ -177,6 +177,8 @@ fn a_damaged_checkpoint_is_reported_and_the_one_before_it_is_used() {
     }
     let answer = resume(&folder, "whole");
     assert!(answer.code == Some(2) && answer.err.contains("there is no checkpoint in whole"), "{}", answer.err);
+    let answer = embate(&folder, ["resume", "whole"]);
+    assert!(answer.code == Some(0) && answer.err.contains("is done"), "{}", answer.err);
 }
 
 #[test]

@@ -219,13 +219,39 @@ fn the_same_command_runs_nothing_twice_and_another_one_is_refused() {
         "{}",
         other.err
     );
-    let more = again(&folder, &["--vary", "run.safety=0.5,0.6,0.7,0.8"]);
-    assert!(more.code == Some(2) && more.err.contains("3 runs, not 4"), "{}", more.err);
+    let fewer = again(&folder, &["--vary", "run.safety=0.5,0.7"]);
+    assert!(fewer.code == Some(2) && fewer.err.contains("1 of its 3 runs are not among the 2"), "{}", fewer.err);
     fs::write(folder.join("flight.toml"), FLIGHT.replace("200 GPa", "201 GPa")).unwrap();
     let changed = again(&folder, &vary);
     assert!(changed.code == Some(2) && changed.err.contains("of 3 of 3 runs have changed"), "{}", changed.err);
     assert_eq!(again(&folder, &["--vary", "run.safety=0.5", "--force"]).code, Some(0));
     assert!(!folder.join("out/0002").exists(), "runs of the earlier sweep are gone");
+}
+
+#[test]
+fn a_sweep_is_extended_by_further_points_and_runs_only_these() {
+    let few = ["--vary", "part.block.velocity[0]=1:3:3"];
+    let all = ["--vary", "part.block.velocity[0]=1:3:5"];
+    let (_, fresh) = sweep("sweep-all", &all);
+    let (_, folder) = sweep("sweep-few", &few);
+    let stamp = |run: &str| fs::metadata(folder.join("out").join(run).join("summary.json")).unwrap().modified().unwrap();
+    let before = ["0001", "0002", "0003"].map(stamp);
+    // What lies about where a run will be is of no one.
+    fs::create_dir(folder.join("out/0005")).unwrap();
+    let answer = again(&folder, &all);
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    assert_eq!(before, ["0001", "0003", "0005"].map(stamp), "those that were there were not run again");
+    let bytes = |folder: &Path, name: &str| fs::read(folder.join("out").join(name)).unwrap();
+    assert_eq!(bytes(&folder, "sweep.csv"), bytes(&fresh, "sweep.csv"));
+    for run in ["0001", "0002", "0003", "0004", "0005"] {
+        assert_eq!(bytes(&folder, &format!("{run}/history.csv")), bytes(&fresh, &format!("{run}/history.csv")), "{run}");
+    }
+    assert!(fs::read_dir(folder.join("out")).unwrap().flatten().all(|entry| !entry.file_name().to_string_lossy().contains("moved")));
+    // The same in another order, and again.
+    let turned = ["--vary", "part.block.velocity[0]=3,2.5,2,1.5,1"];
+    assert_eq!(again(&folder, &turned).code, Some(0));
+    assert_eq!(before, ["0005", "0003", "0001"].map(stamp));
+    assert_eq!(bytes(&folder, "0001/history.csv"), bytes(&fresh, "0005/history.csv"));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use embate_solver::message::{Example, Message};
 
 pub(crate) static MESSAGES: &[&Message] =
-    &[&DAMAGED, &VERSION, &RESULTS_CHANGED, &IN_USE, &MODEL_CHANGED, &NO_CHECKPOINT, &OLDER, &LAST_GOOD];
+    &[&DAMAGED, &VERSION, &RESULTS_CHANGED, &IN_USE, &MODEL_CHANGED, &NO_CHECKPOINT, &OLDER, &LAST_GOOD, &NO_STATES];
 
 pub(super) static DAMAGED: Message = Message {
     code: "E0711",
@@ -71,8 +71,9 @@ pub static NO_CHECKPOINT: Message = Message {
     code: "E0716",
     title: "nothing to continue from",
     example: Example::Command("resume results"),
-    cause: "The folder holds no checkpoint: its run kept none, or it is not a folder of results.",
-    remedy: "Set `run.checkpoint` or `run.checkpoint_steps`, and run the model.",
+    cause: "The folder is not there, is none of results, or its run kept no checkpoint: it was shorter than five \
+        seconds, or `run.checkpoint = 0` switches them off.",
+    remedy: "Run the model; `embate replay` needs no checkpoint.",
 };
 
 /// An older checkpoint is used.
@@ -94,4 +95,13 @@ pub static LAST_GOOD: Message = Message {
     example: Example::Words("A run fails because the disk is full, and its last good state does not fit on it either."),
     cause: "The run fails again before its last good step, or the state can't be written.",
     remedy: "Continue from the checkpoint before, or look at the last written state.",
+};
+
+/// A state that no one had asked for could not be written.
+pub(crate) static NO_STATES: Message = Message {
+    code: "W0713",
+    title: "checkpoints could not be written",
+    example: Example::Words("A long run keeps checkpoints without being asked, and the disk has no room for one."),
+    cause: "The system refused to write one; its own words are in the message. The run continued without.",
+    remedy: "Free some space, or switch them off with `run.checkpoint = 0`; with `run.checkpoint` set, a run ends there.",
 };

@@ -23,7 +23,7 @@ use embate_solver::model::Model;
 use embate_solver::simulation::State;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use thiserror::Error;
@@ -157,7 +157,9 @@ impl Checkpoint {
         self.write_file(&path, threads)?;
         // The name, too, must outlive a power failure; where folders can't be synchronised there is nothing
         // to do.
-        let _ = File::open(&folder).and_then(|folder| folder.sync_all());
+        for folder in [folder.as_path(), results] {
+            let _ = File::open(folder).and_then(|folder| folder.sync_all());
+        }
         for old in generations(results).into_iter().filter(|generation| generation.step < self.state.step).skip(GENERATIONS - 1) {
             fs::remove_file(&old.path).map_err(CheckpointError::file("remove", &old.path))?;
         }
@@ -253,6 +255,17 @@ pub fn generations(results: &Path) -> Vec<Generation> {
     let mut found: Vec<Generation> = entries.filter_map(generation).collect();
     found.sort_by_key(|generation| std::cmp::Reverse(generation.step));
     found
+}
+
+/// Longest head of a file that is looked at alone, bytes.
+const HEAD_MAX: u64 = 16 << 20;
+
+/// Wall time that a run had taken when it wrote a file, s; `None` where it can't be read.
+pub(crate) fn seconds(path: &Path) -> Option<f64> {
+    let mut bytes = Vec::new();
+    plain::open(path).ok()?.take(HEAD_MAX).read_to_end(&mut bytes).ok()?;
+    let header: Header = serde_json::from_slice(container::head(&bytes).ok()?.header).ok()?;
+    Some(header.reported.spent.wall)
 }
 
 /// The step of a file called so; `None`: it is no checkpoint.

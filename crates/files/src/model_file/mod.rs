@@ -23,7 +23,7 @@ mod value;
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use manual::reference_markdown;
 pub use schema::schema;
-pub use starter::starter;
+pub use starter::{SCHEMA_NAME, STARTERS, Starter};
 
 pub(crate) use diagnostics::{Faults, Source};
 pub(crate) use manual::table as keys_table;
@@ -113,12 +113,47 @@ impl Loaded {
         }
     }
 
+    /// All keys with their values as they are written, in the order of the file; `title` and the like, too.
+    /// Long values are cut off.
+    #[must_use]
+    pub fn written(&self) -> Vec<(String, String)> {
+        let mut all = Vec::new();
+        self.note(&self.root, String::new(), &mut all);
+        all
+    }
+
+    fn note(&self, node: &Node, path: String, all: &mut Vec<(String, String)>) {
+        match &node.value {
+            tree::Value::Table(entries) => entries.iter().for_each(|entry| {
+                let dot = if path.is_empty() { "" } else { "." };
+                self.note(&entry.node, format!("{path}{dot}{}", entry.key), all);
+            }),
+            tree::Value::List(items) if items.iter().any(|item| matches!(item.value, tree::Value::Table(_))) => {
+                items.iter().zip(0..).for_each(|(item, index): (_, usize)| self.note(item, format!("{path}[{index}]"), all));
+            }
+            _ => {
+                let written = self.sources.get(node.place.source).and_then(|source| source.text.get(node.place.start..node.place.end));
+                all.push((path, on_a_line(written.unwrap_or_default())));
+            }
+        }
+    }
+
     /// Warnings of the model (those of [`Model::warnings`], of a simulation made from it) with their lines
     /// and columns; no text where there are none.
     #[must_use]
     pub fn reported(&self, warnings: &[Warning]) -> Diagnostics {
         Faults::warnings(warnings).into_diagnostics(&self.sources, Some(&self.root))
     }
+}
+
+/// Longest value that is given as it is written, characters.
+const WRITTEN_MAX: usize = 400;
+
+/// A value on one line.
+fn on_a_line(written: &str) -> String {
+    let line = written.split_whitespace().collect::<Vec<_>>().join(" ");
+    let short: String = line.chars().take(WRITTEN_MAX).collect();
+    if short.len() < line.len() { format!("{short} ...") } else { line }
 }
 
 /// Where a key stands in the file.

@@ -248,7 +248,7 @@ fn of_key(key: &Key) -> Json {
         }
         Kind::Integer(least) => integer(least),
         Kind::Integers(count, least) => list(integer(least), Some(count)),
-        Kind::Cadence => any([integer(1), quantity(Dimension::TIME, Range::Positive)]),
+        Kind::Cadence => any([integer(0), quantity(Dimension::TIME, Range::Positive)]),
         Kind::Flag => object([("type", text("boolean"))]),
         Kind::Text | Kind::Reference => object([("type", text("string"))]),
         Kind::Name => object([("type", text("string")), ("pattern", text(NAME_PATTERN))]),

@@ -292,7 +292,7 @@ pub(super) fn read(key: &Key, node: &Node, path: &str) -> Read<Datum> {
             _ => return at.unlike(),
         },
         Kind::Cadence => Datum::Cadence(match &node.value {
-            Value::Integer(..) => Cadence::Count(at.integer(1)?),
+            Value::Integer(..) => Cadence::Count(at.integer(0)?),
             _ => Cadence::Interval(at.number(&[Dimension::TIME], Range::Positive, false)?.0),
         }),
         Kind::Flag => match node.value {

@@ -137,7 +137,7 @@ impl<'a> Scene<'a> {
         write_text(out, &panel.remark, [left + wide, top - 10.0], "end", TEXT_FAINT, "");
         let _ = writeln!(out, "<clipPath id=\"c{number}\"><rect x=\"{left}\" y=\"{top}\" width=\"{wide}\" height=\"{high}\"/></clipPath>");
         let _ = writeln!(out, "<g clip-path=\"url(#c{number})\">");
-        for outline in &moment.outlines {
+        for outline in moment.outlines.iter().filter(|outline| !outline.is_gone) {
             let far = |x: &[f64; 3]| [0, 1].map(|k| (x[k] - centre[k]).clamp(-4e4 / scale, 4e4 / scale) + centre[k]);
             let path = path(&outline.points.iter().map(|x| place(far(x))).collect::<Vec<_>>(), false);
             let _ = writeln!(out, "<path d=\"{path}\" fill=\"none\" stroke=\"{}\" stroke-width=\"5\"/>", hex(BORDER));

@@ -30,7 +30,7 @@ pub(crate) fn place(title: &str, cells: &Cells, positions: &[[f64; 2]], outlines
     let mut sheet = Sheet::new(title, view);
     let spot = |x: [f64; 2]| sheet.spot(x);
     let mut body = String::new();
-    for outline in outlines {
+    for outline in outlines.iter().filter(|outline| !outline.is_gone) {
         let points: Vec<[f64; 2]> = outline.points.iter().map(|&[x, y, _]| spot([x, y])).collect();
         let _ = writeln!(body, "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"4\"/>", path(&points, false), hex(BORDER));
     }

@@ -65,6 +65,13 @@ impl Table<'_> {
         self.values(column).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
     }
 
+    /// Whether a contact acts although its force is zero: that of one between many bodies is the sum of pairs
+    /// of opposite forces.
+    fn cancels(&self, contact: &str) -> bool {
+        let kinds = ["energy", "penetration"].map(|kind| format!("contact.{kind}[{contact}]"));
+        self.columns.iter().enumerate().any(|(column, name)| kinds.contains(name) && !self.is_zero(column))
+    }
+
     fn values(&self, column: usize) -> impl Iterator<Item = f64> {
         self.rows.iter().filter_map(move |row| row.get(column).copied()).filter(|v| v.is_finite())
     }
@@ -154,7 +161,14 @@ fn history(table: &Table<'_>) -> Vec<Panel> {
     ];
     let mut panels: Vec<Panel> = quantities.iter().flat_map(|quantity| quantity.panels(table)).collect();
     if panels.is_empty() {
-        let remark = "no probe moves and no contact acts".into();
+        let names = quantities[1].axes.iter().flatten().map(|(_, name)| name);
+        let contacts = if names.into_iter().any(|name| table.cancels(name)) {
+            "the forces of each contact cancel in its sum"
+        } else {
+            "no contact acts"
+        };
+        let has_probes = quantities[0].axes.iter().any(|axis| !axis.is_empty());
+        let remark = if has_probes { format!("no probe moves; {contacts}") } else { format!("there is no probe; {contacts}") };
         panels.push(Panel { name: "history".into(), si: "", from_zero: false, height: 170.0, curves: Vec::new(), remark });
     }
     panels
@@ -192,8 +206,11 @@ impl Quantity {
         if shown.len() > CURVES_MAX {
             remarks.push(format!("{} more in the history file", shown.len() - CURVES_MAX));
         }
-        if !zero.is_empty() {
-            remarks.push(format!("zero throughout: {}", zero.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ")));
+        let (cancel, zero): (Vec<_>, Vec<_>) = zero.iter().copied().partition(|(_, name)| self.si != "m" && table.cancels(name));
+        for (what, found) in [("forces cancel in the sum", cancel), ("zero throughout", zero)] {
+            if !found.is_empty() {
+                remarks.push(format!("{what}: {}", found.iter().map(|(_, name)| name.as_str()).collect::<Vec<_>>().join(", ")));
+            }
         }
         let points = |column: usize| {
             let mut points = table.points(column);
@@ -238,6 +255,17 @@ mod tests {
         let columns = ["time", "A.x", "A.y", "contact.force_x[c]", "contact.force_y[c]"];
         let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, 1e-17 * t, 0.1 * t, 1e3 * t, 1e-8 * t]).collect();
         assert_eq!(names_of(&columns, &rows), ["position y", "contact force x"]);
+    }
+
+    #[test]
+    fn a_contact_whose_forces_cancel_is_not_said_to_be_idle() {
+        let columns: Vec<String> = ["time", "contact.force_x[all]", "contact.energy[all]"].map(String::from).into();
+        let of = |energy: f64| {
+            let rows: Vec<Vec<f64>> = (0..9).map(f64::from).map(|t| vec![t, 0.0, energy * t]).collect();
+            history(&Table { columns: &columns, rows: &rows, of_whole_bodies: false }).remove(0).remark
+        };
+        assert_eq!(of(0.0), "there is no probe; no contact acts");
+        assert_eq!(of(2.0), "there is no probe; the forces of each contact cancel in its sum");
     }
 
     #[test]

@@ -7,6 +7,9 @@ use super::raster::Canvas;
 use super::scale::{Unit, ticks, unit};
 use super::text::{self, Align, Pen, Weight};
 
+/// Height of the arrows at the ends of a colour bar, in widths of the bar.
+const ARROW: f32 = 0.8;
+
 /// What stands right of the plot.
 #[derive(Clone, Debug)]
 pub(super) enum Key {
@@ -91,6 +94,9 @@ impl Sheet {
                 let name = text::fitted(&name, font, Weight::Regular, room);
                 text::draw(&mut self.still, &name, width - font, top - 0.6 * font, Align::Right, pen);
                 let (x0, x1) = ((right + 1.4 * font).round(), (right + 2.4 * font).round());
+                // Arrows stand within the height of the plot: above it is the name.
+                let arrow = |is_there: bool| if is_there { (ARROW * (x1 - x0)).floor() } else { 0.0 };
+                let (top, bottom) = (top + arrow(beyond[1]), bottom - arrow(beyond[0]));
                 self.draw_bar(x0, x1, top, bottom, *beyond);
                 for (value, label) in bar.values.iter().zip(&bar.labels) {
                     let share = (value / bar.unit.factor - range[0]) / (range[1] - range[0]);
@@ -129,7 +135,7 @@ impl Sheet {
             let share = 1.0 - (y - rows.start) as f32 / (rows.len().max(2) - 1) as f32;
             self.still.rectangle(x0, y as f32, x1, y as f32 + 1.0, MAP[((share * last as f32) + 0.5) as usize], 1.0);
         }
-        let high = 0.8 * (x1 - x0);
+        let high = (ARROW * (x1 - x0)).floor();
         for (is_beyond, colour, edge, direction) in [(beyond[1], MAP[last], top, -1.0), (beyond[0], MAP[0], bottom, 1.0)] {
             for row in 0..if is_beyond { high as usize } else { 0 } {
                 let inset = 0.5 * (x1 - x0) * (row as f32 + 0.5) / high;

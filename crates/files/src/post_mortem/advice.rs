@@ -50,6 +50,8 @@ pub(super) struct Pressing<'a> {
 
 /// A shape that is still good.
 const GOOD: f64 = 0.25;
+/// A penalty so many times the automatic one is the cause of whatever is wrong with its contact.
+const TOO_STIFF: f64 = 100.0;
 
 impl<'a> Case<'a> {
     fn model(&self) -> &'a Model {
@@ -117,7 +119,7 @@ impl<'a> Case<'a> {
             Error::Inverted { .. } => {
                 self.too_fast_for_the_step(&mut all);
                 self.squeezed(&mut all);
-                self.driven(&mut all, "let it go slower or less far: it moves or loads the failure location");
+                self.driven(&mut all, "let it go less far (slower alone only puts it off): it moves or loads the failure location");
                 self.soft(&mut all);
             }
             Error::Collapsed { limit, time_step, .. } => {
@@ -213,27 +215,18 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// The mesh, and failure of what is squeezed or torn.
+    /// Failure of what is squeezed or torn, and the mesh.
     fn squeezed(&self, all: &mut Vec<Advice>) {
         let Some(index) = self.part() else { return };
         let part = &self.model().parts[index];
         let vitals = self.last_good().or(self.last()).map(|moment| moment.vitals);
         let strain = vitals.map_or(f64::NAN, |it| it.strains[0].max(-it.strains[1]));
-        let what = if strain > 0.5 {
-            format!(
-                "take more elements (or shape them so that they are drawn or pressed into squares): this one had a \
-                    strain of {strain:.2} before the failure"
-            )
-        } else {
-            "take more elements there: one alone carries what should be shared by several".to_string()
-        };
-        all.push(Advice::new(format!("part[{index}].{}", part.shape.size_path()), what));
         if self.model().materials.get(&part.material).is_some_and(|material| material.failure.is_empty()) {
             let plastic = vitals.map_or(f64::NAN, |it| it.plastic_strain);
             if plastic > 0.3 {
                 let what = format!(
-                    "where the material would tear, let its elements fail before: the plastic strain at the failure \
-                        location was {plastic:.2}"
+                    "where the material would tear, let its elements fail before, say at half the plastic strain at the failure \
+                        location, which was {plastic:.2}"
                 );
                 all.push(Advice::new(format!("material.{}.failure.plastic_strain", part.material), what));
             } else if let Error::Collapsed { limit, .. } = self.failed.error {
@@ -241,6 +234,18 @@ impl<'a> Case<'a> {
                 all.push(Advice::new(format!("material.{}.failure.time_step", part.material), what));
             }
         }
+        // Smaller elements take the same strains, and sooner: at contacts they follow edges more closely.
+        let what = if strain > 0.5 {
+            format!(
+                "shape the elements so that they are drawn or pressed into squares: this one had a strain of {strain:.2} before the \
+                    failure. More of the same shape fail sooner, fewer later"
+            )
+        } else if matches!(self.failed.error, Error::Collapsed { .. }) {
+            "take larger elements there: the stable step goes with their size".to_string()
+        } else {
+            "look at the elements there: one alone may carry what should be shared by several".to_string()
+        };
+        all.push(Advice::new(format!("part[{index}].{}", part.shape.size_path()), what));
         if part.element == "quad4_reduced" && self.trace.near.cells.first().is_some_and(|cell| cell.kind == CellKind::Quadrilateral) {
             let what = "try `quad4`: elements with one point fold into zigzags that nothing but hourglass control resists";
             all.push(Advice::new(format!("part[{index}].element"), what));
@@ -379,24 +384,37 @@ impl<'a> Case<'a> {
 
     /// Energies that don't balance.
     fn unbalanced(&self, all: &mut Vec<Advice>, drift: f64) {
+        let limit = || {
+            let what = format!("only if the loss is understood and harmless: the drift was {:.2} % when the run ended", 100.0 * drift);
+            Advice::new("run.energy_limit", what)
+        };
         if let Some((kind, name)) = self.contact()
             && let Some((path, interface)) = self.interface(&kind, &name)
         {
             self.softer(all, &path, interface, &format!("{kind} \"{name}\" presses where the energy changed most"));
-            if interface.damping == 0.0 {
+            // Where a spring is far stiffer than what it holds, neither a smaller step nor more elements nor
+            // damping help.
+            let is_too_stiff = matches!(&interface.law, ContactLaw::Penalty(Penalty::Automatic { scale, .. }) if *scale > TOO_STIFF);
+            if interface.damping == 0.0 && !is_too_stiff {
                 all.push(Advice::new(format!("{path}.damping"), "try 0.1: it takes the chatter of surfaces that open and close"));
             }
             let formulation = self.model().contacts.iter().find(|it| kind == "contact" && it.name == name).map(|it| it.formulation);
             let why = match formulation {
-                Some(Formulation::Segment) => {
-                    "try `double_pass`: it bears penalties a thousand times as stiff; here pairs of segments begin \
-                        and end with gaps of their own"
+                Some(Formulation::Segment) if is_too_stiff => {
+                    "or try `double_pass`, which bears such penalties: here pairs of segments begin and end with gaps of their own"
                 }
-                Some(Formulation::Pinball) => "try `double_pass`: pinballs are coarse where bodies slide",
+                Some(Formulation::Segment) => {
+                    "try `double_pass`: here pairs of segments begin and end with gaps of their own, each of which gives or takes energy"
+                }
+                Some(Formulation::Pinball) if !is_too_stiff => "try `double_pass`: pinballs are coarse where bodies slide",
                 _ => "",
             };
             if !why.is_empty() {
                 all.push(Advice::new(format!("{path}.formulation"), why));
+            }
+            if is_too_stiff {
+                all.push(limit());
+                return;
             }
         }
         all.push(Advice::new("run.safety", "try 0.5: if the step is the cause, the drift falls to a third or less"));
@@ -408,15 +426,14 @@ impl<'a> Case<'a> {
                 all.push(Advice::new(format!("part[{index}].element"), "try `quad4`: hourglass control has its own energies"));
             }
         }
-        let what = format!("only if the loss is understood and harmless: the drift was {:.2} % when the run ended", 100.0 * drift);
-        all.push(Advice::new("run.energy_limit", what));
+        all.push(limit());
     }
 
     /// A softer penalty, by the key that the contact has it by.
     fn softer(&self, all: &mut Vec<Advice>, path: &str, interface: &Interface, why: &str) {
         match &interface.law {
             ContactLaw::Penalty(Penalty::Automatic { scale, .. }) => {
-                let less = if *scale > 100.0 {
+                let less = if *scale > TOO_STIFF {
                     "leave it out: 1 is as stiff as the elements behind".to_string()
                 } else {
                     format!("try a tenth, {}", scale / 10.0)

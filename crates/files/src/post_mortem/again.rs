@@ -75,8 +75,8 @@ impl Failed<'_> {
             Findings { failure_entity, trace: self.simulation.trace_now(&failure_entity, Some(self.error)), ..Findings::default() };
         let step = self.simulation.steps();
         let Some(from) = self.beginning(step) else {
-            findings.how = "Only the state of the failure is shown: no state of the run is near enough to go there once more. With `run.checkpoint` (\"10 min\" for example) there would be one, and this \
-                            page would show the last steps."
+            findings.how = "Only the state of the failure is shown: no state of the run is near enough to go there once more. \
+                `run.checkpoint` sets how often states are kept."
                 .into();
             return findings;
         };

@@ -7,10 +7,18 @@ use crate::post_mortem::shown;
 
 /// A residual below this is rounding.
 const ROUNDING: f64 = 1e-9;
+/// Energies below this fraction of the largest one are shown as zero.
+const ROUND_OFF: f64 = 1e-14;
 
 fn rows(left: &Left) -> Vec<Vec<String>> {
     let Some(history) = &left.history else { return Vec::new() };
     let si = if left.is_of_whole_bodies { "J" } else { "J/m" };
+    // Below this they are rounding.
+    let energies =
+        || history.columns.iter().zip(&history.values).filter(|(column, _)| column.starts_with("energy.") && !column.contains('['));
+    let largest =
+        energies().flat_map(|(_, values)| values).filter(|value| value.is_finite()).fold(0.0, |most: f64, value| most.max(value.abs()));
+    let shown = |value: f64, si: &str| shown(if value.abs() < ROUND_OFF * largest { 0.0 } else { value }, si);
     let whole = history.columns.iter().zip(&history.values).filter_map(|(column, values)| {
         let name = column.strip_prefix("energy.").filter(|name| !name.contains('['))?;
         let [first, last] = [*values.first()?, *values.last()?];

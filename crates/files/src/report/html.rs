@@ -20,6 +20,7 @@ code,pre{font:.88em ui-monospace,SFMono-Regular,Consolas,'DejaVu Sans Mono',mono
 pre{background:var(--panel);border:1px solid var(--line);border-radius:6px;padding:.7rem .9rem;white-space:pre-wrap;overflow-wrap:anywhere}\
 figure{margin:1rem 0}figure img{display:block;max-width:100%;height:auto;background:#fff;border-radius:6px}figcaption{color:var(--faint);font-size:.88rem;margin-top:.3rem}\
 .plot svg{display:block;width:100%;min-width:38rem;height:auto;border-radius:6px}\
+.chosen table{table-layout:fixed}.chosen th:first-child{width:20%}.chosen th:nth-child(2){width:26%}.chosen td{overflow-wrap:anywhere}\
 details{margin:.8rem 0}summary{cursor:pointer;padding:.3rem 0}\
 .message{border-left:4px solid var(--note);background:var(--panel);padding:.5rem .9rem;margin:.7rem 0;border-radius:0 6px 6px 0}.message.error{border-color:var(--bad)}\
 @media print{:root{--ground:#fff;--text:#000;--faint:#444;--line:#bbb;--panel:#fff;--good:#000;--bad:#000;--note:#000}body{max-width:none;padding:0;font-size:10.5pt}\

@@ -2,9 +2,11 @@
 //! (`embate report`).
 //!
 //! What a run left is read here (`Left`), from `summary.json`, `run.json` and the history; `model.rs` says
-//! what ran, `outcome.rs` how it ended and its figures, `energies.rs` the ledger, `pictures.rs` puts pictures
-//! and plots in, `html.rs` has the frame of the page and escapes all that comes from files.
+//! what ran, `chosen.rs` that in the words of its file, `outcome.rs` how it ended and its figures,
+//! `energies.rs` the ledger, `pictures.rs` puts pictures and plots in, `html.rs` has the frame of the page
+//! and escapes all that comes from files.
 
+mod chosen;
 mod energies;
 pub(crate) mod html;
 mod model;
@@ -69,8 +71,14 @@ impl Left {
         self.summary.as_ref()?.get(key)?.as_f64()
     }
 
-    /// Name of the model; that of the folder where no file reports it.
+    /// Title of the model; its name where it has none.
     fn title(&self) -> String {
+        let title = self.ran.as_ref().map(|ran| ran.appearance.title.clone()).filter(|title| !title.is_empty());
+        title.unwrap_or_else(|| self.name())
+    }
+
+    /// Name of the model; that of the folder where no file reports it.
+    fn name(&self) -> String {
         let of_keys = || self.keys.get("name").map(|name| model::plain(name));
         let of_folder = || self.folder.file_name().map(|name| name.to_string_lossy().into_owned());
         self.text("model").map(ToString::to_string).or_else(of_keys).or_else(of_folder).unwrap_or_else(|| "run".into())

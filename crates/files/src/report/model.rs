@@ -28,7 +28,7 @@ pub(super) fn is_of_whole_bodies(keys: &Keys, history: Option<&History>) -> bool
 }
 
 /// Whether elements of this name are those in 3D.
-fn is_of_3d(name: &str) -> bool {
+pub(super) fn is_of_3d(name: &str) -> bool {
     element::registry().iter().any(|kind| kind.name == name && kind.dimension == 3)
 }
 
@@ -87,9 +87,15 @@ pub(super) fn section(left: &Left) -> String {
     let texts = |thing: &Thing<'_>, names: &[&str]| -> Vec<String> { names.iter().map(|name| thing.value(name)).collect() };
     let mut body = String::new();
     let count = |key: &str| left.number(key).map(|number| (key.to_string(), format!("{number:.0}")));
-    body += &facts(&[count("elements"), count("nodes")].into_iter().flatten().collect::<Vec<_>>());
+    if left.ran.as_ref().is_none_or(|ran| ran.parts.is_empty()) {
+        body += &facts(&[count("elements"), count("nodes")].into_iter().flatten().collect::<Vec<_>>());
+    }
+    let chosen = super::chosen::section(left);
+    let is_in_words = !chosen.is_empty();
+    body += &chosen;
     let mut tables = |title: &str, head: &[&str], rows: Vec<Vec<String>>| {
-        if !rows.is_empty() {
+        // What the file says is better than what was made of it.
+        if !rows.is_empty() && !is_in_words {
             body += &format!("<h3>{}</h3>\n{}", escape(title), table(head, &rows, head.len()));
         }
     };

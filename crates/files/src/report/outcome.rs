@@ -4,6 +4,7 @@
 use super::Left;
 use super::html::{escape, facts, section};
 use crate::messages;
+use crate::numbers::grouped;
 use crate::post_mortem::shown;
 use crate::program;
 use crate::results::Provenance;
@@ -30,9 +31,18 @@ pub(super) fn head(left: &Left) -> String {
     }
     if let Some(command) = left.ran.as_ref().and_then(Provenance::command) {
         text += &format!("<p>To run it again:</p>\n<pre>{}</pre>\n", escape(&command));
+        if let Some(hash) = left.text("state_hash") {
+            text += &format!(
+                "<p class=\"faint\">With the same version of embate and the same model it ends with the same bits, on any number of \
+                 threads and on any machine: the state hash is <code>{}</code> again.</p>\n",
+                escape(hash)
+            );
+        }
     }
-    let mut rows = vec![("embate".to_string(), format!("version {}", left.version()))];
+    let mut rows = Vec::new();
     let mut add = |name: &str, value: Option<String>| rows.extend(value.map(|value| (name.to_string(), value)));
+    add("model", Some(left.name()).filter(|name| *name != left.title()));
+    add("embate", Some(format!("version {}", left.version())));
     add("ended", left.summary.as_ref().and(left.ended).map(date));
     add("state hash", left.text("state_hash").map(ToString::to_string));
     let threads = left.number("threads").map(|threads| format!("{threads:.0}"));
@@ -107,7 +117,7 @@ pub(super) fn figures(left: &Left) -> String {
     let mut add = |name: &str, value: Option<String>| rows.extend(value.map(|value| (name.to_string(), value)));
     let number = |path: &str| summary.pointer(path).and_then(Value::as_f64);
     let si = |path: &str, si: &str| number(path).map(|value| shown(value, si));
-    let count = |path: &str| number(path).map(|value| format!("{value:.0}"));
+    let count = |path: &str| number(path).map(|value| grouped(value as u64));
     let mass = if left.is_of_whole_bodies { "kg" } else { "kg/m" };
     add("time reached", si("/time_end", "s"));
     add("steps", count("/steps"));
@@ -130,7 +140,11 @@ pub(super) fn figures(left: &Left) -> String {
             } else {
                 format!("{unverified:.0} were inside a body without contact: see the warnings")
             };
-            Some(format!("{pairs:.0} pairs checked for crossing, {:.0} crossings found; {verdict}", number("/contact/crossings_found")?))
+            Some(format!(
+                "{} pairs checked for crossing, {} crossings found; {verdict}",
+                grouped(pairs as u64),
+                grouped(number("/contact/crossings_found")? as u64)
+            ))
         }),
     );
     add("mass added for longer steps", si("/mass_added", mass));

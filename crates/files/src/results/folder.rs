@@ -31,13 +31,15 @@ impl ResultFolder {
     /// # Errors
     /// [`ResultsError::Exists`], [`ResultsError::NotAFolder`], or what the system says.
     pub fn refuse_existing(path: &Path) -> Result<(), ResultsError> {
-        match existing(path)?.first() {
-            None => Ok(()),
-            Some(found) => {
-                let found = found.strip_prefix(path).unwrap_or(found).display().to_string();
-                Err(ResultsError::Exists { path: path.to_path_buf(), found })
-            }
-        }
+        Self::found(path)?.map_or(Ok(()), |found| Err(ResultsError::Exists { path: path.to_path_buf(), found }))
+    }
+
+    /// A file of results in `path`, relative to it; `None`: there are none.
+    ///
+    /// # Errors
+    /// As [`ResultFolder::refuse_existing`].
+    pub(super) fn found(path: &Path) -> Result<Option<String>, ResultsError> {
+        Ok(existing(path)?.first().map(|found| found.strip_prefix(path).unwrap_or(found).display().to_string()))
     }
 
     /// Refuses a link where the program chooses the name of a folder; one that the user has named may be a
@@ -134,6 +136,14 @@ impl ResultFolder {
             let _ = fs::remove_dir(folder);
         }
         Ok(())
+    }
+
+    /// Names of files outlive a power failure from here on; where folders can't be synchronised there is
+    /// nothing to do.
+    pub(super) fn secure(&self) {
+        for folder in [self.path.join(FRAMES), self.path.clone()] {
+            let _ = fs::File::open(folder).and_then(|folder| folder.sync_all());
+        }
     }
 
     /// Where it is.

@@ -7,6 +7,7 @@
 //! half-written, whatever happens to the run or the machine.
 
 mod atomic;
+mod checkpoints;
 mod csv;
 mod figures;
 mod folder;
@@ -21,22 +22,25 @@ mod provenance;
 mod recorder;
 mod report;
 mod decimated;
+mod earlier;
 mod reported;
 mod writer;
 
 pub(crate) use atomic::part_path;
 pub use atomic::write_whole;
 pub(crate) use atomic::write_whole_by;
+pub use checkpoints::{Checkpoints, Pause};
 pub(crate) use csv::{append_number, append_text};
 pub use decimated::ThinnedRows;
+pub use earlier::{Earlier, End};
 pub(crate) use figures::{read_figures, write_figures};
 pub use folder::ResultFolder;
 pub use hashes::HashTable;
 pub use history::{History, unit};
 pub(crate) use lock::FolderLock;
 pub(crate) use provenance::read_json;
-pub use provenance::{Appearance, Provenance, Seen};
-pub use recorder::{Checkpoints, OnProgress, Outcome, Recorder};
+pub use provenance::{Appearance, PartMade, Provenance, Seen};
+pub use recorder::{OnProgress, Outcome, Recorder};
 pub use report::{MomentumDrift, Report, RunStatus};
 pub use reported::Reported;
 pub use writer::film_settings;

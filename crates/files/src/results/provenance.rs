@@ -1,12 +1,14 @@
 //! `run.json`: what ran, so that it can be known, and run again, when the model has changed since: the
 //! version of the program, where the model came from, and what it was, key by key.
 //!
-//! Written when a run begins, and again when it continues. Read by `embate diff`.
+//! Written when a run begins, and again when it continues. Read by `embate diff`, `report`, `replay` and
+//! `run`.
 
-use super::{ResultsError, write_whole};
+use super::{Checkpoints, ResultsError, write_whole};
 use crate::checkpoint::{Identity, Origin};
 use crate::{plain, program};
 use embate_solver::model::{Camera, Model};
+use embate_solver::simulation::PartMeshed;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
@@ -32,6 +34,43 @@ pub struct Provenance {
     /// How it is shown; earlier versions did not write it.
     #[serde(default)]
     pub appearance: Appearance,
+    /// Keys of the model file with their values as they are written, in the order of the file; what was
+    /// overridden as it was on the command line.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub written: Vec<(String, String)>,
+    /// What parts are made of.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<PartMade>,
+}
+
+/// What a part is made of: see [`PartMeshed`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PartMade {
+    /// Name.
+    pub name: String,
+    /// Element formulations with the numbers of their elements.
+    pub elements: Vec<(String, usize)>,
+    /// Number of nodes.
+    pub nodes: usize,
+    /// Mass, kg/m (kg).
+    pub mass: f64,
+    /// Smallest and largest element, m.
+    pub sizes: [f64; 2],
+    /// Shape of the worst element.
+    pub shape: f64,
+    /// Its centre, m.
+    pub worst: Vec<f64>,
+    /// Stable step of its elements, s; none of a rigid part.
+    pub stable_time_step: Option<f64>,
+}
+
+impl PartMade {
+    pub(super) fn of(part: PartMeshed) -> Self {
+        let PartMeshed { name, elements, nodes, mass, sizes, shape, worst, stable_time_step } = part;
+        let finite = |value: f64| if value.is_finite() { value } else { 0.0 };
+        let stable_time_step = Some(stable_time_step).filter(|step| step.is_finite());
+        Self { name, elements, nodes, mass, sizes: sizes.map(finite), shape: finite(shape), worst, stable_time_step }
+    }
 }
 
 /// How a model wants to be shown, and what its field files don't have.
@@ -94,7 +133,8 @@ impl Appearance {
 
 impl Provenance {
     /// What a model is and where it came from.
-    pub(super) fn of(keys: Identity, origin: &Origin, model: &Model) -> Self {
+    pub(super) fn of(keys: Identity, checkpoints: &Checkpoints, model: &Model) -> Self {
+        let origin = &checkpoints.origin;
         let path = origin.path.to_string_lossy().into_owned();
         Self {
             version: program::VERSION.into(),
@@ -103,6 +143,8 @@ impl Provenance {
             set: origin.set.clone(),
             keys,
             appearance: Appearance::of(model),
+            written: checkpoints.written.clone(),
+            parts: checkpoints.parts.clone(),
         }
     }
 

@@ -6,12 +6,15 @@
 
 use super::ResultsError;
 use super::atomic::write_whole;
+use super::checkpoints::{CheckpointClock, Checkpoints, Cost};
 use super::folder::ResultFolder;
 use super::messages::NO_PICTURES;
 use super::report::{Report, RunStatus};
-use super::writer::{Job, Writer};
+use super::reported::Spent;
+use super::writer::{Job, Kept, Writer};
 use super::writer_channel::WriterChannel;
-use crate::checkpoint::{Checkpoint, Origin};
+use crate::checkpoint::Checkpoint;
+use crate::checkpoint::messages::NO_STATES;
 use crate::post_mortem;
 use crate::threads::Threads;
 use embate_solver::error::Notice;
@@ -46,27 +49,44 @@ pub struct Recorder<'a> {
     /// The page about the failure.
     post_mortem: Option<String>,
     begin: Instant,
-    /// Steps before it began.
-    steps_before: u64,
-    checkpoints: Option<Checkpoints>,
-    last_checkpoint: Instant,
+    /// What earlier stretches of the run have cost.
+    before: Option<Spent>,
+    keeping: Option<Keeping>,
 }
 
-/// When states are kept.
-#[derive(Clone, Debug, Default)]
-pub struct Checkpoints {
-    /// Wall time between two; `None`: only those that are due by their number of steps, and one when the run
-    /// is stopped.
-    pub pause: Option<Duration>,
-    /// Where the model came from.
-    pub origin: Origin,
+/// What a recorder that keeps states needs for it.
+struct Keeping {
+    clock: CheckpointClock,
+    user_cpu_seconds: Option<fn() -> Option<f64>>,
+    /// When it was last asked, at which step, and after how many steps it wants to be asked again.
+    asked: Option<(Instant, u64)>,
+    stride: u64,
+    /// Whether the run must have the state that comes next: the user asked for it.
+    is_wanted: bool,
 }
 
-impl Checkpoints {
-    /// As a model wants them.
-    #[must_use]
-    pub fn of(model: &Model, origin: Origin) -> Self {
-        Self { pause: model.run.checkpoint.and_then(|pause| Duration::try_from_secs_f64(pause).ok()), origin }
+/// Wall time after which a recorder wants to be asked again whether a state is due.
+const ANSWER: Duration = Duration::from_secs(1);
+
+impl Keeping {
+    fn new(checkpoints: &Checkpoints, cost: Cost) -> Self {
+        Self {
+            clock: CheckpointClock::new(checkpoints.pause, cost),
+            user_cpu_seconds: checkpoints.user_cpu_seconds,
+            asked: None,
+            stride: 1,
+            is_wanted: true,
+        }
+    }
+
+    /// Learns how long steps take.
+    fn look_at_the_clock(&mut self, step: u64) {
+        let Some((then, before)) = self.asked.replace((Instant::now(), step)) else { return };
+        let steps = step.saturating_sub(before);
+        if steps > 0 {
+            let wanted = ANSWER.as_secs_f64() * steps as f64 / then.elapsed().as_secs_f64().max(1e-9);
+            self.stride = (wanted as u64).clamp(1, 1 << 20);
+        }
     }
 }
 
@@ -114,9 +134,9 @@ impl<'a> Recorder<'a> {
         let part_names = cells.part_names.clone();
         let mut writer = Writer::new(folder, model, columns, cells, Threads::new(threads))?;
         if let Some(checkpoints) = &checkpoints {
-            writer.set_origin(checkpoints.origin.clone(), &part_names)?;
+            writer.set_origin(checkpoints, &part_names)?;
         }
-        Ok(Self::of(writer, (model, part_names), threads, checkpoints, on_progress))
+        Ok(Self::of(writer, (model, part_names), threads, checkpoints.as_ref(), on_progress))
     }
 
     /// One that continues with the results in `path` where the checkpoint `past` was written; `frame` is the
@@ -135,19 +155,19 @@ impl<'a> Recorder<'a> {
     ) -> Result<Self, ResultsError> {
         let part_names = cells.part_names.clone();
         let mut writer = Writer::reopen(path, (model, past), columns, (cells, frame), Threads::new(threads))?;
-        writer.set_origin(checkpoints.origin.clone(), &part_names)?;
-        let recorder = Self::of(writer, (model, part_names), threads, Some(checkpoints), on_progress);
-        Ok(Self { steps_before: past.state.step, ..recorder })
+        writer.set_origin(&checkpoints, &part_names)?;
+        let recorder = Self::of(writer, (model, part_names), threads, Some(&checkpoints), on_progress);
+        Ok(Self { before: Some(past.reported.spent), ..recorder })
     }
 
     fn of(
         writer: Writer,
         (model, part_names): (&Model, Vec<String>),
         threads: usize,
-        checkpoints: Option<Checkpoints>,
+        checkpoints: Option<&Checkpoints>,
         on_progress: OnProgress<'a>,
     ) -> Self {
-        let now = Instant::now();
+        let keeping = checkpoints.map(|checkpoints| Keeping::new(checkpoints, writer.cost()));
         Self {
             folder: writer.folder().clone(),
             model: model.name.clone(),
@@ -160,11 +180,17 @@ impl<'a> Recorder<'a> {
             writer_channel: WriterChannel::new(writer, threads > 1),
             is_stopped: false,
             post_mortem: None,
-            begin: now,
-            steps_before: 0,
-            checkpoints,
-            last_checkpoint: now,
+            begin: Instant::now(),
+            before: None,
+            keeping,
         }
+    }
+
+    /// What the run has cost so far; the writer adds its own time.
+    fn spent(&self, user_cpu: Option<f64>) -> Spent {
+        let now =
+            Spent { wall: self.begin.elapsed().as_secs_f64(), user_cpu, output: 0.0, waited: self.writer_channel.waited().as_secs_f64() };
+        now.after(self.before)
     }
 
     /// What was reported since the last job.
@@ -181,9 +207,10 @@ impl<'a> Recorder<'a> {
     /// user CPU time. What can be written is written even when something else can't.
     #[must_use]
     pub fn finish(mut self, error: Option<String>, summary: &Summary, user_cpu_seconds: impl FnOnce() -> Option<f64>) -> Outcome {
-        let steps_time = self.begin.elapsed().saturating_sub(self.writer_channel.waited()).as_secs_f64();
+        let spent = self.spent(None);
+        let steps_time = spent.wall - spent.waited;
         let mut report = Report::of(summary, &self.model, &self.part_names);
-        let element_steps = summary.elements as f64 * summary.steps.saturating_sub(self.steps_before) as f64;
+        let element_steps = summary.elements as f64 * summary.steps as f64;
         report.element_steps_per_second = (element_steps > 0.0 && steps_time > 0.0).then(|| element_steps / steps_time);
 
         let job = self.job();
@@ -191,6 +218,9 @@ impl<'a> Recorder<'a> {
         let end = self.writer_channel.end();
         if let Some(message) = end.pictures_missing {
             report.warnings.push(Notice::new(&NO_PICTURES, format!("pictures are missing: {message}")));
+        }
+        if let Some(message) = end.states_missing {
+            report.warnings.push(Notice::new(&NO_STATES, format!("checkpoints are missing: {message}")));
         }
         let closed = end.result;
 
@@ -202,10 +232,15 @@ impl<'a> Recorder<'a> {
             None => RunStatus::Done,
         };
         report.post_mortem = self.post_mortem;
-        report.wall_seconds = self.begin.elapsed().as_secs_f64();
-        report.user_cpu_seconds = user_cpu_seconds();
-        report.output_seconds = end.worked.as_secs_f64();
-        report.output_wait_seconds = end.waited.as_secs_f64();
+        let now = Spent {
+            wall: self.begin.elapsed().as_secs_f64(),
+            user_cpu: user_cpu_seconds(),
+            output: end.worked.as_secs_f64(),
+            waited: end.waited.as_secs_f64(),
+        };
+        let spent = now.after(self.before);
+        (report.wall_seconds, report.user_cpu_seconds) = (spent.wall, spent.user_cpu);
+        (report.output_seconds, report.output_wait_seconds) = (spent.output, spent.waited);
         let summarised = write_whole(&self.folder.path().join("summary.json"), report.json().as_bytes());
         Outcome { report, unwritten: closed.and(summarised).err() }
     }
@@ -253,20 +288,30 @@ impl Observer for Recorder<'_> {
     }
 
     fn keeps_states(&self) -> bool {
-        self.checkpoints.is_some()
+        self.keeping.is_some()
     }
 
     fn state(&mut self, state: State) -> Result<(), ObserverError> {
-        if self.checkpoints.is_some() {
-            let job = Job { state: Some(Arc::new(state)), ..self.job() };
+        let user_cpu = self.keeping.as_ref().and_then(|keeping| keeping.user_cpu_seconds?());
+        let spent = self.spent(user_cpu);
+        if let Some(keeping) = &mut self.keeping {
+            keeping.clock.take();
+            let is_wanted = std::mem::replace(&mut keeping.is_wanted, true);
+            let job = Job { state: Some(Kept { state: Arc::new(state), spent, is_wanted }), ..self.job() };
             self.writer_channel.give(job);
-            self.last_checkpoint = Instant::now();
+        }
+        if let Some(keeping) = &mut self.keeping {
+            keeping.clock.restart();
         }
         Ok(self.writer_channel.fault()?)
     }
 
     fn keeps_hashes(&self) -> bool {
-        self.checkpoints.is_some()
+        self.keeping.is_some()
+    }
+
+    fn stride(&self) -> u64 {
+        self.keeping.as_ref().map_or(u64::MAX, |keeping| keeping.stride)
     }
 
     fn hashes(&mut self, hashes: Hashes) -> Result<(), ObserverError> {
@@ -280,7 +325,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn failing(&mut self) {
-        if self.checkpoints.is_some() {
+        if self.keeping.is_some() {
             let job = Job { is_failing: true, ..self.job() };
             self.writer_channel.give(job);
         }
@@ -289,11 +334,19 @@ impl Observer for Recorder<'_> {
     fn progress(&mut self, progress: &Progress<'_>) -> Control {
         let control = (self.on_progress)(progress);
         self.is_stopped |= matches!(control, Control::Stop | Control::KeepAndStop);
-        let Some(checkpoints) = &self.checkpoints else { return control };
-        match control {
+        let Some(keeping) = &mut self.keeping else { return control };
+        keeping.look_at_the_clock(progress.step);
+        let is_told = control == Control::Keep;
+        let control = match control {
             Control::Stop => Control::KeepAndStop,
-            Control::Continue if checkpoints.pause.is_some_and(|pause| self.last_checkpoint.elapsed() >= pause) => Control::Keep,
+            Control::Continue if keeping.clock.is_due() => Control::Keep,
             control => control,
+        };
+        if matches!(control, Control::Keep | Control::KeepAndStop) {
+            keeping.clock.ask();
+            // Who did not ask for states does not lose a run because there is no room for one.
+            keeping.is_wanted = control == Control::KeepAndStop || !keeping.clock.is_of_itself() || is_told;
         }
+        control
     }
 }

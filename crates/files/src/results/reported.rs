@@ -24,4 +24,34 @@ pub struct Reported {
     /// Box of all nodes of all frames so far, and from where on a line counts as endless, m.
     pub(super) extent: Option<Extent<3>>,
     pub(super) far: Option<f64>,
+    /// What it had cost until then.
+    #[serde(default)]
+    pub spent: Spent,
+}
+
+/// What a run has cost until a step, over all its stretches: what a program that was killed did after its
+/// last checkpoint is done again and counts once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spent {
+    /// Wall time, s.
+    pub wall: f64,
+    /// User CPU time of the process, s; `None` where the system does not report it.
+    pub user_cpu: Option<f64>,
+    /// Time that the writer was at work, s.
+    pub output: f64,
+    /// Wall time for which the run waited for its output, s.
+    pub waited: f64,
+}
+
+impl Spent {
+    /// Together with what is spent now; `before` is none for a run from its beginning.
+    pub(super) fn after(self, before: Option<Self>) -> Self {
+        let Some(before) = before else { return self };
+        Self {
+            wall: before.wall + self.wall,
+            user_cpu: before.user_cpu.zip(self.user_cpu).map(|(before, now)| before + now),
+            output: before.output + self.output,
+            waited: before.waited + self.waited,
+        }
+    }
 }

@@ -2,13 +2,14 @@
 //! `writer_channel`; [`Writer::close`] completes the files.
 
 use super::atomic::{write_whole, write_whole_in_pieces};
+use super::checkpoints::{Checkpoints, Cost};
 use super::csv::CsvStream;
 use super::decimated::ThinnedRows;
 use super::folder::ResultFolder;
 use super::hashes;
 use super::lines::Lines;
 use super::provenance::Provenance;
-use super::reported::Reported;
+use super::reported::{Reported, Spent};
 use super::{HASHES, ResultsError};
 use crate::checkpoint::{Checkpoint, Identity, Origin};
 use crate::outline::{Extent, LineReader, Surface};
@@ -17,10 +18,11 @@ use crate::threads::Threads;
 use crate::vtu::{self, VtuWriter};
 use embate_solver::archive::Section;
 use embate_solver::hashes::Hashes;
-use embate_solver::model::Model;
+use embate_solver::model::{Cadence, Model};
 use embate_solver::output::{Cells, Frame, Shown};
 use embate_solver::simulation::State;
 use std::cell::OnceCell;
+use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -39,15 +41,25 @@ pub(super) struct Job {
     pub(super) cells: Option<Cells>,
     pub(super) frame: Option<Frame>,
     /// To be kept once all before it is written.
-    pub(super) state: Option<Arc<State>>,
+    pub(super) state: Option<Kept>,
     /// What follows shows a failure: a state that is kept later is of a step before it.
     pub(super) is_failing: bool,
+}
+
+/// A state that is to be kept.
+#[derive(Debug)]
+pub(super) struct Kept {
+    pub(super) state: Arc<State>,
+    /// What the run had cost then.
+    pub(super) spent: Spent,
+    /// Whether the user asked for it; else the run continues where it can't be written.
+    pub(super) is_wanted: bool,
 }
 
 impl Job {
     /// Memory that it needs until it is done.
     pub(super) fn bytes(&self) -> usize {
-        let state: usize = self.state.iter().flat_map(|state| &state.sections).map(|section| section.bytes.len()).sum();
+        let state: usize = self.state.iter().flat_map(|kept| &kept.state.sections).map(|section| section.bytes.len()).sum();
         let cells = self.cells.as_ref().map_or(0, Cells::bytes);
         8 * self.rows.len() + cells + self.frame.as_ref().map_or(0, bytes) + state
     }
@@ -71,6 +83,8 @@ pub(super) struct Writer {
     hashes: Option<Lines>,
     plot_rows: ThinnedRows,
     frames: Frames,
+    /// Whether there are pictures at the end, and the film for them; none without frames.
+    has_pictures: bool,
     film: Option<Film>,
     threads: Threads,
     /// For checkpoints and `run.json`: what the model is, looked at once.
@@ -79,6 +93,11 @@ pub(super) struct Writer {
     origin: Origin,
     /// What was reported before the run failed.
     before_failure: Option<(Reported, Vec<Section>)>,
+    /// How long it has been at work, and how long at the last state.
+    pub(super) worked: Duration,
+    cost: Cost,
+    /// Why there are no states from some time on.
+    states_missing: Option<String>,
 }
 
 /// How the files were completed.
@@ -87,6 +106,8 @@ pub(super) struct Closed {
     pub(super) result: Result<(), ResultsError>,
     /// Why there are no pictures, if they are missing.
     pub(super) pictures_missing: Option<String>,
+    /// Why states are missing that no one had asked for.
+    pub(super) states_missing: Option<String>,
 }
 
 impl Writer {
@@ -113,12 +134,16 @@ impl Writer {
             columns,
             plot_rows: ThinnedRows::default(),
             frames: Frames::new(&cells, &threads),
-            film: model.output.pictures.then(|| Film::new(cells, film_settings(model))),
+            has_pictures: model.output.pictures,
+            film: has_film(model).then(|| Film::new(cells, film_settings(model))),
             threads,
             model: model.clone(),
             identity: OnceCell::new(),
             origin: Origin::default(),
             before_failure: None,
+            worked: Duration::ZERO,
+            cost: Cost::default(),
+            states_missing: None,
         })
     }
 
@@ -143,10 +168,10 @@ impl Writer {
         frames.write_collection(&folder)?;
         folder.cut(reported.frames.len(), hashes.is_some(), past.state.step)?;
         let mut plot_rows = ThinnedRows::default();
-        let film = model.output.pictures.then(|| {
+        if model.output.pictures {
             rows.iter().for_each(|row| plot_rows.add(row));
-            Film::recalled(cells, film_settings(model), &past.film, frame)
-        });
+        }
+        let film = has_film(model).then(|| Film::recalled(cells, film_settings(model), &past.film, frame));
         let (title, of_whole_bodies) = (picture_title(model), model.is_of_whole_bodies());
         let (include, origin) = (model.output.include.clone(), past.origin.clone());
         Ok(Self {
@@ -159,12 +184,16 @@ impl Writer {
             hashes,
             plot_rows,
             frames,
+            has_pictures: model.output.pictures,
             film,
             threads,
             model: model.clone(),
             identity: OnceCell::new(),
             origin,
             before_failure: None,
+            worked: Duration::ZERO,
+            cost: Cost::default(),
+            states_missing: None,
         })
     }
 
@@ -175,14 +204,19 @@ impl Writer {
 
     /// Where the model came from. From now on there is kept what ran, and its hashes if the model wants them;
     /// `parts` are its names.
-    pub(super) fn set_origin(&mut self, origin: Origin, parts: &[String]) -> Result<(), ResultsError> {
+    pub(super) fn set_origin(&mut self, checkpoints: &Checkpoints, parts: &[String]) -> Result<(), ResultsError> {
         let folder = self.folder.path();
-        Provenance::of(self.identity().clone(), &origin, &self.model).write(folder)?;
+        Provenance::of(self.identity().clone(), checkpoints, &self.model).write(folder)?;
         if self.model.output.hash_steps.is_some() && self.hashes.is_none() {
             self.hashes = Some(Lines::create(&folder.join(HASHES), hashes::names(parts))?);
         }
-        self.origin = origin;
+        self.origin = checkpoints.origin.clone();
         Ok(())
+    }
+
+    /// What the last state has cost it.
+    pub(super) fn cost(&self) -> Cost {
+        self.cost.clone()
     }
 
     fn identity(&self) -> &Identity {
@@ -196,11 +230,14 @@ impl Writer {
     }
 
     /// Writes a checkpoint of what is reported so far and the state there.
-    fn keep(&mut self, state: &Arc<State>) -> Result<(), ResultsError> {
-        let (reported, film) = match self.before_failure.take() {
+    fn keep(&mut self, Kept { state, spent, .. }: &Kept) -> Result<(), ResultsError> {
+        let (mut reported, film) = match self.before_failure.take() {
             Some(before) => before,
             None => self.reported_so_far()?,
         };
+        // What is in `spent` of the output is of the stretches before.
+        reported.spent = Spent { output: spent.output + self.worked.as_secs_f64(), ..*spent };
+        self.frames.secure(&self.folder)?;
         let identity = self.identity().clone();
         let checkpoint = Checkpoint { state: state.clone(), origin: self.origin.clone(), identity, reported, film };
         Ok(checkpoint.write(self.folder.path(), &self.threads)?)
@@ -220,8 +257,23 @@ impl Writer {
         }
         // What is not reported can't be continued from.
         match &job.state {
-            Some(state) if reported.is_ok() => self.keep(state),
-            _ => reported,
+            Some(kept) => {
+                let begin = Instant::now();
+                let done = reported.and_then(|()| match self.keep(kept) {
+                    Err(fault) if !kept.is_wanted => {
+                        self.states_missing = Some(fault.to_string());
+                        Ok(())
+                    }
+                    done => done,
+                });
+                if self.states_missing.is_some() {
+                    self.cost.give_up()
+                } else {
+                    self.cost.end(begin.elapsed())
+                }
+                done
+            }
+            None => reported,
         }
     }
 
@@ -229,7 +281,7 @@ impl Writer {
         let mut rows = Ok(());
         for row in job.rows.chunks_exact(self.columns.len().max(1)) {
             rows = rows.and(self.history.row(row));
-            if self.film.is_some() {
+            if self.has_pictures {
                 self.plot_rows.add(row);
             }
         }
@@ -254,14 +306,19 @@ impl Writer {
     pub(super) fn close(self) -> Closed {
         let result = self.history.finish().and(self.hashes.map_or(Ok(()), Lines::finish));
         let result = result.and(self.frames.write_collection(&self.folder));
-        let made = self.film.map(|film| {
+        let made = self.has_pictures.then(|| {
             self.folder.add_pictures(|side| {
-                film.finish(side, &self.threads).map_err(|e| e.to_string())?;
+                self.film.map_or(Ok(()), |film| film.finish(side, &self.threads)).map_err(|e| e.to_string())?;
                 picture::plots(&self.columns, &self.plot_rows.rows(), &self.title, self.of_whole_bodies, side).map_err(|e| e.to_string())
             })
         });
-        Closed { result, pictures_missing: made.and_then(Result::err) }
+        Closed { result, pictures_missing: made.and_then(Result::err), states_missing: self.states_missing }
     }
+}
+
+/// Whether a model wants pictures of its frames.
+fn has_film(model: &Model) -> bool {
+    model.output.pictures && model.output.fields != Cadence::Count(0)
 }
 
 /// How a model wants its pictures.
@@ -290,6 +347,8 @@ struct Frames {
     obstacles: Obstacles,
     step_last: Option<u64>,
     collected: Instant,
+    /// So many of them are on the disk for sure.
+    secured: usize,
 }
 
 impl Frames {
@@ -300,6 +359,7 @@ impl Frames {
             obstacles: Obstacles::default(),
             step_last: None,
             collected: Instant::now(),
+            secured: 0,
         }
     }
 
@@ -341,9 +401,28 @@ impl Frames {
         (self.written, self.step_last) = (with(ResultFolder::frame_name), reported.frame_step);
         self.obstacles.written = if reported.has_obstacles { with(ResultFolder::obstacles_name) } else { Vec::new() };
         (self.obstacles.extent, self.obstacles.lines.far) = (reported.extent, reported.far);
+        self.secured = self.written.len();
+    }
+
+    /// Sees to it that what a checkpoint counts on outlives a power failure.
+    fn secure(&mut self, folder: &ResultFolder) -> Result<(), ResultsError> {
+        let names = self.written.iter().zip(0..).skip(self.secured);
+        let all = names.flat_map(|((_, name), number)| {
+            let has_obstacles = number < self.obstacles.written.len();
+            [Some(name.clone()), has_obstacles.then(|| ResultFolder::obstacles_name(number))].into_iter().flatten()
+        });
+        for path in all.map(|name| folder.path().join(name)) {
+            File::open(&path).and_then(|file| file.sync_all()).map_err(ResultsError::file("write", &path))?;
+        }
+        folder.secure();
+        self.secured = self.written.len();
+        Ok(())
     }
 
     fn write_collection(&self, folder: &ResultFolder) -> Result<(), ResultsError> {
+        if self.written.is_empty() {
+            return Ok(());
+        }
         write_whole(&folder.path().join("fields.pvd"), vtu::collection(&self.written).as_bytes())?;
         if self.obstacles.written.is_empty() {
             return Ok(());

@@ -26,6 +26,7 @@ type Faults = Arc<Mutex<Option<ResultsError>>>;
 impl Desk {
     fn write(&mut self, job: &Job, shown: Option<&dyn Shown>) {
         let begin = Instant::now();
+        self.writer.worked = self.worked;
         if let Err(fault) = guarded(|| self.writer.write(job, shown)) {
             let mut first = self.faults.lock().unwrap_or_else(PoisonError::into_inner);
             first.get_or_insert(fault);
@@ -71,6 +72,8 @@ pub(super) struct End {
     pub(super) result: Result<(), ResultsError>,
     /// Why there are no pictures, if they are missing.
     pub(super) pictures_missing: Option<String>,
+    /// Why states are missing that no one had asked for.
+    pub(super) states_missing: Option<String>,
     /// Time that the writer was at work, with the pictures at the end.
     pub(super) worked: Duration,
     /// Time that the run waited for the writer, with the end.
@@ -162,14 +165,14 @@ impl WriterChannel {
         let begin = Instant::now();
         // Pictures need room of their own.
         self.spare = Frame::default();
-        let mut end = End { result: Ok(()), pictures_missing: None, worked: Duration::ZERO, waited: self.waited };
+        let mut end = End { result: Ok(()), pictures_missing: None, states_missing: None, worked: Duration::ZERO, waited: self.waited };
         if let Some(Desk { writer, worked, .. }) = self.desk() {
             let closing = Instant::now();
             end.result = self.fault();
             match guarded(|| Ok(writer.close())) {
-                Ok(Closed { result, pictures_missing }) => {
+                Ok(Closed { result, pictures_missing, states_missing }) => {
                     end.result = end.result.and(result);
-                    end.pictures_missing = pictures_missing;
+                    (end.pictures_missing, end.states_missing) = (pictures_missing, states_missing);
                 }
                 Err(fault) => end.result = end.result.and(Err(fault)),
             }

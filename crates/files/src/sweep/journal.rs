@@ -2,13 +2,15 @@
 //! `sweep.journal` gets a line for each that has ended.
 //!
 //! Lines come from `run.rs`; a program that starts again finds them here and leaves those runs out.
-//! `sweep.json` is written whole before the first run. A line of the journal counts only with its end, so
-//! what was cut off by the end of a program or a machine is a run that has to be done again.
+//! `sweep.json` is written whole before the first run. A sweep with more runs takes over those that it has. A
+//! line of the journal counts only with its end, so what was cut off by the end of a program or a machine is
+//! a run that has to be done again.
 
 use super::{Keep, SweepError};
 use crate::plain;
 use crate::results::{ResultsError, write_whole};
 use serde::{Deserialize, Serialize};
+use std::collections::{HashMap, VecDeque};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -117,6 +119,11 @@ impl Journal {
         self.file.write_all(lines.as_bytes()).map_err(|source| ResultsError::file("write", &self.path)(source).into())
     }
 
+    /// Forgets all runs that are noted: before their folders change.
+    pub(super) fn clear(&mut self) -> Result<(), SweepError> {
+        self.file.set_len(0).map_err(|source| ResultsError::file("write", &self.path)(source).into())
+    }
+
     /// Notes a run.
     pub(super) fn note(&mut self, entry: &Entry) -> Result<(), SweepError> {
         self.file.write_all(json(entry, false).as_bytes()).map_err(|source| ResultsError::file("write", &self.path)(source).into())
@@ -129,6 +136,13 @@ fn json<T: Serialize>(value: &T, pretty: bool) -> String {
 }
 
 impl Manifest {
+    /// The number that each of its runs has in another sweep; `None`: it is not there.
+    pub(super) fn places(&self, now: &Self) -> Vec<Option<usize>> {
+        let mut all: HashMap<&str, VecDeque<usize>> = HashMap::new();
+        now.runs.iter().zip(0..).for_each(|(run, number)| all.entry(run).or_default().push_back(number));
+        self.runs.iter().map(|run| all.get_mut(run.as_str())?.pop_front()).collect()
+    }
+
     /// In what another sweep differs so that its runs are not those of this one; other outputs alone do not.
     fn difference(&self, now: &Self) -> Option<String> {
         if self.version != now.version {
@@ -140,12 +154,13 @@ impl Manifest {
         if self.inputs != now.inputs {
             return Some(format!("there {} varies, here {}", self.inputs.join(", "), now.inputs.join(", ")));
         }
-        if self.runs.len() != now.runs.len() {
-            return Some(format!("it has {} runs, not {}", self.runs.len(), now.runs.len()));
+        // More runs, or another order, are no other sweep.
+        let (all, gone) = (self.runs.len(), self.places(now).iter().filter(|place| place.is_none()).count());
+        if gone > 0 && all == now.runs.len() {
+            return Some(format!("the model or the values of {gone} of {all} runs have changed"));
         }
-        let changed = self.runs.iter().zip(&now.runs).filter(|(before, now)| before != now).count();
-        if changed > 0 {
-            return Some(format!("the model or the values of {changed} of {} runs have changed", now.runs.len()));
+        if gone > 0 {
+            return Some(format!("{gone} of its {all} runs are not among the {} that are wanted now", now.runs.len()));
         }
         if self.keep == Keep::Rows && (now.keep != Keep::Rows || self.outputs != now.outputs) {
             return Some("it kept no results from which other outputs could be taken (--summary-only)".to_string());

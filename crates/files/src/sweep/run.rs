@@ -80,6 +80,14 @@ impl Sweep {
         if running.force {
             self.clear(running)?;
         }
+        let entries = match &before {
+            Some(before) if before.runs != manifest.runs => {
+                // First the journal: what is in a folder must not be taken for what was there.
+                journal.clear()?;
+                self.renumbered(running, before.places(&manifest), entries)
+            }
+            _ => entries,
+        };
         let entries = self.known(running, before.as_ref(), entries);
         journal.start(running.folder, &manifest, &entries.values().cloned().collect::<Vec<_>>())?;
         let failed = entries.values().filter(|entry| entry.end == RunEnd::Failed).count();
@@ -110,8 +118,29 @@ impl Sweep {
 
     /// The folder of a run.
     fn folder(&self, of: &Path, run: usize) -> PathBuf {
-        let width = self.runs().to_string().len().max(4);
-        of.join(format!("{:0width$}", run + 1))
+        of.join(numbered(run, self.runs()))
+    }
+
+    /// Runs of a smaller sweep, or of one in another order, with the numbers and folders that they have here.
+    /// One whose folder can't be moved is left out, and will be done again.
+    fn renumbered(&self, running: &Running<'_>, places: Vec<Option<usize>>, entries: Vec<Entry>) -> Vec<Entry> {
+        let old = |entry: &Entry| running.folder.join(numbered(entry.run, places.len()));
+        let moved = |new: usize| running.folder.join(format!("{}.moved", numbered(new, self.runs())));
+        let mut kept: Vec<(usize, Entry)> =
+            entries.into_iter().filter_map(|entry| Some((places.get(entry.run).copied().flatten()?, entry))).collect();
+        if running.keep != Keep::Rows {
+            // All out of the way first: the place of one may be where another is.
+            let is_new = |new: usize, entry: &Entry| old(entry) != self.folder(running.folder, new) && old(entry).exists();
+            let (going, staying): (Vec<_>, Vec<_>) = kept.into_iter().partition(|(new, entry)| is_new(*new, entry));
+            let going: Vec<_> = going.into_iter().filter(|(new, entry)| std::fs::rename(old(entry), moved(*new)).is_ok()).collect();
+            let arrives = |(new, _): &(usize, Entry)| {
+                let folder = self.folder(running.folder, *new);
+                let is_free = !folder.exists() || ResultFolder::remove(&folder).is_ok();
+                is_free && std::fs::rename(moved(*new), folder).is_ok()
+            };
+            kept = staying.into_iter().chain(going.into_iter().filter(arrives)).collect();
+        }
+        kept.into_iter().map(|(run, entry)| Entry { run, ..entry }).collect()
     }
 
     /// Takes the results of earlier runs away.
@@ -248,6 +277,12 @@ impl Sweep {
         let end = if report.status == RunStatus::Done { RunEnd::Done } else { RunEnd::Stopped };
         Ok(Some(Entry { run, end, error: String::new(), cells: self.cells(&samples) }))
     }
+}
+
+/// Name of the folder of a run of so many.
+fn numbered(run: usize, runs: usize) -> String {
+    let width = runs.to_string().len().max(4);
+    format!("{:0width$}", run + 1)
 }
 
 /// What a recorder would say of a run that was kept in memory.

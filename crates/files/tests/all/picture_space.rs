@@ -132,13 +132,13 @@ fn globe(radius: f64, centre: [f64; 3]) -> Outline {
     let points = points.map(|p| [0, 1, 2].map(|k| centre[k] + radius * p[k])).collect();
     let node = |ring: u32, slice: u32| ring * slices + slice % slices;
     let facets = (0..rings).flat_map(|r| (0..slices).map(move |s| [node(r, s), node(r + 1, s), node(r + 1, s + 1), node(r, s + 1)]));
-    Outline { name: "globe".into(), points, facets: facets.collect() }
+    Outline { name: "globe".into(), points, facets: facets.collect(), is_gone: false }
 }
 
 /// A plane z = `height` without end.
 fn floor(height: f64) -> Outline {
     let points = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| [1e4 * x, 1e4 * y, height]).into();
-    Outline { name: "floor".into(), points, facets: vec![[0, 1, 2, 3]] }
+    Outline { name: "floor".into(), points, facets: vec![[0, 1, 2, 3]], is_gone: false }
 }
 
 fn settings(title: &str) -> FilmSettings {

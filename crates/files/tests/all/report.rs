@@ -97,6 +97,41 @@ fn a_report_has_all_that_the_run_left() {
 }
 
 #[test]
+fn what_was_chosen_is_shown_as_it_is_written_with_what_holds_where_nothing_is() {
+    let written = r#""appearance": {"title": "A tube falls", "dimension": 2, "axisymmetric": false, "end": 5e-3, "parts": [], "obstacles": [],
+        "contacts": [], "mirror": [false, false, false], "field": "", "camera": null},
+        "written": [["title", "\"A tube falls\""], ["run.end", "\"5 ms\""], ["material.steel.law", "\"elastic\""], ["material.steel.young", "\"200 GPa\""],
+        ["part[0].name", "\"bar\""], ["part[0].rectangle.size", "[\"10 mm\", \"5 mm\"]"], ["part[0].velocity", "[0, \"-5 m/s\"]"],
+        ["contact[0].name", "\"hit\""], ["contact[0].between", "[\"bar\", \"<b>\"]"], ["load[0].gravity", "[0, \"-9.81 m/s^2\"]"],
+        ["symmetry[0].normal", "[1, 0]"]],
+        "parts": [{"name": "bar", "elements": [["quad4", 1200], ["tri3", 7]], "nodes": 1300, "mass": 2.5, "sizes": [1e-3, 2e-3], "shape": 0.04, "worst": [0.5, 0.25], "stable_time_step": 1e-7}],
+        "keys""#;
+    let run = RUN
+        .replacen("\"keys\"", written, 1)
+        .replace("\"part[0].element\"", "\"part[0].stress_state\": \"\\\"plane_strain\\\"\", \"part[0].element\"");
+    let page = of("chosen", &[("summary.json", SUMMARY), ("run.json", &run)]).unwrap();
+    assert_is_sound(&page);
+    for part in [
+        "<h1>A tube falls</h1>",
+        "<td>bar</td><td>1,200 quad4, 7 tri3</td><td class=\"n\">1,300</td>",
+        "1 mm to 2 mm",
+        "The worst element of part &quot;bar&quot;, at (0.5 m, 0.25 m), has the shape 0.040.",
+        "<td>rectangle size</td><td>[10 mm, 5 mm]</td>",
+        "<td>stress state</td><td>plane_strain (default)</td>",
+        "<h3>Initial state</h3>\n<div class=\"chosen\"><div class=\"scroll\"><table><thead><tr><th scope=\"col\">name</th><th scope=\"col\">key</th><th scope=\"col\">value</th></tr></thead><tbody>\n<tr><td>bar</td><td>velocity</td><td>[0, -5 m/s]</td></tr>",
+        "<td>hit</td><td>between</td><td>[bar, &lt;b&gt;]</td>",
+        "<td>friction</td><td>none (default)</td>",
+        "<td>formulation</td><td>segment (default)</td>",
+        "<td>load 1</td><td>gravity</td><td>[0, -9.81 m/s^2]</td>",
+        "<h3>Supports and prescribed motion</h3>",
+        "<td>symmetry 1</td><td>normal</td><td>[1, 0]</td>",
+        "the state hash is <code>00ff00ff00ff00ff</code> again",
+    ] {
+        assert!(page.contains(part), "{part}\n{page}");
+    }
+}
+
+#[test]
 fn names_that_are_code_of_a_page_are_shown_as_text() {
     let evil = "</title><script>alert(1)</script><img src=x onerror=alert(1)>\\\"'";
     let summary = SUMMARY.replace("\"tube\"", &format!("\"{evil}\"")).replace("W0611: part", &format!("W0611: {evil}"));

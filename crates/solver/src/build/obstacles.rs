@@ -226,7 +226,13 @@ impl Builder<'_, 2> {
         rigid.members = places.into_iter().map(|(arm, x)| Member { node: self.add_node(x), arm }).collect();
         let nodes: Vec<u32> = rigid.members.iter().map(|member| member.node).collect();
         let body = if nodes.is_empty() { self.bodies.add(rigid) } else { self.bodies.add_with_nodes(rigid, self.positions.len()) };
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets: Vec::new() });
+        self.outlines.push(OutlineShape {
+            name: obstacle.name.clone(),
+            body,
+            points,
+            facets: Vec::new(),
+            death: obstacle.interface.active[1],
+        });
         (body, nodes)
     }
 

@@ -56,7 +56,7 @@ impl Builder<'_, 3> {
             Some(&body) => body,
             None => {
                 let body = self.bodies.add(self.obstacle_body_in_3d(obstacle, reference));
-                self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets });
+                self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets, death: obstacle.interface.active[1] });
                 body
             }
         };

@@ -243,6 +243,7 @@ where
             time_step_old: 0.0,
             time_step: 0.0,
             governor: Governor::Schedule,
+            bound_by: Governor::Schedule,
             nodal_bound: (model.run.stable_step != StableStep::Elements).then(NodalBound::default),
             assembled_bound: None,
             subcycling: None,

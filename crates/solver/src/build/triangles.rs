@@ -93,7 +93,7 @@ impl Builder<'_, 3> {
         let points = rigid.members.iter().map(|member| member.arm).collect();
         let body = self.bodies.add_with_nodes(rigid, self.positions.len());
         let facets = surface.triangles.iter().map(|&[a, b, c]| [a, b, c, c]).collect();
-        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets });
+        self.outlines.push(OutlineShape { name: obstacle.name.clone(), body, points, facets, death: obstacle.interface.active[1] });
         (body, first)
     }
 

@@ -9,7 +9,7 @@ use crate::vocabulary::{Choices, Form, Kind, Rule, Section};
 /// How often something is recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cadence {
-    /// So many equal intervals over the run.
+    /// So many equal intervals over the run; of fields 0: none.
     Count(u64),
     /// Every so many seconds.
     Interval(f64),
@@ -25,7 +25,7 @@ section! {
         ..Section::EMPTY
     };
     fields: Cadence = Kind::Cadence, Default("100"),
-        "How often the fields are written: a count, or an interval such as `\"0.1 ms\"`.";
+        "How often the fields are written: a count, or an interval such as `\"0.1 ms\"`; 0: not at all, and no pictures of bodies.";
     history: Cadence = Kind::Cadence, Default("1000"),
         "How often a row of the history is written: a count or an interval.";
     hash_steps: Option<u64> = Integer(0), Default("100"),

@@ -55,11 +55,12 @@ section! {
         "Largest time step. A model of rigid parts alone takes just this one, and without it the step that their \
             elements would need if they were not rigid.";
     max_steps: Option<u64> = Integer(1), Optional("no limit"), "Largest number of steps.";
-    checkpoint: Option<f64> = Quantity(Dimension::TIME, Positive), Optional("none by the clock"),
+    checkpoint: Option<f64> = Quantity(Dimension::TIME, NotNegative), Optional("after 5 s, then at doubling intervals up to 2 min"),
         "Wall time between two checkpoints, from which `embate resume` continues a run that was stopped; with it \
-            the last good state of a run that fails is kept as well.";
+            the last good state of a run that fails is kept as well. 0: none by the clock. Without it, and without \
+            `checkpoint_steps`, intervals are so long that checkpoints cost less than a hundredth of the run.";
     checkpoint_steps: Option<u64> = Integer(1), Optional("none by number"),
-        "Steps between two checkpoints, besides those by the clock.";
+        "Steps between two checkpoints; then there are none by the clock unless `checkpoint` is there, too.";
     bulk_viscosity: [f64; 2] = Vector(Dimension::NONE, NotNegative), Default("[0, 0]"),
         "Linear and quadratic coefficient of the pressure that resists compression: `[0.06, 1.2]` spreads shocks \
             over a few elements and keeps them from ringing.";

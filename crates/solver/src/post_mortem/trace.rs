@@ -181,7 +181,7 @@ where
             forces: near.nodes.iter().map(|&node| in_3d(self.contact_force(node as usize))).collect(),
             pressing: self.contacts.iter().map(|contact| contact.force_on(&near.next, &self.springs)).collect(),
             values: near.cells.iter().map(field).collect(),
-            outlines: self.outlines.iter().map(|outline| outline.now(&self.bodies)).collect(),
+            outlines: self.outlines.iter().map(|outline| outline.now(&self.bodies, self.time)).collect(),
         }
     }
 

@@ -284,7 +284,7 @@ where
                 observer.row(&self.history_row()).map_err(output)?;
                 output_cursor.last_row = time;
             }
-            if (frames.due(time) || over) && output_cursor.last_frame != Some(self.system.step) {
+            if self.shows() && (frames.due(time) || over) && output_cursor.last_frame != Some(self.system.step) {
                 self.show(observer)?;
                 output_cursor.last_frame = Some(self.system.step);
             }
@@ -306,7 +306,7 @@ where
             if observer.wants_glance() {
                 observer.glance(&self.recorded.snapshot(&self.system));
             }
-            let control = observer.progress(&self.progress(end, &self.system.governor_name(self.system.governor), &notices));
+            let control = observer.progress(&self.progress(end, &self.system.governor_in_words(), &notices));
             if matches!(control, Control::Keep | Control::KeepAndStop) || output_cursor.is_state_due(self.system.step, state_steps) {
                 output_cursor.last_state = Some(self.system.step);
                 self.output_cursor = Some(output_cursor);
@@ -314,7 +314,7 @@ where
                 observer.state(state).map_err(output)?;
             }
             if matches!(control, Control::Stop | Control::KeepAndStop) {
-                if output_cursor.last_frame != Some(self.system.step) {
+                if self.shows() && output_cursor.last_frame != Some(self.system.step) {
                     self.show(observer)?;
                 }
                 self.pause(output_cursor);
@@ -324,7 +324,7 @@ where
                 self.pause(output_cursor);
                 return Ok(());
             }
-            let until = rows.next().min(frames.next());
+            let until = if self.shows() { rows.next().min(frames.next()) } else { rows.next() };
             let stage = output_cursor.steps(self.system.step, state_steps).min(last - self.system.step).min(observer.stride().max(1));
             let result = self.continue_run(until.min(pause), stage);
             // A stop for the state alone leaves no trace.
@@ -341,10 +341,17 @@ where
                 if self.system.time > output_cursor.last_row {
                     observer.row(&self.history_row()).map_err(output)?;
                 }
-                self.show(observer)?;
+                if self.shows() {
+                    self.show(observer)?;
+                }
                 return Err(error);
             }
         }
+    }
+
+    /// Whether fields are wanted.
+    fn shows(&self) -> bool {
+        self.fields != Cadence::Count(0)
     }
 
     /// Lets the run continue later where it is.
@@ -373,7 +380,7 @@ where
                 observer.row(&self.history_row()).map_err(output)?;
                 self.show(observer)?;
             }
-            let governor = self.system.governor_name(self.system.governor);
+            let governor = self.system.governor_in_words();
             if over || matches!(observer.progress(&self.progress(to, &governor, &[])), Control::Stop | Control::KeepAndStop) {
                 return Ok(());
             }
@@ -491,7 +498,7 @@ where
         Overview {
             parts: system.mesh.parts.iter().enumerate().map(part).collect(),
             stable_time_step: system.time_step,
-            governor: system.governor_name(system.governor),
+            governor: system.governor_in_words(),
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,
             initial_penetrations: self.system.initial_penetrations.clone(),
             probes: self.recorded.probe_lines(),

@@ -106,6 +106,7 @@ where
         if time_step < self.limits.step || time_step.is_nan() {
             return Err(self.collapsed(time_step, governor));
         }
+        self.bound_by = governor;
         let old = self.time_step_old;
         // Between the begins of its cycles subcycling has planned with the step as it is.
         let (turn, cycle) = self.subcycling.as_ref().map_or((0, 1), |own| (own.turn(), own.cycle()));

@@ -80,7 +80,7 @@ where
             mesh: _, assembly: _, mass: _, body_parts: _, rigid: _, has_springs: _, shares: _, outlines: _, constraints: _, damping: _, body_forces: _,
             boundary: _, joins: _, level: _, team: _, of_revolution: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
             mass_added: _, mass_scaling: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
-            springs: _, erosion: _, rotations: _, skins: _,
+            springs: _, erosion: _, rotations: _, skins: _, bound_by: _,
             limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
             bodies, curves, forces, cavities, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
             subcycling, slots,

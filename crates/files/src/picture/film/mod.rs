@@ -140,7 +140,7 @@ impl Film {
         let has_new_cells = self.stored.last().is_some_and(|last| last.past.is_some());
         if frame.dimension == 3 && (has_new_cells || self.space.is_none()) {
             let mut space = Space::new(&self.cells, frame);
-            space.shapes = self.line_reader.surfaces(frame).iter().map(Shape::of).collect();
+            space.shapes = self.line_reader.all_surfaces(frame).iter().map(Shape::of).collect();
             self.space = Some(space);
         }
     }
@@ -384,7 +384,8 @@ mod tests {
             let field = |name: &str, values: Vec<f64>| Field { kind: field_kind(name).unwrap(), values };
             let alive = (0..count).map(|cell| f64::from(u8::from(!(k > 1 && cell == 3)))).collect();
             let stress = (0..count).map(|cell| (cell + k) as f64).collect();
-            let outlines = vec![Outline { name: "o".into(), points: vec![[0.0, 0.0, k as f64]; 4], facets: vec![[0, 1, 2, 3]] }];
+            let outlines =
+                vec![Outline { name: "o".into(), points: vec![[0.0, 0.0, k as f64]; 4], facets: vec![[0, 1, 2, 3]], is_gone: false }];
             Frame { time: k as f64, fields: vec![field("von_mises", stress), field("alive", alive)], outlines, ..Frame::of(&places) }
         };
         let settings = || FilmSettings { field: "von_mises".into(), ..FilmSettings::default() };

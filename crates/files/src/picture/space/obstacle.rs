@@ -44,9 +44,12 @@ impl Shape {
         Self { facets: surface.facets.clone(), is_endless: surface.is_endless, skin: Arc::new(Skin::of_obstacle(facets, points)) }
     }
 
-    /// The obstacle with its points at these places, m, beside these bodies; none for a plane without end
-    /// that they are far from.
+    /// The obstacle with its points at these places, m, beside these bodies; none for what is gone,
+    /// and for a plane without end that they are far from.
     pub(in crate::picture) fn solid(&self, points: &[[f64; 3]], bodies: Extent<3>) -> Option<Solid> {
+        if points.is_empty() {
+            return None;
+        }
         let skin = Arc::clone(&self.skin);
         if !self.is_endless {
             let points = skin.nodes.iter().map(|&node| points.get(node as usize).copied().unwrap_or([f64::NAN; 3])).collect();

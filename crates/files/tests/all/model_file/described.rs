@@ -183,9 +183,7 @@ fn values(kind: Kind) -> Vec<Bad> {
             all.extend(["5", "[1]", "[1, 2, 3, 4]", "\"12\""].map(|value| bad(value, "", says)));
             all
         }
-        Kind::Cadence => {
-            ["nan", "inf", "0", "-1", "-0.5", "\"0 s\"", "\"5 m\"", "\"5\"", "true", "[]"].map(|value| bad(value, "", "")).into()
-        }
+        Kind::Cadence => ["nan", "inf", "-1", "-0.5", "\"0 s\"", "\"5 m\"", "\"5\"", "true", "[]"].map(|value| bad(value, "", "")).into(),
         Kind::Flag => ["1", "\"true\"", "nan", "[]"].map(|value| bad(value, "", "must be true or false")).into(),
         Kind::Text | Kind::Name | Kind::Reference => ["5", "nan", "true", "[]", "{}"].map(|value| bad(value, "", "must be")).into(),
         Kind::References(Some(_)) => {

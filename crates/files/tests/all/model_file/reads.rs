@@ -1,7 +1,7 @@
 //! Sound models: values, defaults, names, overrides, mesh files, the files of the project.
 
 use super::{SOUND, changed, read};
-use embate_files::model_file::{load, load_text, reference_markdown, schema, starter};
+use embate_files::model_file::{STARTERS, load, load_text, reference_markdown, schema};
 use embate_solver::input::sections::SECTIONS;
 use embate_solver::model::{
     Cadence, ContactLaw, Drive, Formulation, InitialStress, Interface, Load, Model, Obstacle, Output, Part, Partners, Penalty,
@@ -147,10 +147,17 @@ fn overrides_replace_and_add_values() {
 #[test]
 fn the_starter_model_is_sound_whatever_its_name() {
     for name in ["crash", "a \"quoted\\ name\n", "Zusammenstoß", ""] {
-        let model = sound(&starter(name));
+        let model = sound(&STARTERS[0].model(name));
         assert_eq!((model.parts.len(), model.contacts.len()), (2, 1));
     }
-    assert_eq!(sound(&starter("crash")).title, "crash");
+    assert_eq!(sound(&STARTERS[0].model("crash")).title, "crash");
+    for starter in STARTERS {
+        let text = starter.model("crash");
+        assert!(text.starts_with("#:schema ./embate.schema.json\n"), "{}", starter.name);
+        let model = sound(&text);
+        assert!(model.title == "crash" && model.warnings().is_empty(), "{}", starter.name);
+        assert_eq!(model.dimension() == 3, !["2d", "axisymmetric"].contains(&starter.name));
+    }
 }
 
 #[test]

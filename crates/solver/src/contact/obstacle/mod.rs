@@ -99,18 +99,25 @@ pub struct OutlineShape<const D: usize> {
     pub points: Vec<[f64; D]>,
     /// In 3D: facets of it, outward; a triangle repeats its last point.
     pub facets: Vec<[u32; 4]>,
+    /// Until when it acts, s.
+    pub death: f64,
 }
 
 impl<const D: usize> OutlineShape<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// Where it is now.
+    /// Where it is now, at this time.
     #[must_use]
-    pub fn now(&self, bodies: &Bodies<D>) -> Outline {
+    pub fn now(&self, bodies: &Bodies<D>, time: f64) -> Outline {
         let body = bodies.state(self.body);
         let place = |&point: &[f64; D]| in_3d(body.place(point));
-        Outline { name: self.name.clone(), points: self.points.iter().map(place).collect(), facets: self.facets.clone() }
+        Outline {
+            name: self.name.clone(),
+            points: self.points.iter().map(place).collect(),
+            facets: self.facets.clone(),
+            is_gone: time >= self.death,
+        }
     }
 }
 

@@ -496,9 +496,12 @@ impl Check<'_> {
                 );
             }
             match cadence {
-                Cadence::Count(0) => {
-                    self.fault(&RANGE, path, "there must be at least 1 interval, but it is 0", "give a count of 1 or more, or an interval")
-                }
+                Cadence::Count(0) if path == "output.history" => self.fault(
+                    &RANGE,
+                    path,
+                    "there must be at least 1 interval, but it is 0",
+                    "give a count of 1 or more, or an interval; fields alone can be left out with 0",
+                ),
                 Cadence::Count(_) => {}
                 Cadence::Interval(time) => self.number(path, time),
             }

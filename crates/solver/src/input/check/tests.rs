@@ -172,7 +172,8 @@ fn names_mean_parts_before_groups_before_sides() {
 fn faults_that_only_code_can_make_are_found() {
     assert_eq!(paths(|model| model.run.max_steps = Some(0)), ["run.max_steps"]);
     assert_eq!(paths(|model| model.run.checkpoint_steps = Some(0)), ["run.checkpoint_steps"]);
-    assert_eq!(paths(|model| model.output.fields = Cadence::Count(0)), ["output.fields"]);
+    assert_eq!(paths(|model| model.output.history = Cadence::Count(0)), ["output.history"]);
+    assert!(paths(|model| model.output.fields = Cadence::Count(0)).is_empty());
     assert_eq!(paths(|model| model.contacts[0].formulation = Formulation::SinglePass { slave: 2 }), ["contact[0].slave"]);
     assert_eq!(paths(|model| model.constraints[0].velocity = [None, None, None]), ["constraint[0]"]);
     assert_eq!(paths(|model| model.parts[1].shape = Shape::Group { mesh: 3, group: "body".into() }), ["part[1].mesh"]);

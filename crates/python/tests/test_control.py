@@ -354,7 +354,7 @@ def test_a_driven_curve_moves_what_follows_it_and_the_books_close() -> None:
     assert simulation.energy["external"] == pytest.approx(simulation.energy["kinetic"], rel=1e-9)
     assert simulation.energy["kinetic"] == pytest.approx(0.5 * MASS * (speed**2 - (500.0 * simulation.dt) ** 2), rel=1e-6)
     assert simulation.summary["ledger_residual"] < 1e-12
-    assert any(text.startswith("W0605") for text in simulation.summary["warnings"])
+    assert any(text.startswith("W0606") for text in simulation.summary["warnings"])
     # In a straight line back to zero.
     end = simulation.time + 50e-6
     simulation.set_curve("pull", 0, until=end)
@@ -383,7 +383,7 @@ def test_what_is_driven_at_every_step_has_the_same_bits_in_pieces_and_with_more_
     again.every(1, drive)
     hashes.add(again.run().hash())
     assert len(hashes) == 1
-    assert any(text.startswith("W0605") for text in again.summary["warnings"])
+    assert any(text.startswith("W0606") for text in again.summary["warnings"])
 
 
 @pytest.mark.parametrize(

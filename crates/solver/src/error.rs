@@ -181,7 +181,7 @@ pub(crate) static RELAXED: Message = Message {
 };
 
 pub(crate) static STEERED: Message = Message {
-    code: "W0605",
+    code: "W0606",
     title: "a run that the program changed on its way",
     example: Example::Words("A callback of Python gives nodes other velocities or forces, or a curve other values."),
     cause: "The program that drove the run has changed velocities, forces or curves between its steps. What it did is \

@@ -35,9 +35,11 @@ const IN_WORDS: &[(&str, &str)] = &[
     ("E0799", "it is a bug by definition"),
     ("W0405", "of the random models of embate-soak a few come to it, and none of them is short"),
     ("W0406", "no model is known in which contact misses a node; locate.rs counts, and the tests of contact hold that there are none"),
-    ("W0605", "only programs that change a simulation between its steps come to it"),
+    ("W0606", "only programs that change a simulation between its steps come to it"),
     ("W0702", "it takes a disk that is full, or a folder that is gone while the run fails"),
+    ("W0704", "it takes a disk that is full when the run ends"),
     ("W0712", "a disk that is full, or a run that fails earlier the second time, which the same bits forbid"),
+    ("W0713", "it takes a disk that is full while a run of more than five seconds keeps a checkpoint"),
 ];
 
 #[test]

@@ -143,7 +143,7 @@ pub static NO_PICTURES: Message = Message {
 
 /// Channels are missing.
 pub(super) static NO_CHANNELS: Message = Message {
-    code: "W0703",
+    code: "W0704",
     title: "channels of a run are missing",
     example: Example::Words("The disk is full when a run ends, and there is no room for `channels.csv`."),
     cause: "The history could not be read again, or the file of the channels not be written; all other results are there.",

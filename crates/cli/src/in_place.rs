@@ -61,7 +61,7 @@ pub(crate) fn decide(path: &Path, origin: &Origin, loaded: &Loaded, force: bool)
     let at = path.display();
     let again = match end {
         _ if is_edited => None,
-        Some(end) if end.status == "done" => Some(format!("it is done ({})", with_unit(*seconds, "s"))),
+        Some(end) if end.status == "done" => Some("it is done".to_string()),
         Some(end) if end.status == "failed" && !end.is_for_want_of_room() => {
             Some(format!("it failed: {}", end.error.as_deref().unwrap_or("for no reason that is known")))
         }

@@ -239,10 +239,12 @@ fn an_obstacle_that_acts_no_more_is_not_drawn() {
         ("plane", FLIGHT.to_string()),
         (
             "solid",
-            FLIGHT.replace(
-                "rectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }",
-                "box = { corner = [0, 0, 0], size = [1, 1, 1], elements = [2, 2, 2] }",
-            ),
+            FLIGHT
+                .replace(
+                    "rectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }",
+                    "box = { corner = [0, 0, 0], size = [1, 1, 1], elements = [2, 2, 2] }",
+                )
+                .replace("velocity = [1, 0]", "velocity = [1, 0, 0]"),
         ),
     ] {
         let (normal, hidden) = if name == "solid" { ("[0, 0, 1]", "[0, 0, -9]") } else { ("[0, 1]", "[0, -9]") };

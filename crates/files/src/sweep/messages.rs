@@ -53,7 +53,7 @@ pub(super) static BUSY: Message = Message {
 pub(super) static BOUNDS: Message = Message {
     code: "E0907",
     title: "bounds of a fit that can't be",
-    example: Example::Command("fit model.toml --vary material.steel.young=300GPa:100GPa --measured last(block.vx)=1"),
+    example: Example::Command("fit model.toml --vary material.steel.young=300GPa:100GPa --measured last(energy.kinetic)=1"),
     cause: "A key has no bounds, they are not two or three numbers in ascending order, or a key has bounds twice.",
     remedy: "Write them as the message shows: --vary key=1:3, or key=1:2:3 with the first value between both.",
 };

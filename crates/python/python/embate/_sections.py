@@ -179,6 +179,22 @@ class Profile(TypedDict, total=False):
     """Part of its fibres that have to fail until an element fails."""
 
 
+class RadialVelocity(TypedDict, total=False):
+    """Initial velocity away from a point, or in 3D from an axis, as of a ring or a shell that a charge
+    drives apart; it is added to `velocity` and `spin`. With `speed` all nodes are equally fast (one
+    at the centre rests), with `rate` they are the faster the farther off they are: v = (speed / r +
+    rate) r. What a rigid part can't do."""
+
+    speed: Quantity
+    """Speed, the same everywhere; negative: towards the centre."""
+    rate: Quantity
+    """Speed per distance."""
+    centre: Quantities
+    """The point; in 3D one of the axis, where there is one."""
+    axis: Quantities
+    """Direction of the axis, in 3D; any length but zero."""
+
+
 class PerX(TypedDict, total=False):
     """Growth of a stress along x."""
 
@@ -817,9 +833,12 @@ class Sections:
             Largest number of steps.
         checkpoint
             Wall time between two checkpoints, from which `embate resume` continues a run that was
-            stopped; with it the last good state of a run that fails is kept as well.
+            stopped; with it the last good state of a run that fails is kept as well. 0: none by the
+            clock. Without it, and without `checkpoint_steps`, intervals are so long that
+            checkpoints cost less than a hundredth of the run.
         checkpoint_steps
-            Steps between two checkpoints, besides those by the clock.
+            Steps between two checkpoints; then there are none by the clock unless `checkpoint` is
+            there, too.
         bulk_viscosity
             Linear and quadratic coefficient of the pressure that resists compression: `[0.06, 1.2]`
             spreads shocks over a few elements and keeps them from ringing.
@@ -840,7 +859,8 @@ class Sections:
         self,
         name: str,
         *,
-        law: Literal["elastic", "orthotropic_elastic", "j2", "j2_voce", "j2_swift", "j2_ludwik", "j2_table", "chaboche", "johnson_cook", "drucker_prager", "crushable_foam", "neo_hookean", "mooney_rivlin", "yeoh", "arruda_boyce", "ogden", "viscoelastic", "null"],
+        from_: Text | None = None,
+        law: Literal["elastic", "orthotropic_elastic", "j2", "j2_voce", "j2_swift", "j2_ludwik", "j2_table", "chaboche", "johnson_cook", "drucker_prager", "crushable_foam", "neo_hookean", "mooney_rivlin", "yeoh", "arruda_boyce", "ogden", "viscoelastic", "null"] | None = None,
         failure: Failure | None = None,
         eos: Literal["linear", "mie_gruneisen", "polynomial", "ideal_gas", "jwl"] | None = None,
         density: Quantity | None = None,
@@ -915,10 +935,14 @@ class Sections:
         r2: Quantity | None = None,
         omega: Quantity | None = None,
     ) -> Self:
-        """A material: a law and its parameters. Parts refer to it by its name.
+        """A material: a law and its parameters, or a material of the library by `from`, of which any
+        key can be given another value here. Parts refer to it by its name.
 
         Parameters
         ----------
+        from_
+            Name of a material of the library, as `embate list materials --library` shows them: the
+            law and the keys are its own, but for those that are given here.
         law
             Name of the law.
         failure
@@ -1092,6 +1116,9 @@ class Sections:
         stress_state: Literal["plane_strain", "plane_stress", "axisymmetric"] | None = None,
         velocity: Quantities | None = None,
         spin: Quantity | None = None,
+        spin_axis: Quantities | None = None,
+        spin_centre: Quantities | None = None,
+        radial_velocity: RadialVelocity | None = None,
         stress_initial: StressInitial | None = None,
         temperature_initial: Quantity | None = None,
         rigid: Flag | Motion | None = None,
@@ -1152,6 +1179,13 @@ class Sections:
         spin
             Initial angular velocity about the centre of mass, counter-clockwise; not of an
             axisymmetric part.
+        spin_axis
+            Direction of the axis of `spin`, in 3D, by the right-hand rule; any length but zero.
+        spin_centre
+            Point about which `spin` turns the part, in 3D one of the axis: with another one than
+            the centre of mass that moves, too.
+        radial_velocity
+            Initial velocity away from a point or an axis; not of a rigid part.
         stress_initial
             Stress at the start.
         temperature_initial
@@ -1226,6 +1260,7 @@ class Sections:
         slave: str | None = None,
         tied: Flag | None = None,
         tie_strength: Quantity | None = None,
+        pairs: Flag | None = None,
         search: Literal["grid", "boxes", "spheres", "nearest_node", "brute_force"] | None = None,
         law: Literal["penalty", "pressure_gap", "multiplier"] | None = None,
         penalty: Quantity | None = None,
@@ -1270,6 +1305,9 @@ class Sections:
             facets of the other, with `segment` both surfaces over what they have in common.
         tie_strength
             Traction above which a tie breaks.
+        pairs
+            Whether the history has the forces of `bodies` by pair, as
+            `contact.force_x[NAME:ONE-OTHER]`: of the second on the first.
         search
             How near pairs are found; changes no result.
         law
@@ -1428,6 +1466,7 @@ class Sections:
         self,
         *,
         normal: Quantities,
+        name: str | None = None,
         point: Quantities | None = None,
         parts: Names | None = None,
     ) -> Self:
@@ -1437,6 +1476,8 @@ class Sections:
         ----------
         normal
             Normal of the line; any length but zero.
+        name
+            Unique name, by which the history has its reaction.
         point
             A point of the line.
         parts
@@ -1449,6 +1490,7 @@ class Sections:
         self,
         *,
         on: str,
+        name: str | None = None,
         fixed: Literal["x", "y", "z", "rotation"] | Sequence[Literal["x", "y", "z", "rotation"]] | None = None,
         velocity: Components | None = None,
         displacement: Components | None = None,
@@ -1463,6 +1505,8 @@ class Sections:
         ----------
         on
             The set.
+        name
+            Unique name, by which the history has its reaction.
         fixed
             Components that don't move; `rotation`: nodes of shells and beams don't rotate either,
             so that they are clamped.
@@ -1603,6 +1647,7 @@ class Sections:
     def load(
         self,
         *,
+        name: str | None = None,
         gravity: Quantities | None = None,
         centrifugal: Quantity | None = None,
         centre: Quantities | None = None,
@@ -1623,6 +1668,8 @@ class Sections:
 
         Parameters
         ----------
+        name
+            Unique name, by which the history has its resultant.
         gravity
             Uniform acceleration of parts, such as `[0, "-9.81 m/s^2"]`; in an axisymmetric model
             along y.
@@ -1825,24 +1872,91 @@ class Sections:
         part: str | None = None,
         point: Quantities | None = None,
         node: Integer | None = None,
+        element: Integer | None = None,
         set: str | None = None,
+        fields: Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "principal_stress", "principal_direction", "triaxiality", "lode_angle", "strain_log", "strain_green", "velocity_gradient", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"] | Sequence[Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "principal_stress", "principal_direction", "triaxiality", "lode_angle", "strain_log", "strain_green", "velocity_gradient", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"]] | None = None,
+        extreme: Literal["max", "min"] | None = None,
     ) -> Self:
-        """A place whose position and velocity are written to the history as `NAME.x`, `NAME.y`,
-        `NAME.vx`, `NAME.vy`: the node of `part` nearest to `point`, node number `node` of `part`,
-        or the mean over `set`.
+        """A place whose position, velocity and acceleration are written to the history as `NAME.x`,
+        `NAME.vx`, `NAME.ax` and so on: the node of `part` nearest to `point`, node number `node` of
+        `part`, or the mean over `set`, which has its `NAME.spin` too. With `fields` also values of
+        fields, such as `NAME.von_mises`, `NAME.stress_xx`: those of elements as the mean over the
+        elements at the node, or of `element` alone, or the `extreme` in a set.
 
         Parameters
         ----------
         name
             Unique name.
         part
-            Part of `point` or `node`.
+            Part of `point`, `node` or `element`.
         point
             Initial position; the nearest node is taken.
         node
             Number of the node in its part, from 0.
+        element
+            Number of the element in its part, from 0: its fields alone.
         set
             A part, a side such as `plate.top`, or a group of a mesh file.
+        fields
+            Fields whose values are written, of whole tensors and vectors all components.
+        extreme
+            Whether the largest or the smallest value of each field in the set is written, of
+            elements that are there.
+        """
+        raise NotImplementedError
+
+    @section
+    def cut(
+        self,
+        *,
+        name: str,
+        point: Quantities,
+        normal: Quantities,
+        parts: Names | None = None,
+    ) -> Self:
+        """A plane (in 2D a line) through deformable parts at the start, which moves with the elements
+        that it cuts: the history has the force and the moment that the side to which the normal
+        points exerts on the other one. Springs across it, contacts and loads do not count.
+
+        Parameters
+        ----------
+        name
+            Unique name.
+        point
+            A point of the plane.
+        normal
+            Its normal; any length but zero. Tension is a force along it.
+        parts
+            Parts that it cuts, from end to end.
+        """
+        raise NotImplementedError
+
+    @section
+    def channel(
+        self,
+        *,
+        name: str,
+        expression: Text,
+        filter: Literal["CFC 60", "CFC 180", "CFC 600", "CFC 1000"] | None = None,
+        corner: Quantity | None = None,
+    ) -> Self:
+        """A formula of the history's columns, found after the run: `channels.csv` has its values,
+        `summary.json` its largest, smallest and last one. Later channels may use earlier ones.
+
+        Parameters
+        ----------
+        name
+            Unique name.
+        expression
+            A formula, such as `"A.y - B.y"`: names of columns, `t`, numbers, `+ - * / ^`,
+            parentheses, the functions of curves, and those of whole columns that
+            [results](output.md#channels) lists, such as `cfc60(A.ax)`, `integral`, `hic15`.
+        filter
+            Channel frequency class of SAE J211 and ISO 6487 by which the values are filtered,
+            without phase.
+        corner
+            Frequency at which a Butterworth filter of fourth order without phase damps the values
+            by 3 dB.
         """
         raise NotImplementedError
 
@@ -1852,11 +1966,12 @@ class Sections:
         *,
         fields: Quantity | None = None,
         history: Quantity | None = None,
+        forces: Literal["mean", "sample"] | None = None,
         hash_steps: Integer | None = None,
-        include: Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"] | Sequence[Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"]] | None = None,
+        include: Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "principal_stress", "principal_direction", "triaxiality", "lode_angle", "strain_log", "strain_green", "velocity_gradient", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"] | Sequence[Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "principal_stress", "principal_direction", "triaxiality", "lode_angle", "strain_log", "strain_green", "velocity_gradient", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"]] | None = None,
         mirror: Literal["x", "y", "z"] | Sequence[Literal["x", "y", "z"]] | None = None,
         pictures: Flag | None = None,
-        picture_field: Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"] | None = None,
+        picture_field: Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "principal_stress", "principal_direction", "triaxiality", "lode_angle", "strain_log", "strain_green", "velocity_gradient", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"] | None = None,
         picture_view: PictureView | None = None,
         camera: Camera | None = None,
     ) -> Self:
@@ -1865,9 +1980,14 @@ class Sections:
         Parameters
         ----------
         fields
-            How often the fields are written: a count, or an interval such as `"0.1 ms"`.
+            How often the fields are written: a count, or an interval such as `"0.1 ms"`; 0: not at
+            all, and no pictures of bodies.
         history
             How often a row of the history is written: a count or an interval.
+        forces
+            What rows of the history have of forces, moments and accelerations: the mean over the
+            interval since the row before, of which nothing is missed, or the value at the row's
+            time.
         hash_steps
             Steps between two lines of `hashes.csv`, by which `embate diff` finds where two runs
             diverge; 0: none are written.

@@ -9,9 +9,10 @@
 //! b₂ = −(1 − √2 ω + ω²)/(1 + √2 ω + ω²)
 //! ```
 //!
-//! with the sampling interval T. Both passes together damp by 3 dB at 0.8022 f: (1 + (f/f_c)⁴)⁻¹ = 2^−½. Of a
-//! class CFC the standard has f = 2.0775 CFC, and so 3 dB at CFC/0.6. Before the passes the samples are
-//! continued at both ends by their point reflection, so that ends do not ring.
+//! with the sampling interval T. Both passes together damp by (1 + (tan(π f' T)/ω)⁴)⁻¹ at a frequency f', 3
+//! dB at 0.8022 f where samples are dense. Of a class CFC the standard has f = 2.0775 CFC, and so 3 dB at
+//! CFC/0.6; of a corner ω is such that it is exactly there. Before the passes the samples are continued at
+//! both ends by their point reflection, so that ends do not ring.
 //!
 //! Source: SAE J211/1 and ISO 6487, whose formulas for this filter differ by 0.3 % in the frequency.
 
@@ -20,11 +21,6 @@ use std::f64::consts::{PI, SQRT_2};
 
 /// Frequency of each pass over the class.
 const OF_CLASS: f64 = 2.0775;
-
-/// Frequency of each pass for one at which both together damp by 3 dB.
-fn of_corner(corner: f64) -> f64 {
-    corner / (SQRT_2 - 1.0).powf(0.25)
-}
 
 impl Filter {
     /// The longest interval between samples that the standard allows, s: ten samples for the class's number
@@ -47,9 +43,9 @@ impl Filter {
         }
         let (first, last) = (times[0], times[count - 1]);
         let interval = (last - first) / (count - 1) as f64;
-        let frequency = match self {
-            Self::Class(class) => OF_CLASS * class,
-            Self::Corner(corner) => of_corner(corner),
+        let (frequency, share) = match self {
+            Self::Class(class) => (OF_CLASS * class, 1.0),
+            Self::Corner(corner) => (corner, (SQRT_2 - 1.0).powf(0.25)),
         };
         // Above half the sampling frequency there is nothing to damp.
         if !(interval > 0.0) || frequency * interval >= 0.5 {
@@ -57,28 +53,29 @@ impl Filter {
         }
         let even: Vec<f64> = (0..count).map(|k| first + interval * k as f64).collect();
         let samples = interpolated(times, values, &even);
-        let filtered = filtered(&samples, frequency, interval);
+        let omega = (PI * frequency * interval).tan() / share;
+        let filtered = filtered(&samples, omega, (2.0 / (frequency * interval)).ceil() as usize);
         interpolated(&even, &filtered, &times[..count])
     }
 }
 
-fn filtered(samples: &[f64], frequency: f64, interval: f64) -> Vec<f64> {
+/// Both passes over samples that are continued by so many at both ends.
+fn filtered(samples: &[f64], omega: f64, more: usize) -> Vec<f64> {
     let count = samples.len();
-    let more = ((2.0 / (frequency * interval)).ceil() as usize).clamp(3, count - 1);
+    let more = more.clamp(2, count - 1);
     let (first, last) = (samples[0], samples[count - 1]);
     let before = (1..=more).rev().map(|k| 2.0 * first - samples[k]);
     let after = (1..=more).map(|k| 2.0 * last - samples[count - 1 - k]);
     let mut values: Vec<f64> = before.chain(samples.iter().copied()).chain(after).collect();
-    pass(&mut values, frequency, interval);
+    pass(&mut values, omega);
     values.reverse();
-    pass(&mut values, frequency, interval);
+    pass(&mut values, omega);
     values.reverse();
     values[more..more + count].to_vec()
 }
 
 /// One pass, from rest at the first value.
-fn pass(values: &mut [f64], frequency: f64, interval: f64) {
-    let omega = (PI * frequency * interval).tan();
+fn pass(values: &mut [f64], omega: f64) {
     let whole = 1.0 + SQRT_2 * omega + omega * omega;
     let a0 = omega * omega / whole;
     let [b1, b2] = [-2.0 * (omega * omega - 1.0) / whole, -(1.0 - SQRT_2 * omega + omega * omega) / whole];

@@ -193,7 +193,7 @@ fn who_leaves_one_face_of_an_overlapping_crack_is_held_by_the_other() {
 
 #[test]
 fn a_contact_that_transmits_nothing_is_mentioned() {
-    let mut model = model(1e-5);
+    let mut model = model(3e-4);
     add(&mut model, "one", rectangle([0.0, 0.0], [0.1, 0.1], [3, 3]), [0.0, 0.0]);
     add(&mut model, "two", rectangle([0.2, 0.0], [0.1, 0.1], [3, 3]), [0.0, 0.0]);
     touch(&mut model, "one", "two");

@@ -183,7 +183,7 @@ fn constraints_move_nodes_in_every_way() {
         sound(&and(&format!("[[constraint]]\non = \"plate.right\"\n{text}\n[curve.c]\nexpression = \"t\""))).constraints.pop().unwrap()
     };
     let curve = || Some(Drive::Curve("c".into()));
-    let empty = || Constraint { on: "plate.right".into(), ..Constraint::default() };
+    let empty = || Constraint { on: "plate.right".into(), name: "plate_right".into(), ..Constraint::default() };
     assert_eq!(constraint("displacement.y = \"c\""), Constraint { displacement: [None, curve(), None], ..empty() });
     let both = Constraint {
         velocity: [None, Some(Drive::Constant(0.0)), None],

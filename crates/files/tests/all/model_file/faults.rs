@@ -37,7 +37,7 @@ const CASES: &[Case] = &[
         "yield",
         "yeild",
         &[
-            "4:1 [material.steel] has no `yield` | add `yield = \"210 GPa\"`: initial yield stress",
+            "4:1 [material.steel] has no `yield` | add `yield = \"355 MPa\"`: initial yield stress",
             "9:1 [material.steel] has no key `yeild` | did you mean `yield`?",
         ],
     ),
@@ -178,7 +178,7 @@ const CASES: &[Case] = &[
         "fixed = \"x\"\nvelocity = { x = 0 }",
         &["31:9 component `x` is both fixed and given a velocity | leave it out of one of the two"],
     ),
-    ("point = [0, 0]", "", &["34:1 [[probe]] needs one of `point`, `node` and `set` | add one of them"]),
+    ("point = [0, 0]", "", &["34:1 [[probe]] needs one of `point`, `node`, `element` and `set` | add one of them"]),
     ("part = \"tube\"\n", "", &["36:9 [[probe]] has `point` but no `part` | add `part`"]),
     ("point = [0, 0]", "node = 82", &["37:8 part `tube` has 82 nodes, so there is no node 82 | nodes are numbered from 0 to 81"]),
     ("fields = 10", "include = [\"stress\", \"stres\"]", &["39:22 `include[1]` can't be \"stres\" | did you mean `stress`?"]),

@@ -63,7 +63,15 @@ polyline = { points = [[0, -1], [1, -1]] }
 "#;
 
 /// The other sections.
-pub(crate) const MORE: &str = r#"[[non_reflecting]]
+pub(crate) const MORE: &str = r#"[[cut]]
+name = "section"
+point = [0, "-1 mm"]
+normal = [0, 1]
+parts = ["plate"]
+[[channel]]
+name = "height"
+expression = "A.y - first(A.y)"
+[[non_reflecting]]
 on = "ball.outer"
 [[join]]
 between = ["tube.start", "tube.end"]

@@ -112,7 +112,7 @@ fn solids_that_can_not_be_are_refused_with_the_place() {
         ("box = { corner = [0, 0, 0], size = [1, 1, 0], elements = [1, 1, 1] }".into(), "box.size[2]", "must be greater than 0"),
         (format!("{RECTANGLE}revolve = {{ elements = 2 }}"), "revolve.elements", "2 elements can't go all around"),
         ("box = { corner = [0, 0, 0], size = [1, 1], elements = [1, 1, 1] }".into(), "box.size", "has two components, but the model is 3D"),
-        (format!("{RECTANGLE}revolve = {{ elements = 2, angle = 1, axis = [0, 0, 0] }}"), "revolve.axis", "has no direction"),
+        (format!("{RECTANGLE}revolve = {{ elements = 2, angle = 1, axis = [0, 0] }}"), "revolve.axis", "has no direction"),
         (format!("{}\nextrude = {{ length = 1, elements = 1 }}", sphere("elements = 2")), "extrude", "is a solid as it is"),
         (RECTANGLE.to_string(), "rectangle", "2D, but part `"),
     ];

@@ -15,6 +15,7 @@ WIDTH = 110
 GENERATED = {
     "docs/command-line.md",
     "docs/elements-and-laws.md",
+    "docs/materials.md",
     "docs/messages.md",
     "docs/model-file.md",
     "docs/verification-results.md",

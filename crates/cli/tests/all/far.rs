@@ -133,8 +133,8 @@ fn compare(name: &str, speed: f64, steps: u64) -> Vec<String> {
     let mut most = [0.0f64; 2];
     for (k, column) in home.columns.iter().enumerate() {
         let is_contact = is_of_contact(column);
-        // Forces between bodies lean to a side where a node lies over the edge of two facets: which of them it
-        // meets is up to rounding there.
+        // Forces between bodies lean to a side where a node lies over the edge of two facets: which of them
+        // it meets is up to rounding there.
         if column.contains(':') {
             continue;
         }

@@ -355,13 +355,12 @@ impl Reader<'_> {
         let key = self.extent.of(key);
         if let (Extent::Solid, Kind::Spatial(..), Value::List(components)) = (self.extent, key.kind, &node.value)
             && components.len() == 2
+            && value::read(&key, node, path).is_ok()
         {
-            if value::read(&key, node, path).is_ok() {
-                let message = format!("`{}` has two components, but the model is 3D", key.name);
-                let help = "give the third too, along z: 0 where there is nothing along it".to_string();
-                self.faults.value(&LIST_LENGTH, path, node.place, (message, help));
-                return None;
-            }
+            let message = format!("`{}` has two components, but the model is 3D", key.name);
+            let help = "give the third too, along z: 0 where there is nothing along it".to_string();
+            self.faults.value(&LIST_LENGTH, path, node.place, (message, help));
+            return None;
         }
         match value::read(&key, node, path) {
             Ok(datum) => Some(datum),

@@ -69,6 +69,9 @@ struct Shared {
     error: Option<SweepError>,
 }
 
+/// Numbers of a run, or why it has none.
+pub(super) type Numbers = Result<Vec<f64>, String>;
+
 impl Sweep {
     /// Runs what has not been run, then writes the table and the plot.
     ///
@@ -216,7 +219,7 @@ impl Sweep {
 
     /// Outputs of all runs as numbers, in memory alone; of a run that fails or has not all of them the
     /// reason. `None`: the user stopped it.
-    pub(super) fn numbers(&self, running: &Running<'_>) -> Result<Option<Vec<Result<Vec<f64>, String>>>, SweepError> {
+    pub(super) fn numbers(&self, running: &Running<'_>) -> Result<Option<Vec<Numbers>>, SweepError> {
         let one = |run: usize| {
             let bug = |_| Ok(Some(self.failed(run, "this run ended with a bug in embate".to_string())));
             catch_unwind(AssertUnwindSafe(|| self.run_one(run, running))).unwrap_or_else(bug)

@@ -136,7 +136,7 @@ where
         simulation.model_warnings.extend(tiny::warnings(&simulation.system));
         simulation.model_warnings.extend(channel::warnings(model));
         // Where materials are wrong, or one element is, so is the step.
-        let says_why = |warning: &Warning| [&IMPLAUSIBLE, &OTHER_UNITS, &TINY_STEP].iter().any(|kind| warning.kind == *kind);
+        let says_why = |warning: &Warning| [&IMPLAUSIBLE, &OTHER_UNITS, &TINY_STEP].contains(&warning.kind);
         if !simulation.model_warnings.iter().any(says_why) {
             simulation.model_warnings.extend(few::warning(model, &simulation.system));
         }

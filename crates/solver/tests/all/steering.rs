@@ -192,10 +192,13 @@ fn a_load_that_is_driven_at_every_step_is_the_one_of_a_table() {
         let [from, next] = [1.0, 2.0].map(|steps| driven.time() + steps * driven.time_step());
         // Steps are not all the same: what is set ends where the next begins, or is kept until then.
         while times.last().is_some_and(|last| *last >= from) {
-            (times.pop(), values.pop());
+            times.pop();
+            values.pop();
         }
-        (times.push(from), values.push(driven.curve("pull").unwrap()));
-        (times.push(next), values.push(course(next)));
+        times.push(from);
+        values.push(driven.curve("pull").unwrap());
+        times.push(next);
+        values.push(course(next));
         driven.set_curve("pull", course(next), Some(next)).unwrap();
         driven.advance(f64::INFINITY, 1).unwrap();
     }

@@ -7,6 +7,7 @@
 mod asked;
 mod search;
 
+use super::run::Numbers;
 use super::run::Running;
 use super::{Keep, Request, Sweep, SweepError};
 use crate::PathPolicy;
@@ -219,7 +220,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Outputs at some places; of a run that fails the reason.
-    fn runs(&self, places: &[Vec<f64>], fitting: &Fitting<'_>) -> Result<Option<Vec<Result<Vec<f64>, String>>>, SweepError> {
+    fn runs(&self, places: &[Vec<f64>], fitting: &Fitting<'_>) -> Result<Option<Vec<Numbers>>, SweepError> {
         let Some(sweep) = self.sweep(places, fitting.jobs, fitting.is_stopped)? else { return Ok(None) };
         sweep.numbers(&Running {
             folder: fitting.folder,

@@ -242,7 +242,7 @@ fn an_obstacle_that_acts_no_more_is_not_drawn() {
             FLIGHT
                 .replace(
                     "rectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }",
-                    "box = { corner = [0, 0, 0], size = [1, 1, 1], elements = [2, 2, 2] }",
+                    "box = { corner = [0, 0, 0], size = [0.01, 0.01, 0.01], elements = [2, 2, 2] }",
                 )
                 .replace("velocity = [1, 0]", "velocity = [1, 0, 0]"),
         ),

@@ -53,7 +53,7 @@ pub(super) static BUSY: Message = Message {
 pub(super) static BOUNDS: Message = Message {
     code: "E0907",
     title: "bounds of a fit that can't be",
-    example: Example::Command("fit model.toml --vary material.steel.young=300GPa:100GPa --measured last(energy.kinetic)=1"),
+    example: Example::Command("fit model.toml --vary material.steel.young=300GPa:100GPa --measured last(block.vx)=1"),
     cause: "A key has no bounds, they are not two or three numbers in ascending order, or a key has bounds twice.",
     remedy: "Write them as the message shows: --vary key=1:3, or key=1:2:3 with the first value between both.",
 };
@@ -69,7 +69,7 @@ pub(super) static MEASURED: Message = Message {
 pub(super) static FIRST_RUN: Message = Message {
     code: "E0909",
     title: "a fit whose first run fails",
-    example: Example::Command("fit model.toml --vary run.energy_limit=1e-300:2e-300 --measured last(block.vx)=1"),
+    example: Example::Command("fit model.toml --vary run.energy_limit=1e-300:2e-300 --measured last(energy.kinetic)=1"),
     cause: "The search begins in the middle of the bounds, or at the first value between them, and there the model fails.",
     remedy: "Give a first value with which the model runs: --vary key=LOWEST:FIRST:HIGHEST.",
 };

@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, final
 
-__all__ = ["Frame", "Model", "Simulation", "__version__", "cells", "fields", "frames", "history", "schema", "sections"]
+__all__ = ["Frame", "Model", "Simulation", "__version__", "cells", "channel", "fields", "frames", "history", "schema", "sections"]
 
 __version__: str
 

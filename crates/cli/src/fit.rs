@@ -6,10 +6,11 @@
 use crate::cli_error::CliError;
 use crate::input::{self, ModelArguments};
 use crate::interrupt::Interrupt;
+use crate::jobs::Jobs;
 use crate::numbers::{per_cent, table, with_unit};
 use crate::progress::Display;
 use crate::sweep::reported;
-use crate::{Failure, machine, terminal};
+use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::numbers::significant;
 use embate_files::sweep::fit::{Ended, Fit, Fitted, Fitting, TABLE_NAME, Wanted};
@@ -43,12 +44,8 @@ pub(crate) struct Arguments {
     /// Folder for the table of all runs [default: results/NAME-fit]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Runs at a time, each on one thread; 0: one per processor (changes no result)
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
-    jobs: u16,
-    /// Instruction set: scalar, avx2, avx512 [default: the best of this machine] (changes no result)
-    #[arg(long, value_name = "LEVEL")]
-    simd: Option<String>,
+    #[command(flatten)]
+    jobs: Jobs,
     /// No progress
     #[arg(long, short)]
     quiet: bool,
@@ -60,10 +57,7 @@ pub(crate) struct Arguments {
 pub(crate) fn fit(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::watch();
     let is_stopped = || interrupt.is_pressed();
-    let jobs = match arguments.jobs {
-        0 => machine::processors(),
-        jobs => jobs.into(),
-    };
+    let jobs = arguments.jobs.count();
     for (name, value) in [("--step", arguments.step), ("--tolerance", arguments.tolerance)] {
         if !(value > 0.0 && value < 0.5) {
             let text = format!("{name} is {value}; it is between 0 and 0.5");
@@ -78,7 +72,7 @@ pub(crate) fn fit(arguments: &Arguments) -> Result<(), Failure> {
         tolerance: arguments.tolerance,
         runs: arguments.runs as usize,
     };
-    let prepared = Fit::prepare(model, leave.reach(), set, wanted, arguments.simd.clone(), jobs, &is_stopped).map_err(reported)?;
+    let prepared = Fit::prepare(model, leave.reach(), set, wanted, arguments.jobs.simd.clone(), jobs, &is_stopped).map_err(reported)?;
     let Some(fit) = prepared else { return Err(Failure::Interrupted) };
     let folder = input::folder(arguments.out.as_deref(), Path::new("results").join(format!("{}-fit", fit.name())))?;
     let display = Mutex::new(Display::new(arguments.quiet));

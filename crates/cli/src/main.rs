@@ -16,6 +16,7 @@ mod import;
 mod in_place;
 mod input;
 mod interrupt;
+mod jobs;
 mod list;
 mod machine;
 mod man;

@@ -6,10 +6,11 @@
 use crate::cli_error::CliError;
 use crate::input::{self, ModelArguments};
 use crate::interrupt::Interrupt;
+use crate::jobs::Jobs;
 use crate::messages::RUNS_FAILED;
 use crate::numbers::{grouped, table, with_unit};
 use crate::progress::Display;
-use crate::{Failure, cpu, machine, terminal};
+use crate::{Failure, cpu, terminal};
 use clap::Args;
 use embate_files::results::messages::BUG;
 use embate_files::sweep::{Advance, Ended, Keep, PLOT_NAME, Request, Running, Sweep, SweepError, TABLE_NAME};
@@ -39,12 +40,8 @@ pub(crate) struct Arguments {
     /// Folder for the table, the plot and the runs [default: results/NAME-sweep]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Runs at a time, each on one thread; 0: one per processor (changes no result)
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(..=1024))]
-    jobs: u16,
-    /// Instruction set: scalar, avx2, avx512 [default: the best of this machine] (changes no result)
-    #[arg(long, value_name = "LEVEL")]
-    simd: Option<String>,
+    #[command(flatten)]
+    jobs: Jobs,
     /// Keep of each run all that `embate run` writes: frames and pictures, too
     #[arg(long)]
     keep_frames: bool,
@@ -63,17 +60,14 @@ pub(crate) fn sweep(arguments: &Arguments) -> Result<(), Failure> {
     let begin = Instant::now();
     let interrupt = Interrupt::watch();
     let is_stopped = || interrupt.is_pressed();
-    let jobs = match arguments.jobs {
-        0 => machine::processors(),
-        jobs => jobs.into(),
-    };
+    let jobs = arguments.jobs.count();
     let ModelArguments { model, set, leave } = &arguments.model;
     let request = match &arguments.table {
         Some(file) => Request::Table(file),
         None if arguments.zip => Request::Zip(&arguments.vary),
         None => Request::Factorial(&arguments.vary),
     };
-    let prepared = Sweep::prepare(model, leave.reach(), set, request, &arguments.output, arguments.simd.clone(), jobs, &is_stopped)
+    let prepared = Sweep::prepare(model, leave.reach(), set, request, &arguments.output, arguments.jobs.simd.clone(), jobs, &is_stopped)
         .map_err(reported)?;
     let Some(sweep) = prepared else { return Err(Failure::Interrupted) };
     let mut name = input::default_folder(sweep.first()).into_os_string();

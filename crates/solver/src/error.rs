@@ -452,6 +452,12 @@ pub enum Error {
 }
 
 impl Error {
+    /// Whether it was found when the step was complete: its forces are known, and its energies are in the
+    /// ledger.
+    pub(crate) fn is_of_complete_step(&self) -> bool {
+        matches!(self, Self::EnergyDrift { .. } | Self::TooDeep { .. } | Self::Runaway { .. })
+    }
+
     /// Its kind; `None` for a model, whose faults are of many.
     #[must_use]
     pub fn kind(&self) -> Option<&'static Message> {

@@ -333,6 +333,12 @@ impl Parser<'_> {
         }
     }
 
+    /// The parenthesis after the name of a function; gives its place.
+    fn open(&mut self, name: &str) -> Result<usize, Wrong> {
+        let open = self.at;
+        if self.next_is('(') { Ok(open) } else { self.wrong(self.at, format!("`{name}` needs its argument in parentheses")) }
+    }
+
     fn close(&mut self, open: usize) -> Result<(), Wrong> {
         if self.next_is(')') {
             return Ok(());
@@ -388,10 +394,7 @@ impl Parser<'_> {
         if one.is_none() && two.is_none() {
             return self.unknown(start, rest);
         }
-        let open = self.at;
-        if !self.next_is('(') {
-            return self.wrong(self.at, format!("`{name}` needs its argument in parentheses"));
-        }
+        let open = self.open(name)?;
         self.sum()?;
         if let Some(f) = one {
             self.close(open)?;
@@ -411,10 +414,7 @@ impl Parser<'_> {
 
     /// A function of series, with as many arguments as it takes.
     fn call_series(&mut self, name: &str, index: usize, start: usize) -> Result<(), Wrong> {
-        let (open, takes) = (self.at, self.words.functions()[index].1);
-        if !self.next_is('(') {
-            return self.wrong(self.at, format!("`{name}` needs its argument in parentheses"));
-        }
+        let (open, takes) = (self.open(name)?, self.words.functions()[index].1);
         let mut count = 1;
         self.sum()?;
         while self.next_is(',') {

@@ -559,15 +559,14 @@ where
         }
     }
 
-    /// Hands over the reactions in the last update of nodes that are held: the node, what holds it, and its
-    /// force, N/m; nodes of rigid bodies have none.
-    pub(crate) fn reactions(&self, mut see: impl FnMut(u32, &NodeConstraint<D>, [f64; D])) {
-        for (node, held) in self.constraints.held() {
-            see(node, held, self.reaction(node));
-        }
+    /// Nodes that are held and that the velocity update advances by themselves, and what holds them: none of
+    /// rigid bodies, and none on faces of shells.
+    pub(crate) fn held(&self) -> impl Iterator<Item = (u32, &NodeConstraint<D>)> {
+        let is_advanced = |node: u32| self.bodies.of_node(node).is_none() && self.skins.carrier(node as usize).is_none();
+        self.constraints.held().filter(move |(node, _)| is_advanced(*node))
     }
 
-    /// Force (N/m) in the last update of what holds a node; nodes of rigid bodies have none.
+    /// Force (N/m) in the last update of what holds one of [`System::held`].
     pub(crate) fn reaction(&self, node: u32) -> [f64; D] {
         if self.joins.of_node(node).is_some() {
             let nodes = nodes!(self, velocities_old, self.time_step);
@@ -577,12 +576,8 @@ where
         self.positions_old[node as usize]
     }
 
-    /// Whether the velocity update advances a node by itself.
-    pub(crate) fn is_advanced(&self, node: u32) -> bool {
-        self.bodies.of_node(node).is_none() && self.skins.carrier(node as usize).is_none()
-    }
-
-    /// The same of rotations that are held: moments, N (N m).
+    /// Hands over the reactions in the last update of rotations that are held: the node, what holds it, and
+    /// its moment, N (N m).
     pub(crate) fn moment_reactions(&self, see: impl FnMut(u32, &NodeConstraint<3>, [f64; 3])) {
         self.rotations.reactions(self.mean_step(), &self.damping, see);
     }

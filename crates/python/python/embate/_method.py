@@ -16,7 +16,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def section(function: F) -> F:
-    """A method that has the signature of ``function`` for who reads it, and takes any keys: the model file's own check tells which are wrong, and which are meant."""
+    """A method that has the signature of ``function`` for who reads it, and takes any keys: the model file's own check finds which are wrong, and which are meant."""
     name = function.__name__
 
     def listed(self: Any, **keys: Any) -> Any:

@@ -13,7 +13,30 @@ from ._optional import needed
 Layout = tuple[dict[str, np.ndarray[Any, Any]], dict[str, np.ndarray[Any, Any]], np.ndarray[Any, Any]]
 
 
-class Fields:
+class Cells:
+    """The cells of a mesh; who inherits it says where they come from."""
+
+    def _layout(self) -> Layout:
+        """All three at once: the solver makes them anew each time."""
+        raise NotImplementedError
+
+    @property
+    def cells(self) -> dict[str, np.ndarray[Any, Any]]:
+        """Nodes of the cells by kind (``quad``, ``hexahedron`` …), in the order of :attr:`cell_index`."""
+        return self._layout()[0]
+
+    @property
+    def cell_index(self) -> dict[str, np.ndarray[Any, Any]]:
+        """Where the cells of each kind are in fields of cells."""
+        return self._layout()[1]
+
+    @property
+    def cell_part(self) -> np.ndarray[Any, Any]:
+        """Name of the part of each cell."""
+        return self._layout()[2]
+
+
+class Fields(Cells):
     """Fields as attributes, and what is made of them; who inherits it says where they come from."""
 
     @property
@@ -45,9 +68,6 @@ class Fields:
         """Current positions of the nodes, m."""
         raise NotImplementedError
 
-    def _layout(self) -> Layout:
-        raise NotImplementedError
-
     def _alive(self) -> np.ndarray[Any, Any]:
         """Which cells were not eroded."""
         raise NotImplementedError
@@ -59,21 +79,6 @@ class Fields:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.fields]
-
-    @property
-    def cells(self) -> dict[str, np.ndarray[Any, Any]]:
-        """Nodes of the cells by kind (``quad``, ``hexahedron`` …), in the order of :attr:`cell_index`."""
-        return self._layout()[0]
-
-    @property
-    def cell_index(self) -> dict[str, np.ndarray[Any, Any]]:
-        """Where the cells of each kind are in fields of cells."""
-        return self._layout()[1]
-
-    @property
-    def cell_part(self) -> np.ndarray[Any, Any]:
-        """Name of the part of each cell."""
-        return self._layout()[2]
 
     def to_pandas(self, location: str = "nodes") -> Any:
         """The fields at ``nodes`` or ``cells`` as a table of pandas, a column for each component; with the positions of nodes, and the parts of cells."""

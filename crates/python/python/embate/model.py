@@ -45,7 +45,7 @@ class Model(Sections):
     Values are numbers in SI units, texts with units (``"3 mm"``), lists and dicts, as in ``docs/model-file.md``. A mesh may be that of a file (``mesh={"file": …, "group": …}``), numpy arrays
     (``mesh=(points, quads)``), a :class:`embate.Mesh`, or an object of meshio, gmsh or pyvista.
 
-    What is wrong with a section by itself (a key, a value, a unit) is told where it is given, by a :class:`embate.ModelError`; what is wrong with the whole when :meth:`check` or :meth:`simulation`
+    What is wrong with a section by itself (a key, a value, a unit) is an error where it is given, a :class:`embate.ModelError`; what is wrong with the whole when :meth:`check` or :meth:`simulation`
     reads it, all at once.
     """
 

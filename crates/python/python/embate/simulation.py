@@ -22,7 +22,7 @@ from ._saved import SavedModel
 from .control import node_numbers, vectors
 from .errors import FileError, RunError, StateError
 from .errors import Warning as EmbateWarning
-from .fields import Fields, Layout, cells_of, fields_of
+from .fields import Cells, Fields, Layout, cells_of, fields_of
 from .history import History
 from .model import Model
 from .progress import bar
@@ -94,7 +94,7 @@ class State(Fields):
         return f"<embate state at {self._simulation.time:.6g} s: position, {', '.join(self.fields)}>"
 
 
-class Simulation:
+class Simulation(Cells):
     """A model that is stepped; made by :meth:`embate.Model.simulation`.
 
     The interpreter's lock is free while it steps: simulations in different threads go at full speed. One simulation does one thing at a time. As a context manager it is closed in the end.
@@ -107,7 +107,7 @@ class Simulation:
         self._native = _native if _native is not None else _embate.Simulation(model._native(), self._threads, instruction_set)
         self._callbacks: list[tuple[int, Callable[[Simulation], Any]]] = []
         self._working = threading.Lock()
-        #: Of a sweep: warnings are not told, and it ends early where this says no.
+        #: Of a sweep: warnings are not shown, and it ends early where this says no.
         self._is_quiet = False
         self._goes_on: Callable[[], bool] = lambda: True
 
@@ -345,23 +345,7 @@ class Simulation:
         """Hash of the state: the same as ``state_hash`` in ``summary.json`` of the command's run."""
         return self._native.hash()
 
-    @property
-    def cells(self) -> dict[str, np.ndarray[Any, Any]]:
-        """Nodes of the cells by kind (``quad``, ``hexahedron`` …), in the order of :attr:`cell_index`."""
-        return self._layout()[0]
-
-    @property
-    def cell_index(self) -> dict[str, np.ndarray[Any, Any]]:
-        """Where the cells of each kind are in fields of cells."""
-        return self._layout()[1]
-
-    @property
-    def cell_part(self) -> np.ndarray[Any, Any]:
-        """Name of the part of each cell."""
-        return self._layout()[2]
-
     def _layout(self) -> Layout:
-        """All three at once: the solver makes them anew each time."""
         return cells_of(*self._native.cells())
 
     def node_numbers(self, mesh: Any) -> np.ndarray[Any, Any]:

@@ -416,7 +416,6 @@ where
         positions: &[[f64; D]],
     ) -> <Dim<D> as RigidMotion<D>>::Spin {
         let centre = bodies.state(body).centre;
-        let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
         let moment = |(answer, end): (Answer<'_, D>, springs::KeptEnd<'_, D>)| {
             let (on_body, point) = match positions.get(end.at as usize) {
                 Some(&x) => (bodies.of_node(end.at) == Some(body), x),
@@ -425,7 +424,7 @@ where
             let force = if on_body { [0.0; D] } else { answer.force_on(&end) };
             Dim::<D>::moment(std::array::from_fn(|d| point[d] - centre[d]), force)
         };
-        ends.map(moment).fold(Dim::<D>::NO_SPIN, Dim::<D>::plus)
+        self.ends(springs).map(moment).fold(Dim::<D>::NO_SPIN, Dim::<D>::plus)
     }
 
     /// Hands over what each spring of the last step does at all but the first of its ends: that first end,
@@ -444,18 +443,20 @@ where
     /// Hands over the forces of the last step's springs of which [`Totals::resultant`] is the sum, with where
     /// they act.
     pub(crate) fn each_on_first(&self, springs: &Springs<D>, mut see: impl FnMut(u32, [f64; D])) {
-        for answer in springs.answers(self.found.clone()) {
-            for end in answer.ends().filter(|end| end.share > 0.0) {
-                see(end.at, answer.force_on(&end).map(|force| f64::from(answer.spring.side) * force));
-            }
+        for (answer, end) in self.ends(springs).filter(|(_, end)| end.share > 0.0) {
+            see(end.at, answer.force_on(&end).map(|force| f64::from(answer.spring.side) * force));
         }
+    }
+
+    /// Every end of the last step's springs, with its spring.
+    fn ends<'a>(&self, springs: &'a Springs<D>) -> impl Iterator<Item = (Answer<'a, D>, springs::KeptEnd<'a, D>)> {
+        springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)))
     }
 
     /// Sum of the sizes of the forces of the last step's springs on some nodes (ascending), N/m.
     #[must_use]
     pub fn force_on(&self, nodes: &[u32], springs: &Springs<D>) -> f64 {
-        let ends = springs.answers(self.found.clone()).flat_map(|answer| answer.ends().map(move |end| (answer, end)));
-        let forces = ends.filter(|(_, end)| nodes.binary_search(&end.at).is_ok()).map(|(answer, end)| answer.force_on(&end));
+        let forces = self.ends(springs).filter(|(_, end)| nodes.binary_search(&end.at).is_ok()).map(|(answer, end)| answer.force_on(&end));
         forces.map(|force| (1..D).fold(force[0] * force[0], |sum, d| sum + force[d] * force[d]).sqrt()).sum()
     }
 

@@ -136,9 +136,7 @@ where
     Dim<D>: Runs<D>,
 {
     fn note(&mut self, system: &System<D>, recorded: &Recorded<D>, error: Option<&Error>) {
-        // These are looked for when the ledger are closed.
-        let is_late = |error| matches!(error, &Error::EnergyDrift { .. } | &Error::TooDeep { .. } | &Error::Runaway { .. });
-        let is_closed = error.is_none_or(is_late);
+        let is_closed = error.is_none_or(Error::is_of_complete_step);
         if is_closed {
             let total = balance(system);
             let size = (total - self.total).abs() / system.ledger.largest;

@@ -32,15 +32,15 @@ where
 {
     fields: Vec<&'static FieldKind>,
     channels: Vec<Box<dyn Channel<D>>>,
+    columns: Vec<Column>,
     /// Whether rows have means of forces.
     means: bool,
     /// Σ f Δt of the columns with a mean since the last row, and Σ Δt, s.
     sums: Vec<f64>,
     duration: f64,
-    /// Those of the last step, and that step; none before the first one.
+    /// Those of the last step: of one that fails before its forces are known, of the step before.
     rates: Vec<f64>,
-    rates_step: Option<u64>,
-    /// Levels at the last row.
+    /// Levels at the last row; none before the first one.
     levels: Vec<f64>,
     peaks: Peaks,
     probe_lines: Vec<String>,
@@ -76,16 +76,17 @@ where
         let probes = Probes::new(model, system)?;
         let probe_lines = probes.lines();
         let channels = channels::of_system(model, system, probes)?;
+        let columns: Vec<Column> = channels.iter().flat_map(|channel| channel.columns(system)).collect();
         Ok(Self {
             fields,
             channels,
+            peaks: Peaks::of(&columns),
+            columns,
             means: model.output.forces == Forces::Mean,
             sums: Vec::new(),
             duration: 0.0,
             rates: Vec::new(),
-            rates_step: None,
             levels: Vec::new(),
-            peaks: Peaks::default(),
             probe_lines,
         })
     }
@@ -94,72 +95,71 @@ where
         self.probe_lines.clone()
     }
 
-    fn all_columns<'a>(&'a self, system: &'a System<D>) -> impl Iterator<Item = Column> + 'a {
-        self.channels.iter().flat_map(|channel| channel.columns(system))
+    pub(crate) fn columns(&self) -> Vec<String> {
+        self.columns.iter().map(|column| column.name.clone()).collect()
     }
 
-    pub(crate) fn columns(&self, system: &System<D>) -> Vec<String> {
-        self.all_columns(system).map(|column| column.name).collect()
+    /// Takes the forces at time zero.
+    pub(crate) fn begin(&mut self, system: &System<D>) {
+        self.rates.clear();
+        self.channels.iter().for_each(|channel| channel.rates(system, &mut self.rates));
     }
 
     /// Values now.
     pub(crate) fn samples(&self, system: &System<D>) -> Vec<f64> {
-        let mut row = Vec::new();
-        self.channels.iter().for_each(|channel| channel.samples(system, &mut row));
-        // A state that continues does not know all forces that led to it.
-        if self.rates_step == Some(system.step) {
-            self.replace(system, &mut row, Kind::Mean, self.rates.iter().copied());
-        }
-        row
+        let time = system.mean_step();
+        self.with(system, &self.rates, self.levels(system).into_iter().map(|[before, after]| (after - before) / time))
     }
 
-    /// Puts these values in the place of those of the columns of a kind.
-    fn replace(&self, system: &System<D>, row: &mut [f64], kind: Kind, by: impl Iterator<Item = f64>) {
-        let own = row.iter_mut().zip(self.all_columns(system)).filter(|(_, column)| column.kind == kind);
-        own.zip(by).for_each(|((value, _), mean)| *value = mean);
-    }
-
-    /// The row of the history for the interval that ends now: means of forces, values now of the others.
-    pub(crate) fn row(&self, system: &System<D>) -> Vec<f64> {
-        let mut row = self.samples(system);
-        if self.means && self.duration > 0.0 {
-            self.replace(system, &mut row, Kind::Mean, self.sums.iter().map(|sum| sum / self.duration));
-            let changes = self.levels.iter().zip(self.levels(system));
-            self.replace(system, &mut row, Kind::Change, changes.map(|(old, new)| (new - old) / self.duration));
-        }
-        row
+    /// Samples now, with these means and changes.
+    fn with(&self, system: &System<D>, means: &[f64], mut changes: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut samples = Vec::with_capacity(self.columns.len());
+        self.channels.iter().for_each(|channel| channel.samples(system, &mut samples));
+        let (mut samples, mut means) = (samples.into_iter(), means.iter().copied());
+        let next = |column: &Column| match column.kind {
+            Kind::Sample => samples.next(),
+            Kind::Mean => means.next(),
+            Kind::Change => changes.next(),
+        };
+        self.columns.iter().filter_map(next).collect()
     }
 
     /// Takes a step into the means of the interval.
     pub(crate) fn note(&mut self, system: &System<D>) {
-        self.rates.clear();
-        self.rates_step = Some(system.step);
-        self.channels.iter().for_each(|channel| channel.rates(system, &mut self.rates));
+        self.begin(system);
         self.sums.resize(self.rates.len(), 0.0);
         let time = system.mean_step();
         self.sums.iter_mut().zip(&self.rates).for_each(|(sum, rate)| *sum += time * rate);
         self.duration += time;
     }
 
-    fn levels(&self, system: &System<D>) -> Vec<f64> {
+    fn levels(&self, system: &System<D>) -> Vec<[f64; 2]> {
         let mut levels = Vec::new();
         self.channels.iter().for_each(|channel| channel.levels(system, &mut levels));
         levels
     }
 
-    /// The row of the interval that ends now, from which the largest forces are kept; another one begins.
+    /// The row of the interval that ends now: means of forces, values now of the others. The largest forces
+    /// are kept, and another interval begins.
     pub(crate) fn take_row(&mut self, system: &System<D>) -> Vec<f64> {
-        let row = self.row(system);
+        let levels: Vec<f64> = self.levels(system).into_iter().map(|[_, after]| after).collect();
+        let row = if self.means && self.duration > 0.0 && self.levels.len() == levels.len() {
+            let means: Vec<f64> = self.sums.iter().map(|sum| sum / self.duration).collect();
+            let changes = self.levels.iter().zip(&levels).map(|(old, new)| (new - old) / self.duration);
+            self.with(system, &means, changes)
+        } else {
+            self.samples(system)
+        };
         self.sums.fill(0.0);
         self.duration = 0.0;
-        self.levels = self.levels(system);
-        self.peaks.note(system.time, D, &self.columns(system), &row);
+        self.levels = levels;
+        self.peaks.note(system.time, &row);
         row
     }
 
     /// The largest forces of the rows so far.
     pub(crate) fn peaks(&self) -> Vec<ForcePeak> {
-        self.peaks.0.clone()
+        self.peaks.found.clone()
     }
 
     /// A system as it is shown now.
@@ -173,8 +173,8 @@ where
     Dim<D>: Dimension<D>,
 {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { fields: _, channels: _, means: _, rates, probe_lines: _, rates_step, levels, sums, duration, peaks } = self;
-        persist_each!(archive; rates, rates_step, levels, sums, duration, &mut peaks.0);
+        let Self { fields: _, channels: _, columns: _, means: _, probe_lines: _, rates, levels, sums, duration, peaks } = self;
+        persist_each!(archive; rates, levels, sums, duration, &mut peaks.found);
         Ok(())
     }
 }

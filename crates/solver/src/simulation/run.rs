@@ -106,7 +106,7 @@ where
         let threads = options.thread_count();
         let (system, model_warnings) = build::system(model, mesh, level, threads).map_err(Error::Model)?;
         let recorded = Recorded::new(model, &system).map_err(Error::Model)?;
-        Channels::new(model, &recorded.columns(&system)).map_err(Error::Model)?;
+        Channels::new(model, &recorded.columns()).map_err(Error::Model)?;
         let pool = if system.team.threads() > 1 { rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok() } else { None };
         let mut simulation = Self {
             momentum: None,
@@ -133,6 +133,7 @@ where
             system,
         };
         within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
+        simulation.recorded.begin(&simulation.system);
         simulation.model_warnings.extend(tiny::warnings(&simulation.system));
         simulation.model_warnings.extend(channel::warnings(model));
         // Where materials are wrong, or one element is, so is the step.
@@ -246,11 +247,13 @@ where
         within_pool(self.pool.as_ref(), &mut self.system, |system| {
             while system.time < time && system.time < system.limits.end && system.step < last {
                 let stepped = system.step();
+                if stepped.as_ref().err().is_none_or(Error::is_of_complete_step) {
+                    recorded.note(system);
+                }
                 if let Some(tracer) = &mut tracer {
                     tracer.note(system, recorded, stepped.as_ref().err());
                 }
                 stepped?;
-                recorded.note(system);
                 shortest.note(system);
                 hashing.note(system);
             }
@@ -484,7 +487,7 @@ where
 
     /// Names of the history's columns; the first is `time`.
     pub(crate) fn history_columns(&self) -> Vec<String> {
-        self.recorded.columns(&self.system)
+        self.recorded.columns()
     }
 
     /// Values of the history's columns now.

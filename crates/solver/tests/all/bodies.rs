@@ -270,6 +270,14 @@ pub(crate) fn run(model: &Model) -> (Simulation, History) {
     }
 }
 
+/// The history of a run that fails.
+pub(crate) fn run_to_failure(model: &Model) -> (Error, History) {
+    let mut simulation = simulation(model);
+    let mut history = History { columns: simulation.history_columns(), rows: vec![], stops: None, kept: None };
+    let error = simulation.run(&mut history).expect_err("the run fails");
+    (error, history)
+}
+
 /// The history of every single step, and the mass of each part.
 pub(crate) struct Steps {
     history: History,

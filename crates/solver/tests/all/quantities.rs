@@ -93,6 +93,35 @@ fn samples_are_those_of_the_row_and_differ_from_means() {
 }
 
 #[test]
+fn the_last_row_of_a_step_that_fails_has_the_forces_of_the_step_before() {
+    // A bar that is thrown on its held end until an element turns inside out, away from the origin; each step
+    // has its row.
+    let mut model = model(6e-5);
+    let soft = model.materials.get_mut("soft").unwrap();
+    soft.law = "j2".into();
+    soft.parameters.insert("yield".into(), 1e6);
+    add(&mut model, "bar", rectangle([0.0, 0.1], [0.003, 0.03], [3, 30]), [0.0, -300.0]);
+    model.symmetries.push(Symmetry { normal: [1.0, 0.0, 0.0], ..Symmetry::default() });
+    model.constraints.push(Constraint {
+        on: "bar.bottom".into(),
+        velocity: [None, Some(Drive::Constant(0.0)), None],
+        ..Constraint::default()
+    });
+    model.output.history = Cadence::Count(600_000);
+    for forces in [Forces::Mean, Forces::Sample] {
+        model.output.forces = forces;
+        let (error, history) = run_to_failure(&model);
+        assert!(matches!(error, embate_solver::error::Error::Inverted { .. }), "{error}");
+        for name in ["symmetry.force_x[0]", "constraint.force_y[0]"] {
+            let column = history.column(name);
+            let [.., before, last] = column[..] else { panic!("there are two rows") };
+            assert!(before.abs() > 1.0, "{name}: {before}");
+            assert_eq!(last, before, "{name}");
+        }
+    }
+}
+
+#[test]
 fn two_oblique_planes_take_what_acts_along_their_own_normals() {
     // A wedge-shaped corner at the origin is held by planes 60 degrees apart and pulled at by a force: only
     // normal forces, N₁ n₁ + N₂ n₂ + F = 0 at rest.

@@ -4,7 +4,7 @@
 use crate::contact::obstacle::space::Solid;
 use crate::tensor::cross;
 use crate::vector::{any_tangent, dot, length, minus, plus, times, unit};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 type Vector = [f64; 3];
 
@@ -126,7 +126,7 @@ struct Shadow<'a> {
     across: [Vector; 2],
     /// Side of a bin, m.
     side: f64,
-    bins: HashMap<[i64; 2], Vec<u32>>,
+    bins: BTreeMap<[i64; 2], Vec<u32>>,
 }
 
 impl<'a> Shadow<'a> {
@@ -149,7 +149,7 @@ impl<'a> Shadow<'a> {
         if !(side > 0.0 && side.is_finite()) {
             return None;
         }
-        let mut bins: HashMap<[i64; 2], Vec<u32>> = HashMap::new();
+        let mut bins: BTreeMap<[i64; 2], Vec<u32>> = BTreeMap::new();
         for (number, piece) in targets.iter().enumerate().filter(|(_, piece)| looks_back(piece)) {
             let [low, high] = range(piece).map(|x| x.map(|x| x / side));
             let slack = 1e-6;

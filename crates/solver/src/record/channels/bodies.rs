@@ -4,7 +4,7 @@ use super::{Channel, Column, forces, means, samples};
 use crate::body_columns::BodyColumns;
 use crate::dimension::Dimension;
 use crate::load::cavity::{self, Cavity};
-use crate::rigid::Body;
+use crate::rigid::{Body, RigidMotion};
 use crate::step::System;
 use crate::tensor::Dim;
 
@@ -44,16 +44,14 @@ where
         for &(_, body) in &system.body_parts {
             row.extend(<Dim<D>>::motion(system.bodies.state(body), system.before()));
         }
-        Channel::<D>::rates(self, system, row);
         row.extend(system.cavities.iter().flat_map(Cavity::values));
     }
 
     fn rates(&self, system: &System<D>, row: &mut Vec<f64>) {
         for (_, body) in driven(system) {
             let reaction = |k: usize| if body.drives()[k].is_some() { -(body.internal[k] + body.force[k] + body.load[k]) } else { 0.0 };
-            row.extend((0..D).map(reaction));
-            // In 2D the third velocity is the spin.
-            row.extend((D..<Dim<D> as crate::rigid::RigidMotion<D>>::FREEDOMS).map(reaction));
+            // Those along the axes, then about them: in 2D the third velocity is the spin.
+            row.extend((0..<Dim<D>>::FREEDOMS).map(reaction));
         }
     }
 }

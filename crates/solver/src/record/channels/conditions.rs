@@ -60,7 +60,7 @@ where
         let nodes = nodes.chain(model.constraints.iter().map(|it| mesh.nodes(&it.on).unwrap_or_default()));
         let points: Vec<[f64; D]> = nodes.map(|nodes| mesh.mean_place(&nodes)).collect();
         let (mut simple, mut has_oblique) = (Vec::new(), false);
-        for (node, held) in system.constraints.held().filter(|(node, _)| system.is_advanced(*node)) {
+        for (node, held) in system.held() {
             match held.directions() {
                 // What closes a join around its axis is no condition of the model.
                 Some(own) => {
@@ -83,10 +83,6 @@ where
         self.names.iter().flat_map(|(kind, name)| means(values().map(move |value| format!("{kind}.{value}[{name}]")))).collect()
     }
 
-    fn samples(&self, system: &System<D>, row: &mut Vec<f64>) {
-        self.rates(system, row);
-    }
-
     fn rates(&self, system: &System<D>, row: &mut Vec<f64>) {
         // Those of a condition lie side by side.
         let (first, width) = (row.len(), D + <Dim<D>>::MOMENT.len());
@@ -105,15 +101,13 @@ where
             push(node, source, times(along, direction));
         }
         if self.has_oblique {
-            system.reactions(|node, held, reaction| {
-                if system.is_advanced(node) && held.directions().is_none() {
-                    held.share_out(reaction, |source, force| {
-                        if (source as usize) < self.points.len() {
-                            push(node, source, force);
-                        }
-                    });
-                }
-            });
+            for (node, held) in system.held().filter(|(_, held)| held.directions().is_none()) {
+                held.share_out(system.reaction(node), |source, force| {
+                    if (source as usize) < self.points.len() {
+                        push(node, source, force);
+                    }
+                });
+            }
         }
         system.moment_reactions(|_, held, reaction| held.share_out(reaction, |source, own| add(source, &mut moment::<D>(own), D)));
     }
@@ -147,25 +141,6 @@ impl Loads {
         let name = |place: usize| name_of(model.load_names.get(place).map_or("", String::as_str), place);
         Self { names: model.loads.iter().enumerate().filter_map(|(k, load)| Some((k, name(k), kind(load)?))).collect() }
     }
-
-    /// Adds what has a mean.
-    fn add_rate<const D: usize>(system: &System<D>, (place, kind): (usize, Resultant), row: &mut Vec<f64>)
-    where
-        Dim<D>: Dimension<D>,
-    {
-        match kind {
-            Resultant::OfNodes => {
-                let found = system.forces.resultants().find(|(index, _)| *index == place);
-                let found = found.map(|(_, resultant)| resultant).unwrap_or_default();
-                row.extend(found.force.into_iter().chain(moment::<D>(found.moment)));
-            }
-            Resultant::Moment => {
-                let found = system.rotations.load_moments().find(|(index, _)| *index == place);
-                row.extend(moment::<D>(found.map_or([0.0; 3], |(_, moment)| moment)));
-            }
-            Resultant::OfMass => row.extend(system.body_forces.resultant(place, &system.mass, &system.positions)),
-        }
-    }
 }
 
 impl<const D: usize> Channel<D> for Loads
@@ -185,11 +160,20 @@ where
         columns
     }
 
-    fn samples(&self, system: &System<D>, row: &mut Vec<f64>) {
-        Channel::<D>::rates(self, system, row);
-    }
-
     fn rates(&self, system: &System<D>, row: &mut Vec<f64>) {
-        self.names.iter().for_each(|&(place, _, kind)| Self::add_rate(system, (place, kind), row));
+        for &(place, _, kind) in &self.names {
+            match kind {
+                Resultant::OfNodes => {
+                    let found = system.forces.resultants().find(|(index, _)| *index == place);
+                    let found = found.map(|(_, resultant)| resultant).unwrap_or_default();
+                    row.extend(found.force.into_iter().chain(moment::<D>(found.moment)));
+                }
+                Resultant::Moment => {
+                    let found = system.rotations.load_moments().find(|(index, _)| *index == place);
+                    row.extend(moment::<D>(found.map_or([0.0; 3], |(_, moment)| moment)));
+                }
+                Resultant::OfMass => row.extend(system.body_forces.resultant(place, &system.mass, &system.positions)),
+            }
+        }
     }
 }

@@ -131,19 +131,21 @@ where
     }
 
     fn samples(&self, system: &System<D>, row: &mut Vec<f64>) {
-        for (index, contact) in system.contacts.iter().enumerate() {
-            if contact.kind.is_connection() {
-                row.extend(connected::<D>(contact.kind, &contact.connected().unwrap_or_default()));
-                continue;
+        for contact in &system.contacts {
+            let (totals, connected) = (&contact.totals, || contact.connected().unwrap_or_default());
+            match contact.kind {
+                ContactKind::Weld => {
+                    let Connected { moment, normal, shear, intact, .. } = connected();
+                    row.extend([normal, shear, length(moment), f64::from(u8::from(intact))]);
+                }
+                ContactKind::Joint => row.push(connected().gap),
+                ContactKind::Contact | ContactKind::Obstacle(_) => {
+                    row.extend([totals.energy + totals.slip_energy, contact.depth(), contact.friction_work]);
+                }
             }
-            let totals = &contact.totals;
-            row.extend(totals.resultant);
-            row.extend([totals.energy + totals.slip_energy, contact.depth(), contact.friction_work]);
-            add_moment(system, contact, self.points[index], row);
             if let ContactKind::Obstacle(body) = contact.kind {
                 row.extend(moves(system, body).iter().flat_map(|body| <Dim<D>>::motion(body, system.before())));
             }
-            self.pair_forces(index, system, row);
         }
     }
 
@@ -181,13 +183,4 @@ where
         });
         row.extend(moment::<D>(sum));
     }
-}
-
-/// Values of a weld or joint.
-fn connected<const D: usize>(kind: ContactKind, found: &Connected) -> Vec<f64> {
-    let Connected { force, moment: about, normal, shear, gap, intact, grounded: _ } = *found;
-    if kind == ContactKind::Weld {
-        return vec![normal, shear, length(about), f64::from(u8::from(intact))];
-    }
-    force[..D].iter().copied().chain(moment::<D>(about)).chain([gap]).collect()
 }

@@ -63,14 +63,14 @@ pub(crate) trait Channel<const D: usize>: Send + Sync
 where
     Dim<D>: Dimension<D>,
 {
-    /// Its columns.
+    /// Its columns. Each of the other functions adds values of those of one kind, in their order.
     fn columns(&self, system: &System<D>) -> Vec<Column>;
-    /// Adds their values now to `row`.
-    fn samples(&self, system: &System<D>, row: &mut Vec<f64>);
-    /// Adds those alone of columns with a mean, after every step.
+    /// Adds values now of columns with a sample.
+    fn samples(&self, _system: &System<D>, _row: &mut Vec<f64>) {}
+    /// Adds values in the last update of columns with a mean, after every step.
     fn rates(&self, _system: &System<D>, _row: &mut Vec<f64>) {}
-    /// Adds the levels of columns with a change, after every row.
-    fn levels(&self, _system: &System<D>, _row: &mut Vec<f64>) {}
+    /// Adds levels before and after the last update of columns with a change.
+    fn levels(&self, _system: &System<D>, _levels: &mut Vec<[f64; 2]>) {}
 }
 
 /// All groups of a system.

@@ -212,7 +212,6 @@ where
             if probe.moves {
                 row.extend(probe.mean(|node| system.positions[node]));
                 row.extend(probe.mean(|node| system.velocity(node)));
-                row.extend(probe.mean(|node| acceleration(system, node)));
             }
             if probe.moves && probe.spins {
                 row.extend(super::moment::<D>(probe.spin(system)));
@@ -221,20 +220,12 @@ where
         }
     }
 
-    fn levels(&self, system: &System<D>, row: &mut Vec<f64>) {
+    fn levels(&self, system: &System<D>, levels: &mut Vec<[f64; 2]>) {
         for probe in self.0.iter().filter(|probe| probe.moves) {
-            row.extend(probe.mean(|node| system.velocities_around(node)[1]));
+            let [before, after] = [0, 1].map(|at| probe.mean(|node| system.velocities_around(node)[at]));
+            levels.extend(before.into_iter().zip(after).map(|(before, after)| [before, after]));
         }
     }
-}
-
-/// Change of the velocity of a node by the time of the last update, m/s².
-fn acceleration<const D: usize>(system: &System<D>, node: usize) -> [f64; D]
-where
-    Dim<D>: Dimension<D>,
-{
-    let ([old, new], time) = (system.velocities_around(node), system.mean_step());
-    if time > 0.0 { times(1.0 / time, minus(new, old)) } else { [0.0; D] }
 }
 
 /// Where an element is stored, by the user's number in its part.

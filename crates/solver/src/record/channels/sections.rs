@@ -180,10 +180,6 @@ where
         self.0.iter().flat_map(|section| means(values().map(|value| format!("cut.{value}[{}]", section.name)))).collect()
     }
 
-    fn samples(&self, system: &System<D>, row: &mut Vec<f64>) {
-        self.rates(system, row);
-    }
-
     fn rates(&self, system: &System<D>, row: &mut Vec<f64>) {
         for section in &self.0 {
             let (force, about) = section.transmitted(system);

@@ -42,8 +42,9 @@ fn a_run_without_keys_that_is_killed_continues_from_a_state_of_its_first_seconds
     let resumed = figures(&out);
     // All stretches count, as all steps do.
     assert!(resumed["wall_seconds"].as_f64() > Some(spent.wall) && resumed["steps"] == kept.step + 1000);
+    // A system's clock may be so coarse that the last stretch took none of it.
     if let Some(seconds) = resumed["user_cpu_seconds"].as_f64() {
-        assert!(Some(seconds) > spent.user_cpu);
+        assert!(Some(seconds) >= spent.user_cpu, "{seconds} s after {spent:?}");
     }
     // The same without the state, and without any: neither the clock nor the stop leaves a trace.
     let whole = ["run", "model.toml", "--out", "whole", "--quiet", "--set", "run.end=1000s", "--set", &steps, "--set", "run.checkpoint=0"];

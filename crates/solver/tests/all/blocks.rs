@@ -1,6 +1,7 @@
 //! What every registered element with every registered law promises: constant strain, rigid motion,
 //! stiffness, masses, energy, the stable step, and the same bits on every instruction set.
 
+use crate::bodies::samples;
 use crate::patches::*;
 use embate_lanes::{Level, Team};
 use embate_solver::element::ELEMENTS;
@@ -195,7 +196,7 @@ fn corner_forces_do_the_work_that_the_energy_reports() {
 fn worst_step(element: &str, law: &str, roughness: f64, later: impl Fn(&[[f64; 2]], &mut Spread) -> Vec<[f64; 2]>) -> f64 {
     let mut numbers = Spread::new(15);
     let mut worst = 0.0f64;
-    for round in 0..150 {
+    for round in 0..samples(150) as usize {
         let material = material(law, [-0.5, 0.0, 0.3, 0.499][round % 4]);
         let x = distorted(element, roughness, 20.0, &mut numbers);
         let y = later(&x, &mut numbers);

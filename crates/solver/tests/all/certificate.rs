@@ -73,7 +73,7 @@ impl Rings {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: samples(150), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn whoever_is_inside_a_body_is_in_contact_with_it(
@@ -206,7 +206,7 @@ fn a_contact_that_transmits_nothing_is_mentioned() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: samples(300), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// What sleeps is found as if it had been looked at: the same touches, searches and proof in every step,
     /// of bodies that dart about (some of their nodes more slowly) and of such as go straight towards each

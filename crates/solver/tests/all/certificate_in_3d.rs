@@ -2,6 +2,7 @@
 //! the contact is blind, and what sleeps is proven as by a look at all pairs.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
+use crate::bodies::samples;
 use embate_solver::contact::law::penalty::Penalty;
 use embate_solver::contact::missed_contacts::MissedContactCheck;
 use embate_solver::contact::node_facet::NodeFacet;
@@ -313,7 +314,7 @@ fn moved(x: Vector, way: Vector, turn: Vector, about: Vector) -> Vector {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 250, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: samples(250), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// A rigid body darts about, by up to a metre a step, around, into and through a plate: who sees misses
     /// nothing, and a node that goes in, by a look at all pairs, is held on the side where it came in; who is
@@ -363,7 +364,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: samples(60), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Of two bodies that dart about and change their shapes every node that goes into the other is caught,
     /// as by a look at all pairs without a search and without sleep.

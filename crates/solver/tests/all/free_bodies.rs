@@ -351,7 +351,7 @@ fn any_number_of_threads_and_every_instruction_set_give_the_same_state() {
             (summary.state_hash, summary.energy_drift.to_bits(), row.into_iter().map(f64::to_bits).collect::<Vec<_>>())
         };
         let reference = outcome(1, "scalar");
-        for threads in [1, 2, 3, 7] {
+        for threads in [2, 7] {
             for level in Level::available() {
                 assert!(outcome(threads, level.name()) == reference, "{}: {threads} threads, {}", law.name, level.name());
             }

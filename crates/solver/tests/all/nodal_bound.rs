@@ -66,7 +66,7 @@ fn no_element_is_stiffer_than_what_it_hands_over() {
 fn the_step_by_nodes_bounds_the_frequencies_of_random_patches() {
     for kind in ELEMENTS {
         let mut numbers = Spread::new(22);
-        let all: Vec<_> = (0..110)
+        let all: Vec<_> = (0..samples(110) as usize)
             .map(|round| {
                 let material = material("elastic", [-0.5, 0.0, 0.3, 0.45, 0.499][round % 5]);
                 let mut patch = patch(kind.name, 2 + round % 2, 0.1);
@@ -80,7 +80,7 @@ fn the_step_by_nodes_bounds_the_frequencies_of_random_patches() {
     }
     for kind in ELEMENTS_OF_SPACE {
         let mut numbers = Spread::new(23);
-        let all: Vec<_> = (0..40)
+        let all: Vec<_> = (0..samples(40) as usize)
             .map(|round| {
                 let material = material("elastic", [-0.5, 0.0, 0.3, 0.45, 0.499][round % 5]);
                 let mut patch = solids::patch(kind.name, 2, 0.1);

@@ -2,6 +2,7 @@
 //! crossings against exact arithmetic.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
+use crate::bodies::samples;
 use embate_solver::contact::projection::node_segment::{Projection, Target, Vector};
 use embate_solver::mesh::surface::{NONE, Surface};
 use proptest::prelude::*;
@@ -457,7 +458,7 @@ fn no_way_in_is_missed(old: &[[i64; 2]; 3], new: &[[i64; 2]; 3], from: [i64; 2],
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: samples(20_000), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn who_is_outside_before_and_inside_after_came_in_somewhere(
@@ -481,7 +482,7 @@ fn at(t: f64, a: Vector, b: Vector) -> Vector {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: samples(4000), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn a_crossing_is_where_dense_sampling_sees_the_node_go_in(coordinates in prop::collection::vec(-1.0..1.0_f64, 12)) {

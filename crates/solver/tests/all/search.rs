@@ -5,6 +5,7 @@
 //! True pairs come from distances of points and simplices at many times of the step, the ends and the times
 //! of coplanarity among them.
 
+use crate::bodies::samples;
 use embate_solver::contact::search::{Pair, Query, registry};
 use proptest::prelude::*;
 
@@ -508,7 +509,7 @@ fn any_bodies() -> impl Strategy<Value = Scene<2>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 192, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: samples(192), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn every_search_keeps_its_promises_on_any_segments(scene in any_scene::<2>()) {

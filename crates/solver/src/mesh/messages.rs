@@ -204,8 +204,9 @@ pub(crate) static NOTHING_CUT: Message = Message {
          rectangle = { corner = [0, 0], size = [\"10 mm\", \"2 mm\"], elements = [4, 1] }\n\n[[cut]]\nname = \"middle\"\n\
          point = [\"50 mm\", 0]\nnormal = [1, 0]\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "The plane of a `[[cut]]` lies beside the parts, or these are rigid: there is no force in elements to report.",
-    remedy: "Move `point` into a deformable part; of rigid parts the forces of contacts and drives are in the history.",
+    cause: "The plane of a `[[cut]]` lies beside the parts, its `radius` ends before them, or these are rigid: there is no force in \
+        elements to report.",
+    remedy: "Move `point` into a deformable part, or give a larger `radius`; of rigid parts the forces of contacts and drives are in the history.",
 };
 
 pub(crate) static ABOUT_NORMAL: Message = Message {

@@ -160,16 +160,26 @@ section! {
     #[derive(Clone, Debug, PartialEq)]
     pub struct Cut in CUT = Section {
         name: "cut",
-        doc: "A plane (in 2D a line) through deformable parts at the start, which moves with the elements that it cuts: the history \
-            has the force and the moment that the side to which the normal points exerts on the other one. Springs across it, \
-            contacts and loads do not count.",
+        doc: "A plane (in 2D a line) through deformable parts at the start, or with `radius` a disc (a piece of the line), which moves \
+            with the elements that it cuts: the history has the force and the moment that the side to which the normal points exerts \
+            on the other one. Springs across it, contacts and loads do not count.",
         form: Form::Repeated,
         ..Section::EMPTY
     };
     name: String = Name, Required, "Unique name.";
     point: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Required, "A point of the plane.";
     normal: [f64; 3] = Spatial(Dimension::NONE, Finite), Required, "Its normal; any length but zero. Tension is a force along it.";
-    parts: Vec<String> = References(None), Optional("all deformable parts that it cuts"), "Parts that it cuts, from end to end.";
+    radius: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("the whole plane"),
+        "Elements are cut only where the middle of what the plane cuts of them is so near `point`: one wall of a ring or a frame.";
+    parts: Vec<String> = References(None), Optional("all deformable parts that it cuts"), "Parts that it cuts.";
+}
+
+impl Cut {
+    /// Whether it goes through a part of this name.
+    #[must_use]
+    pub fn takes(&self, part: &str) -> bool {
+        self.parts.is_empty() || self.parts.iter().any(|name| name == part)
+    }
 }
 
 section! {

@@ -24,6 +24,7 @@ mod conditions;
 mod connections;
 mod contact;
 mod corners;
+mod cuts;
 mod discrete;
 mod discrete_in_3d;
 mod edge_edge;

@@ -162,7 +162,7 @@ section! {
         name: "cut",
         doc: "A plane (in 2D a line) through deformable parts at the start, or with `radius` a disc (a piece of the line), which moves \
             with the elements that it cuts: the history has the force and the moment that the side to which the normal points exerts \
-            on the other one. Springs across it, contacts and loads do not count.",
+            on the other one, by elements and by springs, welds, joints and ties. Contacts and loads do not count.",
         form: Form::Repeated,
         ..Section::EMPTY
     };
@@ -171,7 +171,7 @@ section! {
     normal: [f64; 3] = Spatial(Dimension::NONE, Finite), Required, "Its normal; any length but zero. Tension is a force along it.";
     radius: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("the whole plane"),
         "Elements are cut only where the middle of what the plane cuts of them is so near `point`: one wall of a ring or a frame.";
-    parts: Vec<String> = References(None), Optional("all deformable parts that it cuts"), "Parts that it cuts.";
+    parts: Vec<String> = References(None), Optional("all deformable parts that it cuts"), "Parts that it cuts, and whose connections count.";
 }
 
 impl Cut {

@@ -1,12 +1,14 @@
 //! Cuts: discs that cut one wall of a ring against closed forms, and against whole planes, which find their
-//! forces in another way.
+//! forces in another way; connections that cross the plane against the momentum of what is beyond.
 
 use crate::beams::{beams, round};
 use crate::bodies::*;
 use crate::shells::section;
 use embate_solver::model::{
-    Constraint, Cuboid, Cut, Drive, ImportedMesh, Load, Model, Part, Polygon, Relaxation, Ring, Shape, SpaceTruss, Symmetry, Truss,
+    Constraint, Contact, Cuboid, Cut, Drive, ImportedMesh, Join, Joint, Load, Model, Motion, Part, Polygon, Probe, ProbeAt, Relaxation,
+    Ring, Shape, SpaceTruss, Spring, Symmetry, Truss, Weld,
 };
+use embate_solver::simulation::Simulation;
 
 fn close(found: f64, wanted: f64, scale: f64, what: &str) {
     assert!((found - wanted).abs() <= scale, "{what}: {found:e} for {wanted:e}");
@@ -239,4 +241,220 @@ fn a_disc_that_meets_no_wall_is_a_fault() {
     // Its radius is a length.
     model.cuts[0].radius = Some(-1.0);
     assert!(model.check().iter().any(|fault| fault.path == "cut[0].radius"));
+}
+
+/// What is beyond a cut, a set of this mass (kg/m, kg), is moved by the cut alone: in every row
+/// m a = −N, in the mean.
+fn moves_by(history: &History, cut: &str, set: &str, mass: f64, case: &str) {
+    for axis in ["x", "y"] {
+        let (force, acceleration) = (history.column(&format!("cut.force_{axis}[{cut}]")), history.column(&format!("{set}.a{axis}")));
+        let size = force.iter().fold(0.0f64, |size, force| size.max(force.abs()));
+        assert!(size > 1.0, "{case}: nothing goes across along {axis}");
+        for (row, (force, acceleration)) in force.iter().zip(&acceleration).enumerate() {
+            close(mass * acceleration, -force, 1e-10 * size, &format!("{case}, {axis}, row {row}"));
+        }
+    }
+}
+
+/// What is left out of cuts.
+fn left_out(simulation: &Simulation) -> Vec<String> {
+    let own = simulation.model_warnings().iter().filter(|warning| warning.kind.code == "W0205");
+    own.map(|warning| warning.message.clone()).collect()
+}
+
+#[test]
+fn a_cut_through_a_spring_in_series_with_bodies_has_its_force() {
+    for is_solid in [false, true] {
+        let mut model = model(2e-3);
+        for (name, x) in [("left", 0.0), ("right", 1.1)] {
+            let solid = Cuboid { corner: [x, 0.0, 0.0], size: [1.0, 0.1, 0.1], elements: [10, 1, 1], ..Cuboid::default() };
+            let shape = if is_solid { Shape::Cuboid(solid) } else { rectangle([x, 0.0], [1.0, 0.1], [10, 1]) };
+            add(&mut model, name, shape, [0.0; 2]);
+            model.parts.last_mut().unwrap().element = if is_solid { "hex8" } else { "quad4" }.into();
+        }
+        model.parts[1].velocity = [3.0, 1.0, 0.0];
+        let between = ["left.right", "right.left"].map(String::from);
+        model.springs.push(Spring { between, stiffness: 2e5, damping: 30.0, ..Spring::default() });
+        cut(&mut model, "gap", [1.03, 0.0, 0.0], [1.0, 0.0, 0.0], None);
+        let depth = if is_solid { 0.05 } else { 0.0 };
+        cut(&mut model, "low", [1.05, 0.0, depth], [1.0, 0.0, 0.0], Some(0.07));
+        cut(&mut model, "high", [1.05, 0.1, depth], [1.0, 0.0, 0.0], Some(0.07));
+        model.cuts.push(Cut { parts: vec!["right".into(), "left".into()], name: "named".into(), ..model.cuts[0].clone() });
+        let (simulation, history) = run(&model);
+        let mass = simulation.overview().parts[1].mass;
+        moves_by(&history, "gap", "right", mass, if is_solid { "solids" } else { "plane" });
+        let of = |name: &str| history.column(&format!("cut.force_x[{name}]"));
+        assert_eq!(of("gap"), of("named"));
+        // Each of the discs has the pairs of nodes at one side.
+        let [all, low, high] = ["gap", "low", "high"].map(of);
+        for (row, all) in all.iter().enumerate() {
+            close(low[row] + high[row], *all, 1e-9 * all.abs().max(1.0), &format!("row {row}"));
+        }
+        assert!(low.iter().zip(&high).all(|(low, high)| low.signum() == high.signum()) && low.last() != Some(&0.0));
+        assert!(left_out(&simulation).is_empty());
+    }
+}
+
+#[test]
+fn a_spring_to_a_part_that_is_not_named_is_left_out_and_said() {
+    let mut model = model(2e-3);
+    add(&mut model, "left", rectangle([0.0, 0.0], [1.0, 0.1], [10, 1]), [0.0; 2]);
+    add(&mut model, "right", rectangle([1.1, 0.0], [1.0, 0.1], [10, 1]), [3.0, 1.0]);
+    let between = ["left.left", "right.left"].map(String::from);
+    model.springs.push(Spring { between, stiffness: 2e5, ..Spring::default() });
+    let point = [0.52, 0.0, 0.0];
+    cut(&mut model, "all", point, [1.0, 0.0, 0.0], None);
+    model.cuts.push(Cut { parts: vec!["left".into()], name: "one".into(), ..model.cuts[0].clone() });
+    model.cuts.push(Cut { radius: Some(0.02), point: [0.52, 0.05, 0.0], name: "narrow".into(), ..model.cuts[0].clone() });
+    let (simulation, history) = run(&model);
+    let [message] = &left_out(&simulation)[..] else { panic!("{:?}", left_out(&simulation)) };
+    assert_eq!(message, "spring[0] crosses the plane of cut `one` to a part that is none of its `parts`");
+    // From node to node the springs pull with what their lengths say; the elements of the disc are all.
+    let [all, one, narrow] = ["all", "one", "narrow"].map(|name| history.column(&format!("cut.force_x[{name}]")));
+    assert!(all.iter().zip(&one).any(|(all, one)| (all - one).abs() > 100.0), "{all:?} {one:?}");
+    for ((all, one), narrow) in all.iter().zip(&one).zip(&narrow) {
+        close(*narrow, *one, 1e-6, "the springs are at the sides of the disc");
+        assert!(all.is_finite());
+    }
+    // A rigid part goes along with any: what it is connected with counts.
+    model.parts[1].rigid = Some(Motion::default());
+    assert!(left_out(&made(&model)).is_empty());
+}
+
+/// A simulation at time zero.
+fn made(model: &Model) -> Simulation {
+    simulation(model)
+}
+
+/// Two layers of unlike meshes on each other, that of nodes beyond x = 0.47 as a set `far`, and its mass.
+fn layers(columns: [u32; 2], offset: f64) -> (Model, f64) {
+    let (mut positions, mut groups, mut masses) = (Vec::new(), Vec::new(), Vec::new());
+    for (layer, (count, names)) in columns.into_iter().zip([["lower", "over"], ["upper", "under"]]).enumerate() {
+        let (first, at) = (positions.len() as u32, |i: u32, j: u32| j * (count + 1) + i);
+        for j in 0..=2 {
+            for i in 0..=count {
+                let share = |k: u32, last: u32| if k == 0 || k == last { 0.5 } else { 1.0 };
+                let x = f64::from(i) / f64::from(count) + if (layer, j) == (1, 0) { offset } else { 0.0 };
+                positions.push([x, 0.1 * layer as f64 + 0.05 * f64::from(j), 0.0]);
+                masses.push(1e3 * 0.05 / f64::from(count) * share(i, count) * share(j, 2));
+            }
+        }
+        let cells = (0..2).flat_map(|j| (0..count).map(move |i| [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]));
+        groups.push(group(names[0], 2, cells.map(|cell| cell.map(|(i, j)| first + at(i, j)).to_vec())));
+        let row = if layer == 0 { 2 } else { 0 };
+        groups.push(group(names[1], 1, (0..count).map(|i| vec![first + at(i, row), first + at(i + 1, row)])));
+    }
+    let far = || (0..positions.len() as u32).filter(|node| positions[*node as usize][0] > 0.47 + 1e-6);
+    groups.push(group("far", 0, far().map(|node| vec![node])));
+    let mass = far().map(|node| masses[node as usize]).sum();
+    let mut model = model(1e-3);
+    add_groups(
+        &mut model,
+        ImportedMesh { source: "layers".into(), positions, groups, ..ImportedMesh::default() },
+        &["lower", "upper"],
+        [0.0; 2],
+    );
+    model.parts[1].velocity = [20.0, 5.0, 0.0];
+    model.parts[1].spin = 40.0;
+    model.probes.push(Probe { name: "far".into(), at: ProbeAt::Set { set: "far".into() }, ..Probe::default() });
+    cut(&mut model, "section", [0.47, 0.0, 0.0], [1.0, 0.0, 0.0], None);
+    (model, mass)
+}
+
+/// What connects the layers of a model.
+type Connect = fn(&mut Model);
+
+/// Sets of the layers that lie on each other, and a point between them.
+fn seam() -> ([String; 2], [f64; 3]) {
+    (["over", "under"].map(String::from), [0.47, 0.1, 0.0])
+}
+
+fn tie(model: &mut Model) {
+    model.contacts.push(Contact { tied: Some(f64::INFINITY), ..Contact::between("glue", "under", "over") });
+}
+
+fn weld(model: &mut Model) {
+    let (between, at) = seam();
+    model.welds.push(Weld { name: "spot".into(), between, at: vec![at], radius: Some(0.2), ..Weld::default() });
+}
+
+fn joint(model: &mut Model) {
+    let (between, at) = seam();
+    let (name, kind) = ("pin".into(), "fixed".into());
+    model.joints.push(Joint { name, between: between.to_vec(), kind, at, radius: Some(0.2), ..Joint::default() });
+}
+
+fn join(model: &mut Model) {
+    model.joins.push(Join { between: seam().0, ..Join::default() });
+}
+
+#[test]
+fn ties_welds_joints_and_joined_nodes_across_the_plane_count() {
+    // Of joined nodes the upper one is a little beyond the plane, the lower one in it.
+    let cases: [(&str, [u32; 2], f64, Connect); 4] =
+        [("tie", [10, 7], 0.0, tie), ("weld", [10, 7], 0.0, weld), ("joint", [10, 7], 0.0, joint), ("join", [100, 100], 1e-7, join)];
+    for (case, columns, offset, connect) in cases {
+        let (mut model, mass) = layers(columns, offset);
+        connect(&mut model);
+        let (simulation, history) = run(&model);
+        moves_by(&history, "section", "far", mass, case);
+        assert!(left_out(&simulation).is_empty(), "{case}");
+        // Of the lower layer alone it is left out; nodes that are one can't be.
+        model.cuts[0].parts = vec!["lower".into()];
+        let found = left_out(&made(&model));
+        if case == "join" {
+            assert!(found.is_empty(), "{found:?}");
+        } else {
+            let what = ["contact `glue`", "weld `spot`", "joint `pin`"].into_iter().find(|what| found[0].starts_with(what));
+            assert!(found.len() == 1 && what.is_some(), "{case}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn a_joint_with_the_ground_is_a_support_and_no_connection() {
+    let (mut model, _) = layers([10, 10], 0.0);
+    join(&mut model);
+    let with = |model: &Model| run(model).1.column("cut.force_x[section]");
+    model.joints.push(Joint {
+        name: "foot".into(),
+        between: vec!["lower".into()],
+        kind: "fixed".into(),
+        at: [0.47, 0.0, 0.0],
+        radius: Some(0.12),
+        ..Joint::default()
+    });
+    let whole = with(&model);
+    // Elements alone, by a disc that takes them all.
+    model.cuts[0].radius = Some(1.0);
+    for (row, (disc, whole)) in with(&model).into_iter().zip(whole).enumerate() {
+        close(disc, whole, 1e-6, &format!("row {row}"));
+    }
+}
+
+#[test]
+fn rigid_parts_across_a_plane_and_contacts_that_push_across_it_are_named() {
+    let mut model = model(1e-3);
+    add(&mut model, "left", rectangle([0.0, 0.0], [0.1, 0.1], [4, 4]), [0.0; 2]);
+    add(&mut model, "right", rectangle([0.1001, 0.02], [0.1, 0.1], [4, 4]), [-5.0, 0.0]);
+    touch(&mut model, "left.right", "right.left");
+    cut(&mut model, "section", [0.0, 0.05, 0.0], [0.0, 1.0, 0.0], None);
+    let (simulation, _) = run(&model);
+    assert!(left_out(&simulation).is_empty());
+    let pushed = |simulation: &Simulation| {
+        let warnings = simulation.summary().warnings;
+        warnings.iter().filter(|it| it.text.contains("pushes across the plane of cut \"section\"")).count()
+    };
+    assert_eq!(pushed(&simulation), 1);
+    // Of one of the two that is no matter.
+    model.cuts[0].parts = vec!["left".into()];
+    assert_eq!(pushed(&run(&model).0), 0);
+    model.cuts[0].parts.clear();
+    model.parts[1].rigid = Some(Motion::default());
+    let found = left_out(&made(&model));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0], "rigid part `right` lies across the plane of cut `section`, and forces in it are not known");
+    model.cuts[0].radius = Some(0.11);
+    model.cuts[0].point = [0.0, 0.05, 0.0];
+    assert!(left_out(&made(&model)).is_empty());
 }

@@ -1,20 +1,21 @@
 //! The plane of a cut at the start, and what it cuts of elements.
 
+use crate::dimension::Dimension;
 use crate::mesh::ElementGroup;
-use crate::mesh::geometry::CellGeometry;
 use crate::model::{self, in_3d};
+use crate::step::System;
 use crate::tensor::{Dim, cross};
 use crate::vector::{any_tangent, dot, first, length, minus, plus, times, unit};
 
-/// A plane, or a disc in it.
-pub(super) struct Plane<'a, const D: usize> {
+/// A plane, or a disc in it, and on which side the nodes are.
+pub(super) struct Plane<const D: usize> {
     point: [f64; D],
     pub(super) normal: [f64; D],
     /// Of a disc; infinite: the whole plane.
     radius: f64,
-    /// Nodes in the plane are on the other side, whatever rounding says.
-    least: f64,
-    positions: &'a [[f64; D]],
+    /// Whether each node of the mesh is on the side of the normal: nodes on faces of shells, and joined ones,
+    /// are where the node is with which they go.
+    beyond: Vec<bool>,
 }
 
 /// What a plane cuts of an element.
@@ -24,52 +25,85 @@ pub(super) struct Slice {
     points: Vec<[f64; 3]>,
 }
 
-impl<'a, const D: usize> Plane<'a, D>
+impl<const D: usize> Plane<D>
 where
-    Dim<D>: CellGeometry<D>,
+    Dim<D>: Dimension<D>,
 {
-    /// That of a cut among nodes at these places at the start, m; `None`: it has no normal.
-    pub(super) fn new(cut: &model::Cut, positions: &'a [[f64; D]]) -> Option<Self> {
-        Some(Self {
+    /// That of a cut; `None`: it has no normal.
+    pub(super) fn new(cut: &model::Cut, system: &System<D>) -> Option<Self> {
+        let (mesh, joins) = (&system.mesh, &system.joins);
+        let mut plane = Self {
             point: first(cut.point),
             normal: unit(first::<D>(cut.normal))?,
             radius: cut.radius.unwrap_or(f64::INFINITY),
-            least: crate::mesh::tolerance(positions),
-            positions,
-        })
+            beyond: vec![],
+        };
+        // Nodes in the plane are on the other side, whatever rounding says.
+        let least = crate::mesh::tolerance(&mesh.positions);
+        // Images of others are elsewhere.
+        let leader = |node: u32| if joins.is_periodic() { node } else { joins.leader(node).0 };
+        let is_beyond = |node: u32| plane.height(leader(mesh.leader_of(node)), &mesh.positions) > least;
+        plane.beyond = (0..mesh.positions.len() as u32).map(is_beyond).collect();
+        Some(plane)
     }
 
-    fn height(&self, node: u32) -> f64 {
-        dot(minus(self.positions[node as usize], self.point), self.normal)
+    fn height(&self, node: u32, positions: &[[f64; D]]) -> f64 {
+        dot(minus(positions[node as usize], self.point), self.normal)
     }
 
     /// Whether a node is on the side of the normal.
     pub(super) fn has_beyond(&self, node: u32) -> bool {
-        self.height(node) > self.least
+        self.beyond[node as usize]
+    }
+
+    /// Whether there are nodes of the mesh on both sides, and no others.
+    pub(super) fn is_between(&self, mut nodes: impl Iterator<Item = u32> + Clone) -> bool {
+        let is_of_mesh = |node: u32| (node as usize) < self.beyond.len();
+        nodes.clone().all(is_of_mesh) && nodes.clone().any(|node| self.has_beyond(node)) && nodes.any(|node| !self.has_beyond(node))
+    }
+
+    /// Whether the line between the means of what is on either side, as it was at the start (m), goes through
+    /// the disc.
+    pub(super) fn meets(&self, nodes: impl Iterator<Item = u32> + Clone, positions: &[[f64; D]]) -> bool {
+        if self.radius == f64::INFINITY {
+            return true;
+        }
+        let mean = |beyond: bool| {
+            let own = nodes.clone().filter(|node| self.has_beyond(*node) == beyond);
+            let count = own.clone().count() as f64;
+            times(1.0 / count, own.fold([0.0; D], |sum, node| plus(sum, minus(positions[node as usize], self.point))))
+        };
+        let (from, to) = (mean(false), mean(true));
+        let (low, high) = (dot(from, self.normal), dot(to, self.normal));
+        let share = if high > low { (-low / (high - low)).clamp(0.0, 1.0) } else { 0.5 };
+        length(plus(from, times(share, minus(to, from)))) <= self.radius
     }
 
     /// What it cuts of an element, if it does; of a disc, if the middle of that is on it.
-    pub(super) fn slice(&self, group: &ElementGroup, element: usize) -> Option<Slice> {
-        let nodes = group.nodes_of(element);
-        if nodes.iter().all(|&node| self.has_beyond(node)) || !nodes.iter().any(|&node| self.has_beyond(node)) {
+    pub(super) fn slice(&self, group: &ElementGroup, element: usize, positions: &[[f64; D]]) -> Option<Slice> {
+        if !self.is_between(group.nodes_of(element).iter().copied()) {
             return None;
         }
         let edges = group.cell(element).edges().filter(|edge| self.has_beyond(edge[0]) != self.has_beyond(edge[1]));
-        let edges: Vec<([u32; 2], f64)> = edges.map(|edge| (edge, self.share(edge))).collect();
-        let points = edges.iter().map(|&(edge, share)| self.between(edge, share)).collect();
-        let slice = Slice { edges, points };
+        let edges: Vec<([u32; 2], f64)> = edges.map(|edge| (edge, self.share(edge, positions))).collect();
+        let slice = Slice { points: edges.iter().map(|&(edge, share)| in_3d(between(edge, share, positions))).collect(), edges };
         let way = minus(slice.middle(), in_3d(self.point));
         (length(way) <= self.radius).then_some(slice)
     }
 
-    fn share(&self, [a, b]: [u32; 2]) -> f64 {
-        self.height(a) / (self.height(a) - self.height(b))
+    /// The share of the way to the second node at which an edge is cut.
+    pub(super) fn share(&self, edge: [u32; 2], positions: &[[f64; D]]) -> f64 {
+        let [a, b] = edge.map(|node| self.height(node, positions));
+        // Where a joined node lies beyond its leader there may be no place between.
+        let has_place = if self.has_beyond(edge[1]) { b > a } else { a > b };
+        if has_place { a / (a - b) } else { 0.5 }
     }
+}
 
-    fn between(&self, edge: [u32; 2], share: f64) -> [f64; 3] {
-        let [a, b] = edge.map(|node| self.positions[node as usize]);
-        in_3d(plus(a, times(share, minus(b, a))))
-    }
+/// A place between two nodes.
+fn between<const D: usize>(edge: [u32; 2], share: f64, positions: &[[f64; D]]) -> [f64; D] {
+    let [a, b] = edge.map(|node| positions[node as usize]);
+    plus(a, times(share, minus(b, a)))
 }
 
 impl Slice {

@@ -119,6 +119,8 @@ section! {
             Rule::NotBoth("set", "part"),
             Rule::Needs("extreme", "set"),
             Rule::Needs("extreme", "fields"),
+            Rule::Needs("position", "fields"),
+            Rule::NotBoth("position", "element"),
         ],
         ..Section::EMPTY
     };
@@ -135,6 +137,9 @@ section! {
     extreme: Option<Extreme> = Choice(Choices::Words(&["max", "min"])), Optional("the mean"),
         "Whether the largest or the smallest value of each field in the set is written, of elements that are there.",
         read Extreme::read;
+    position: Position = Choice(Choices::Words(&["element", "node"])), Default("\"element\""),
+        "What the values of fields of elements are of: elements, or nodes, each with the mean over the elements at it by their volumes.",
+        read Position::read;
     /// Where.
     at: ProbeAt, read ProbeAt::read;
 }
@@ -152,6 +157,22 @@ impl Extreme {
     fn read(values: &dyn Values) -> Option<Self> {
         let word: Option<String> = values.get("extreme");
         word.map(|word| if word == "min" { Self::Min } else { Self::Max })
+    }
+}
+
+/// What values of fields of elements are of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Position {
+    /// Elements.
+    #[default]
+    Element,
+    /// Nodes: means over the elements at each.
+    Node,
+}
+
+impl Position {
+    fn read(values: &dyn Values) -> Self {
+        if values.get::<String>("position") == "node" { Self::Node } else { Self::Element }
     }
 }
 

@@ -62,6 +62,7 @@ mod prestress;
 mod pinball_in_3d;
 mod plasticity;
 mod post_mortem;
+mod probed_fields;
 mod projectiles;
 mod projection;
 mod rayleigh;

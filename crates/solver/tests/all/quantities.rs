@@ -330,7 +330,8 @@ fn fields_of_probes_are_those_of_frames_and_of_a_stretched_square() {
     soft.law = "j2".into();
     soft.parameters.insert("yield".into(), 1e6);
     let fields = |names: &[&str]| names.iter().map(ToString::to_string).collect::<Vec<_>>();
-    let probe = |name: &str, at, names: &[&str], extreme| Probe { name: name.into(), at, fields: fields(names), extreme };
+    let probe =
+        |name: &str, at, names: &[&str], extreme| Probe { name: name.into(), at, fields: fields(names), extreme, ..Probe::default() };
     let set = || ProbeAt::Set { set: "square".into() };
     model.probes = vec![
         probe("one", ProbeAt::Element { part: "square".into(), element: 3 }, &["strain_log", "strain_green", "von_mises"], None),

@@ -119,6 +119,7 @@ section! {
             Rule::NotBoth("set", "part"),
             Rule::Needs("extreme", "set"),
             Rule::Needs("extreme", "fields"),
+            Rule::Needs("place", "extreme"),
             Rule::Needs("position", "fields"),
             Rule::NotBoth("position", "element"),
         ],
@@ -137,6 +138,8 @@ section! {
     extreme: Option<Extreme> = Choice(Choices::Words(&["max", "min"])), Optional("the mean"),
         "Whether the largest or the smallest value of each field in the set is written, of elements that are there.",
         read Extreme::read;
+    place: bool = Flag, Default("false"),
+        "Whether the history also has the place of each extreme, as `NAME.FIELD_at_x` and so on: of its node, or of the middle of its element.";
     position: Position = Choice(Choices::Words(&["element", "node"])), Default("\"element\""),
         "What the values of fields of elements are of: elements, or nodes, each with the mean over the elements at it by their volumes.",
         read Position::read;

@@ -10,7 +10,7 @@ fn close(found: f64, wanted: f64, scale: f64, what: &str) {
 
 fn probe(model: &mut Model, name: &str, at: ProbeAt, fields: &[&str], position: Position, extreme: Option<Extreme>) {
     let fields = fields.iter().map(ToString::to_string).collect();
-    model.probes.push(Probe { name: name.into(), at, fields, position, extreme });
+    model.probes.push(Probe { name: name.into(), at, fields, position, extreme, ..Probe::default() });
 }
 
 fn point(part: &str, [x, y]: [f64; 2]) -> ProbeAt {
@@ -130,4 +130,57 @@ fn what_has_failed_counts_at_no_node_that_has_other_elements() {
         close(end[row], weak[row], 0.0, "as it was at the end");
         assert!(most[row].is_nan(), "row {row}");
     }
+}
+
+#[test]
+fn an_extreme_has_the_place_of_its_node_or_of_the_middle_of_its_element() {
+    let mut model = column(1.0);
+    probe(&mut model, "least", set("column"), &["stress", "displacement"], Position::Element, Some(Extreme::Min));
+    probe(&mut model, "node", set("column.left"), &["stress"], Position::Node, Some(Extreme::Max));
+    probe(&mut model, "plain", set("column.left"), &["stress"], Position::Node, Some(Extreme::Max));
+    model.probes.iter_mut().for_each(|probe| probe.place = ["least", "node"].contains(&probe.name.as_str()));
+    let (simulation, history) = run(&model);
+    let last = |name: &str| history.last(name);
+    // Lowest element: half of its height; both beside each other are alike, and the first of them is taken.
+    close(last("least.stress_yy_at_y"), 0.05, 1e-5, "height of the lowest element");
+    assert!([0.025, 0.075].iter().any(|x| (last("least.stress_yy_at_x") - x).abs() < 1e-9), "{}", last("least.stress_yy_at_x"));
+    // The top goes down most: its nodes, where they are now.
+    close(last("least.displacement_y_at_y"), 1.0 + last("least.displacement_y"), 1e-15, "top");
+    close(last("node.stress_yy_at_x"), 0.0, 1e-12, "left");
+    close(last("node.stress_yy_at_y"), 1.0 + last("least.displacement_y"), 1e-15, "top left");
+    assert_eq!(history.column("node.stress_yy"), history.column("plain.stress_yy"));
+    let columns = simulation.history_columns();
+    assert!(!columns.iter().any(|name| name.starts_with("plain.") && name.contains("_at_")), "{columns:?}");
+    let own: Vec<&str> = columns.iter().filter_map(|name| name.strip_prefix("least.displacement")).collect();
+    assert_eq!(own, ["_x", "_y", "_x_at_x", "_x_at_y", "_y_at_x", "_y_at_y"]);
+}
+
+#[test]
+fn the_place_of_an_extreme_goes_with_it_and_is_none_where_nothing_is_left() {
+    let mut model = two_squares();
+    probe(&mut model, "both", set("seam"), &["von_mises"], Position::Element, Some(Extreme::Max));
+    probe(&mut model, "first", set("weak"), &["von_mises"], Position::Element, Some(Extreme::Max));
+    model.probes.iter_mut().for_each(|probe| probe.place = probe.extreme.is_some());
+    for name in ["end", "seam", "rim"] {
+        probe(&mut model, &format!("at_{name}"), set(name), &[], Position::Element, None);
+    }
+    probe(&mut model, "one", element("weak", 0), &["von_mises"], Position::Element, None);
+    probe(&mut model, "other", element("strong", 0), &["von_mises"], Position::Element, None);
+    let (_, history) = run(&model);
+    let [both, one, other] = ["both", "one", "other"].map(|name| history.column(&format!("{name}.von_mises")));
+    let [at, weak] = ["both", "first"].map(|name| history.column(&format!("{name}.von_mises_at_x")));
+    let [end, seam, rim] = ["at_end", "at_seam", "at_rim"].map(|name| history.column(&format!("{name}.x")));
+    let failed = weak.iter().position(|x| x.is_nan()).expect("the weak one fails");
+    let mut seen = [false; 2];
+    for row in 0..both.len() {
+        let is_other = row >= failed || other[row] > one[row];
+        assert_eq!(both[row], if is_other { other[row] } else { one[row] }, "row {row}");
+        if one[row] != other[row] || row >= failed {
+            let middle = 0.5 * (seam[row] + if is_other { rim[row] } else { end[row] });
+            close(at[row], middle, 1e-12, &format!("row {row}"));
+            seen[usize::from(is_other)] = true;
+        }
+    }
+    assert_eq!(seen, [true, true], "each is the largest at some time");
+    assert!(weak[failed..].iter().all(|x| x.is_nan()) && weak[..failed].iter().all(|x| x.is_finite()));
 }

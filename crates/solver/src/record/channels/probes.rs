@@ -91,7 +91,7 @@ impl Probe {
             spins: matches!(probe.at, ProbeAt::Set { .. }) && nodes.len() > 1 && !system.of_revolution,
             nodes,
             fields,
-            values: Values { extreme: probe.extreme, elements },
+            values: Values { extreme: probe.extreme, has_place: probe.place, elements },
             line,
         })
     }
@@ -134,7 +134,7 @@ where
 {
     fn columns(&self, _: &System<D>) -> Vec<Column> {
         let mut columns = Vec::new();
-        for Probe { name, moves, spins, fields, .. } in &self.0 {
+        for Probe { name, moves, spins, fields, values, .. } in &self.0 {
             let of_axes = |what: &str| AXES[..D].iter().map(|axis| format!("{name}.{what}{axis}")).collect::<Vec<_>>();
             if *moves {
                 columns.extend(samples(of_axes("").into_iter().chain(of_axes("v"))));
@@ -144,11 +144,7 @@ where
                 let spin = if D == 2 { vec![format!("{name}.spin")] } else { of_axes("spin_") };
                 columns.extend(samples(spin));
             }
-            for field in fields {
-                let component = |component: &&str| format!("{name}.{}_{component}", field.name);
-                let names: Vec<String> = field.components.iter().map(component).collect();
-                columns.extend(samples(if names.is_empty() { vec![format!("{name}.{}", field.name)] } else { names }));
-            }
+            columns.extend(samples(fields.iter().flat_map(|field| values.names(field, name, &AXES[..D]))));
         }
         columns
     }

@@ -2,7 +2,8 @@
 //!
 //! Of fields of elements these are the values of elements, or those of nodes: the mean of the elements e at a
 //! node n, u_n = Σ V_e u_e / Σ V_e, with their volumes at the start (of shells the areas, of beams and bars
-//! the lengths). Of a set they are a weighted mean over elements or nodes, or an extreme.
+//! the lengths). Of a set they are a weighted mean over elements or nodes, or an extreme, which has a place:
+//! that of its node, or the middle of its element.
 
 use crate::dimension::Dimension;
 use crate::field::kind::FieldKind;
@@ -17,6 +18,8 @@ use crate::tensor::Dim;
 /// What a probe makes of the values of a field.
 pub(super) struct Values {
     pub(super) extreme: Option<Extreme>,
+    /// Whether the places of extremes are written.
+    pub(super) has_place: bool,
     pub(super) elements: Elements,
 }
 
@@ -100,6 +103,19 @@ where
 }
 
 impl Values {
+    /// Names of those of a field, in the order in which [`Values::add`] adds them.
+    pub(super) fn names(&self, kind: &FieldKind, probe: &str, axes: &[&str]) -> Vec<String> {
+        let component = |component: &&str| format!("{probe}.{}_{component}", kind.name);
+        let mut names: Vec<String> = kind.components.iter().map(component).collect();
+        if names.is_empty() {
+            names.push(format!("{probe}.{}", kind.name));
+        }
+        let places = names.iter().flat_map(|name| axes.iter().map(move |axis| format!("{name}_at_{axis}")));
+        let places: Vec<String> = places.filter(|_| self.has_place).collect();
+        names.extend(places);
+        names
+    }
+
     /// Adds those of a field; `nodes` of the probe with their weights.
     pub(super) fn add<const D: usize>(&self, kind: &FieldKind, nodes: &[(u32, f64)], snapshot: &LiveSnapshot<'_, D>, row: &mut Vec<f64>)
     where
@@ -110,39 +126,57 @@ impl Values {
             (Source::Nodes(plane, space), _) => {
                 let OfNode(of_node) = <Dim<D>>::of_node(plane, space);
                 let mut own = vec![0.0; kind.width()];
-                for &(node, weight) in nodes {
+                for (at, &(node, weight)) in nodes.iter().enumerate() {
                     of_node(snapshot, node as usize, &mut own);
-                    join.add(&own, weight);
+                    join.add(&own, weight, at);
                 }
             }
-            (Source::Cells(of_cell), None) => self.each_element(of_cell, kind.width(), snapshot, |own, is_alive, weight| {
+            (Source::Cells(of_cell), None) => self.each_element(of_cell, kind.width(), snapshot, |at, own, is_alive, weight| {
                 if self.extreme.is_none() || is_alive {
-                    join.add(own, weight);
+                    join.add(own, weight, at);
                 }
             }),
             (Source::Cells(of_cell), Some(at_nodes)) => self.join_nodes(of_cell, at_nodes, nodes, snapshot, &mut join),
         }
         row.extend(join.values);
+        if self.has_place {
+            let is_of_nodes = matches!(kind.source, Source::Nodes(..)) || self.elements.at_nodes.is_some();
+            let place = |at: Option<usize>| at.map_or([f64::NAN; D], |at| self.place(at, is_of_nodes.then_some(nodes), snapshot));
+            row.extend(join.places.into_iter().flat_map(place));
+        }
     }
 
-    /// Hands over the values of the elements, whether each is there, and its weight.
+    /// Where one of the nodes, or of the elements, is now, m.
+    fn place<const D: usize>(&self, at: usize, nodes: Option<&[(u32, f64)]>, snapshot: &LiveSnapshot<'_, D>) -> [f64; D]
+    where
+        Dim<D>: Dimension<D>,
+    {
+        let system = snapshot.system;
+        if let Some(nodes) = nodes {
+            return system.positions[nodes[at].0 as usize];
+        }
+        let (group, element, _) = self.elements.list[at];
+        system.centre(system.mesh.groups[group].nodes_of(element as usize))
+    }
+
+    /// Hands over the elements by their places in the list: values, whether it is there, weight.
     fn each_element<const D: usize>(
         &self,
         of_cell: OfCell,
         width: usize,
         snapshot: &LiveSnapshot<'_, D>,
-        mut see: impl FnMut(&[f64], bool, f64),
+        mut see: impl FnMut(usize, &[f64], bool, f64),
     ) where
         Dim<D>: Dimension<D> + NodeFields<D>,
     {
         let system = snapshot.system;
         let mut own = vec![0.0; width];
-        for &(group, element, weight) in &self.elements.list {
+        for (at, &(group, element, weight)) in self.elements.list.iter().enumerate() {
             let (block, element) = (&system.blocks[group], element as usize);
             let is_alive = system.mesh.groups[group].is_alive(element);
             let cell = Cell { state: &block.state(element), is_alive, place: (group, element), within: system };
             of_cell.write(&cell, of_cell.variable().and_then(|variable| block.index_of(variable)), &mut own);
-            see(&own, is_alive, weight);
+            see(at, &own, is_alive, weight);
         }
     }
 
@@ -160,7 +194,7 @@ impl Values {
     {
         let width = join.values.len();
         let (mut values, mut are_alive) = (Vec::new(), Vec::new());
-        self.each_element(of_cell, width, snapshot, |own, is_alive, _| {
+        self.each_element(of_cell, width, snapshot, |_, own, is_alive, _| {
             values.extend_from_slice(own);
             are_alive.push(is_alive);
         });
@@ -179,7 +213,7 @@ impl Values {
                 own.iter_mut().zip(&values[at * width..]).for_each(|(sum, value)| *sum += size * value);
             }
             own.iter_mut().for_each(|sum| *sum /= sizes);
-            join.add(&own, weight);
+            join.add(&own, weight, place);
         }
     }
 }
@@ -188,21 +222,28 @@ impl Values {
 struct Joined {
     extreme: Option<Extreme>,
     values: Vec<f64>,
+    /// Number of the first place that has each extreme.
+    places: Vec<Option<usize>>,
 }
 
 impl Joined {
     /// Of no places: zero, and not a number for an extreme.
     fn new(extreme: Option<Extreme>, width: usize) -> Self {
-        Self { extreme, values: vec![if extreme.is_some() { f64::NAN } else { 0.0 }; width] }
+        Self { extreme, values: vec![if extreme.is_some() { f64::NAN } else { 0.0 }; width], places: vec![None; width] }
     }
 
-    fn add(&mut self, own: &[f64], weight: f64) {
-        for (sum, &value) in self.values.iter_mut().zip(own) {
-            *sum = match self.extreme {
-                None => *sum + weight * value,
-                Some(Extreme::Max) => sum.max(value),
-                Some(Extreme::Min) => sum.min(value),
+    fn add(&mut self, own: &[f64], weight: f64, at: usize) {
+        for ((sum, place), &value) in self.values.iter_mut().zip(&mut self.places).zip(own) {
+            let is_first = place.is_none() && !value.is_nan();
+            let (new, is_more) = match self.extreme {
+                None => (*sum + weight * value, false),
+                Some(Extreme::Max) => (sum.max(value), value > *sum),
+                Some(Extreme::Min) => (sum.min(value), value < *sum),
             };
+            if is_first || is_more {
+                *place = Some(at);
+            }
+            *sum = new;
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Monitoring of a run: energies of hourglass control and contact springs, elements of poor shape, strains
-//! beyond the measured range, and a collapsing time step. Each is reported once for each part, with time and
-//! position, and counted for the summary.
+//! beyond the measured range, a collapsing time step, and contacts across cuts. Each is reported once for
+//! each part, with time and position, and counted for the summary.
 //!
 //! [`Simulation::run`](crate::simulation::Simulation::run) looks between its steps, where the history is
 //! written: energies are summed there already, and elements are looked at only every 256 steps or more.
@@ -14,13 +14,14 @@ use crate::material::{self, Parameters};
 use crate::mesh::geometry::CellGeometry;
 use crate::message::{Example, Message};
 use crate::model::Model;
+use crate::record::Pushing;
 use crate::shortest::Shortest;
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::place;
 use std::collections::BTreeMap;
 
-pub(crate) static MESSAGES: &[&Message] = &[&HOURGLASS, &SPRINGS, &NEEDLES, &BEYOND_TABLE, &SHORT_STEP];
+pub(crate) static MESSAGES: &[&Message] = &[&HOURGLASS, &SPRINGS, &NEEDLES, &BEYOND_TABLE, &SHORT_STEP, &PUSHES_ACROSS];
 
 static HOURGLASS: Message = Message {
     code: "W0611",
@@ -85,6 +86,21 @@ static SHORT_STEP: Message = Message {
     ),
     cause: "The step goes with the smallest element over the speed of sound in it: one was squeezed, or a material became stiff.",
     remedy: "Look at the element that the message names; let it fail (`failure = { time_step = ... }`), or refine less there.",
+};
+
+static PUSHES_ACROSS: Message = Message {
+    code: "W0616",
+    title: "a contact that pushes across the plane of a cut",
+    example: Example::Model(
+        "[run]\nend = \"10 us\"\n\n[[part]]\nname = \"left\"\nmaterial = \"steel\"\n\
+         rectangle = { corner = [0, 0], size = [\"5 mm\", \"5 mm\"], elements = [2, 2] }\n\n\
+         [[part]]\nname = \"right\"\nmaterial = \"steel\"\nvelocity = [\"-20 m/s\", 0]\n\
+         rectangle = { corner = [\"5.01 mm\", \"1 mm\"], size = [\"5 mm\", \"5 mm\"], elements = [2, 2] }\n\n\
+         [[cut]]\nname = \"section\"\npoint = [0, \"3 mm\"]\nnormal = [0, 1]\n\n[[contact]]\nname = \"hit\"\nbodies = \"all\"\n",
+    ),
+    cause: "Surfaces on both sides of the plane of a `[[cut]]` push each other. A contact opens and slides, so it is nothing that a cut \
+        can go through: its force is no part of the cut's.",
+    remedy: "Add the force of the contact, or cut where nothing touches; name the parts that are meant as `parts`.",
 };
 
 /// Hourglass energy over internal energy of a part, and energy of contact springs over the largest total
@@ -181,13 +197,18 @@ impl RunMonitor {
         }
     }
 
-    /// Looks at a system, also at its elements if it is the last time; what is new.
-    pub(crate) fn look<const D: usize>(&mut self, system: &System<D>, shortest: &Shortest, is_last: bool) -> Vec<Notice>
+    /// Looks at a system and at what pushes across cuts, also at its elements if it is the last time; what is
+    /// new.
+    pub(crate) fn look<const D: usize>(&mut self, system: &System<D>, shortest: &Shortest, across: &[Pushing], is_last: bool) -> Vec<Notice>
     where
         Dim<D>: Dimension<D>,
     {
         let mut new = Vec::new();
         self.energies(system, &mut new);
+        for Pushing { index, cut, contact } in across {
+            let text = format!("contact \"{contact}\" pushes across the plane of cut \"{cut}\" at {:.6e} s", system.time);
+            self.see(&PUSHES_ACROSS, *index, 1.0, text, &mut new);
+        }
         let first = *self.first_step.get_or_insert(shortest.time_step);
         if shortest.time_step < STEP_LEAST * first {
             let Shortest { time_step, governor } = shortest;
@@ -222,7 +243,7 @@ impl RunMonitor {
             } else {
                 format!("{most} elements at most")
             };
-            Notice::new(kind, format!("{reported}; {most}"))
+            Notice::new(kind, if kind == &PUSHES_ACROSS { reported.clone() } else { format!("{reported}; {most}") })
         })
     }
 

@@ -185,6 +185,8 @@ pub fn unit(column: &str, of_whole_bodies: bool) -> &'static str {
         "spin" => "rad/s",
         "v" => "m/s",
         "a" => "m/s^2",
+        // Where an extreme is.
+        place if place.ends_with("_at") => "m",
         _ => "",
     }
 }
@@ -249,6 +251,7 @@ mod tests {
         assert_eq!((units("cavity.volume[gas]"), units("cavity.work[gas]")), (["m^3/m", "m^3"], ["J/m", "J"]));
         assert_eq!((units("P.ax"), units("P.spin_z"), units("cut.normal_force[c]")), (["m/s^2"; 2], ["rad/s"; 2], ["N/m", "N"]));
         assert_eq!((units("P.von_mises"), units("P.stress_xx"), units("P.displacement_y")), (["Pa"; 2], ["Pa"; 2], ["m"; 2]));
+        assert_eq!((units("P.von_mises_at_x"), units("P.stress_xx_at_y")), (["m"; 2], ["m"; 2]));
         assert_eq!((units("P.x"), units("P.vy"), units("time")), (["m"; 2], ["m/s"; 2], ["s"; 2]));
         assert_eq!((units("rigid.spin[a]"), units("rigid.angle[a]"), units("rigid.vz[a]")), (["rad/s"; 2], ["rad"; 2], ["m/s"; 2]));
     }

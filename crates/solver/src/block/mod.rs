@@ -215,12 +215,18 @@ pub trait Block<const D: usize>: Send + Sync {
     /// first time is that of time zero, without a step. The result does not depend on `level`
     /// or on the threads of the `team`.
     fn advance(&mut self, motion: &Motion<'_, D>, level: Level, pulls: NodalForces<'_, D>, team: &mut Team) -> Report;
-    /// From now on keeps the forces of every element for [`Block::force`]: of elements that can fail. Lines
-    /// have slots of their own, and keep nothing besides.
+    /// From now on keeps the forces of every element for [`Block::force`] and [`Block::moment`]: of elements
+    /// that can fail, or whose forces the history wants. Lines have slots of their own, and keep nothing
+    /// besides.
     fn keep_forces(&mut self) {}
     /// Force of an element on the node at a corner, N/m in 2D, as of the last [`Block::advance`] with
     /// these slots; zero if it was not kept.
     fn force(&self, element: usize, corner: usize, slots: &[[f64; D]]) -> [f64; D];
+    /// Moment of an element on the node at a corner, N in 2D (N m), as of the last [`Block::advance`]; zero
+    /// if it was not kept, or of elements without rotations.
+    fn moment(&self, _element: usize, _corner: usize) -> [f64; 3] {
+        [0.0; 3]
+    }
     /// Mass of an element, kg/m in 2D.
     fn mass(&self, element: usize) -> f64;
     /// Share of corner `corner` in the mass of `element` (row sum of the consistent mass), kg/m in 2D.

@@ -188,7 +188,12 @@ where
         let Self {
             model, mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, moduli, time_step, ..
         } = self;
-        blocks.iter_mut().zip(&criteria).filter(|(_, criteria)| !criteria.is_empty()).for_each(|(block, _)| block.keep_forces());
+        let is_cut = |part: usize| model.cuts.iter().any(|cut| cut.radius.is_some() && cut.takes(&mesh.parts[part].name));
+        for ((block, criteria), group) in blocks.iter_mut().zip(&criteria).zip(&mesh.groups) {
+            if !criteria.is_empty() || is_cut(group.part) {
+                block.keep_forces();
+            }
+        }
         let origin = || {
             Box::new(RebuildSource {
                 model: model.clone(),

@@ -431,12 +431,20 @@ where
     /// the end, and the force (N/m) on what is at the first one. Ends are nodes, or the number of nodes +
     /// rigid body.
     pub(crate) fn each_end(&self, springs: &Springs<D>, mut see: impl FnMut(u32, u32, [f64; D])) {
+        self.each_spring(springs, |ends| {
+            let Some(((first, _), ends)) = ends.split_first() else { return };
+            ends.iter().for_each(|(end, force)| see(*first, *end, force.map(|force| 0.0 - force)));
+        });
+    }
+
+    /// Hands over each spring of the last step: its ends, numbered as in [`Contact::each_end`], with the
+    /// forces (N/m) on them.
+    pub(crate) fn each_spring(&self, springs: &Springs<D>, mut see: impl FnMut(&[(u32, [f64; D])])) {
+        let mut ends = Vec::new();
         for answer in springs.answers(self.found.clone()) {
-            let mut ends = answer.ends();
-            let Some(first) = ends.next() else { continue };
-            for end in ends {
-                see(first.at, end.at, answer.force_on(&end).map(|force| 0.0 - force));
-            }
+            ends.clear();
+            ends.extend(answer.ends().map(|end| (end.at, answer.force_on(&end))));
+            see(&ends);
         }
     }
 

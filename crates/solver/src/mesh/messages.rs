@@ -21,6 +21,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NOT_ON_SHELLS,
     &ABOUT_NORMAL,
     &NOTHING_CUT,
+    &CUT_LEAVES_OUT,
     &SIZES,
 ];
 
@@ -204,8 +205,24 @@ pub(crate) static NOTHING_CUT: Message = Message {
          rectangle = { corner = [0, 0], size = [\"10 mm\", \"2 mm\"], elements = [4, 1] }\n\n[[cut]]\nname = \"middle\"\n\
          point = [\"50 mm\", 0]\nnormal = [1, 0]\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "The plane of a `[[cut]]` lies beside the parts, or these are rigid: there is no force in elements to report.",
-    remedy: "Move `point` into a deformable part; of rigid parts the forces of contacts and drives are in the history.",
+    cause: "The plane of a `[[cut]]` lies beside the parts, its `radius` ends before them, or these are rigid: there is no force in \
+        elements to report.",
+    remedy: "Move `point` into a deformable part, or give a larger `radius`; of rigid parts the forces of contacts and drives are in the history.",
+};
+
+pub(crate) static CUT_LEAVES_OUT: Message = Message {
+    code: "W0205",
+    title: "a cut that leaves out what carries force across its plane",
+    example: Example::Model(
+        "[run]\nend = \"2 us\"\n\n[[part]]\nname = \"sheet\"\nmaterial = \"steel\"\n\
+         rectangle = { corner = [0, 0], size = [\"10 mm\", \"2 mm\"], elements = [5, 2] }\n\n\
+         [[part]]\nname = \"die\"\nmaterial = \"steel\"\nrigid = {}\nvelocity = [0, \"-20 m/s\"]\n\
+         rectangle = { corner = [0, \"2.01 mm\"], size = [\"10 mm\", \"2 mm\"], elements = [5, 1] }\n\n\
+         [[cut]]\nname = \"middle\"\npoint = [\"5 mm\", 0]\nnormal = [1, 0]\n\n[[contact]]\nname = \"hit\"\nbodies = \"all\"\n",
+    ),
+    cause: "A rigid part lies across the plane of a `[[cut]]` without `parts`, and forces in it are not known; or a spring, a joint, a \
+        weld or a tie crosses the plane from one of its `parts` to a part that they do not name.",
+    remedy: "Name in `parts` all parts that are meant, and no others; or end the cut with `radius`.",
 };
 
 pub(crate) static ABOUT_NORMAL: Message = Message {

@@ -33,7 +33,7 @@ pub use initial::{InitialStress, RadialVelocity};
 pub use load::{Axis, Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
 pub use motion::{Curve, CurveShape, Drive, Motion, Sine};
 pub use obstacle::{Obstacle, ObstacleShape};
-pub use output::{Cadence, Camera, Channel, Cut, Extreme, Filter, Forces, Output, PictureView, Probe, ProbeAt};
+pub use output::{Cadence, Camera, Channel, Cut, Extreme, Filter, Forces, Output, PictureView, Position, Probe, ProbeAt};
 pub use part::Part;
 pub use placement::{Copies, Mirror, Placement};
 pub use profile::{BOX, GIVEN, I, PROFILES, Profile, RECTANGLE, ROUND, TUBE};

@@ -119,6 +119,9 @@ section! {
             Rule::NotBoth("set", "part"),
             Rule::Needs("extreme", "set"),
             Rule::Needs("extreme", "fields"),
+            Rule::Needs("place", "extreme"),
+            Rule::Needs("position", "fields"),
+            Rule::NotBoth("position", "element"),
         ],
         ..Section::EMPTY
     };
@@ -135,6 +138,11 @@ section! {
     extreme: Option<Extreme> = Choice(Choices::Words(&["max", "min"])), Optional("the mean"),
         "Whether the largest or the smallest value of each field in the set is written, of elements that are there.",
         read Extreme::read;
+    place: bool = Flag, Default("false"),
+        "Whether the history also has the place of each extreme, as `NAME.FIELD_at_x` and so on: of its node, or of the middle of its element.";
+    position: Position = Choice(Choices::Words(&["element", "node"])), Default("\"element\""),
+        "What the values of fields of elements are of: elements, or nodes, each with the mean over the elements at it by their volumes.",
+        read Position::read;
     /// Where.
     at: ProbeAt, read ProbeAt::read;
 }
@@ -155,21 +163,47 @@ impl Extreme {
     }
 }
 
+/// What values of fields of elements are of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Position {
+    /// Elements.
+    #[default]
+    Element,
+    /// Nodes: means over the elements at each.
+    Node,
+}
+
+impl Position {
+    fn read(values: &dyn Values) -> Self {
+        if values.get::<String>("position") == "node" { Self::Node } else { Self::Element }
+    }
+}
+
 section! {
     /// `[[cut]]`: a plane through parts, and what it transmits.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Cut in CUT = Section {
         name: "cut",
-        doc: "A plane (in 2D a line) through deformable parts at the start, which moves with the elements that it cuts: the history \
-            has the force and the moment that the side to which the normal points exerts on the other one. Springs across it, \
-            contacts and loads do not count.",
+        doc: "A plane (in 2D a line) through deformable parts at the start, or with `radius` a disc (a piece of the line), which moves \
+            with the elements that it cuts: the history has the force and the moment that the side to which the normal points exerts \
+            on the other one, by elements and by springs, welds, joints and ties. Contacts and loads do not count.",
         form: Form::Repeated,
         ..Section::EMPTY
     };
     name: String = Name, Required, "Unique name.";
     point: [f64; 3] = Spatial(Dimension::LENGTH, Finite), Required, "A point of the plane.";
     normal: [f64; 3] = Spatial(Dimension::NONE, Finite), Required, "Its normal; any length but zero. Tension is a force along it.";
-    parts: Vec<String> = References(None), Optional("all deformable parts that it cuts"), "Parts that it cuts, from end to end.";
+    radius: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("the whole plane"),
+        "Elements are cut only where the middle of what the plane cuts of them is so near `point`: one wall of a ring or a frame.";
+    parts: Vec<String> = References(None), Optional("all deformable parts that it cuts"), "Parts that it cuts, and whose connections count.";
+}
+
+impl Cut {
+    /// Whether it goes through a part of this name.
+    #[must_use]
+    pub fn takes(&self, part: &str) -> bool {
+        self.parts.is_empty() || self.parts.iter().any(|name| name == part)
+    }
 }
 
 section! {

@@ -9,7 +9,7 @@ use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::body_columns::BodyColumns;
 use crate::contact::springs::Tangential;
 use crate::dimension::Dimension;
-use crate::error::Fault;
+use crate::error::{Fault, Warning};
 use crate::field::NodeFields;
 use crate::field::snapshot::LiveSnapshot;
 use crate::field::{ALIVE, VON_MISES};
@@ -21,6 +21,7 @@ use crate::output::{Cells, FieldKind, ForcePeak, Needs, fields_of};
 use crate::rigid::RigidMotion;
 use crate::step::System;
 use crate::tensor::Dim;
+pub(crate) use channels::Pushing;
 use channels::{Channel, Column, Kind, Probes};
 pub(crate) use momentum::Momentum;
 use peaks::Peaks;
@@ -155,6 +156,16 @@ where
         self.levels = levels;
         self.peaks.note(system.time, &row);
         row
+    }
+
+    /// What the user should know of its columns, once forces at time zero are known.
+    pub(crate) fn warnings(&self, system: &System<D>) -> Vec<Warning> {
+        self.channels.iter().flat_map(|channel| channel.warnings(system)).collect()
+    }
+
+    /// Contacts that push across cuts now.
+    pub(crate) fn pushing(&self, system: &System<D>) -> Vec<Pushing> {
+        self.channels.iter().flat_map(|channel| channel.pushing(system)).collect()
     }
 
     /// The largest forces of the rows so far.

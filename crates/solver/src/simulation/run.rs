@@ -136,6 +136,7 @@ where
         simulation.recorded.begin(&simulation.system);
         simulation.model_warnings.extend(tiny::warnings(&simulation.system));
         simulation.model_warnings.extend(channel::warnings(model));
+        simulation.model_warnings.extend(simulation.recorded.warnings(&simulation.system));
         // Where materials are wrong, or one element is, so is the step.
         let says_why = |warning: &Warning| [&IMPLAUSIBLE, &OTHER_UNITS, &TINY_STEP].contains(&warning.kind);
         if !simulation.model_warnings.iter().any(says_why) {
@@ -309,7 +310,7 @@ where
             }
             // A stop for the state alone sees nothing.
             let notices = if over || output_cursor.stage == self.system.step {
-                self.monitor.look(&self.system, &self.shortest, over)
+                self.monitor.look(&self.system, &self.shortest, &self.recorded.pushing(&self.system), over)
             } else {
                 Vec::new()
             };
@@ -356,7 +357,7 @@ where
                 observer.failing();
                 // The state of the failure is what the user needs to see, and what was to be seen of it
                 // before.
-                self.monitor.look(&self.system, &self.shortest, true);
+                self.monitor.look(&self.system, &self.shortest, &self.recorded.pushing(&self.system), true);
                 if self.system.time > output_cursor.last_row {
                     self.report_row(observer)?;
                 }

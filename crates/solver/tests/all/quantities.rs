@@ -183,7 +183,7 @@ fn cuts_transmit_force_and_moment_of_a_cantilever_at_rest() {
         model.loads.push(Load::Force { on: "arm.right".into(), force, curve: Some("ramp".into()) });
         model.run.relaxation = Some(Relaxation { tolerance: 1e-15, from: 2.0 });
         for (name, x, normal) in [("near", 0.26, [1.0, 0.0, 0.0]), ("far", 0.71, [1.0, 0.0, 0.0]), ("back", 0.26, [-3.0, 0.0, 0.0])] {
-            model.cuts.push(Cut { name: name.into(), point: [x, 0.0, 0.0], normal, parts: Vec::new() });
+            model.cuts.push(Cut { name: name.into(), point: [x, 0.0, 0.0], normal, ..Cut::default() });
         }
         model.probes = vec![Probe { name: "tip".into(), at: ProbeAt::Set { set: "arm.right".into() }, ..Probe::default() }];
         let (_, history) = run(&model);
@@ -223,7 +223,13 @@ fn a_rod_that_spins_is_pulled_at_by_what_lies_beyond_the_cut() {
         velocity: [None, Some(Drive::Constant(0.0)), None],
         ..Constraint::default()
     });
-    model.cuts.push(Cut { name: "half".into(), point: [0.51, 0.01, 0.0], normal: [1.0, 0.0, 0.0], parts: vec!["rod".into()] });
+    model.cuts.push(Cut {
+        name: "half".into(),
+        point: [0.51, 0.01, 0.0],
+        normal: [1.0, 0.0, 0.0],
+        parts: vec!["rod".into()],
+        ..Cut::default()
+    });
     let (simulation, history) = run(&model);
     let mass = simulation.overview().parts[0].mass;
     let wanted = 0.5 * mass * 1e2;
@@ -237,7 +243,7 @@ fn a_rod_that_spins_is_pulled_at_by_what_lies_beyond_the_cut() {
 #[test]
 fn cuts_that_meet_nothing_or_what_is_rigid_are_faults() {
     let mut model = scene(Forces::Mean);
-    model.cuts.push(Cut { name: "beside".into(), point: [5.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0], parts: Vec::new() });
+    model.cuts.push(Cut { name: "beside".into(), point: [5.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0], ..Cut::default() });
     let Err(embate_solver::error::Error::Model(faults)) = embate_solver::simulation::Simulation::new(&model, &Default::default()) else {
         panic!("a cut of nothing is accepted")
     };
@@ -324,7 +330,8 @@ fn fields_of_probes_are_those_of_frames_and_of_a_stretched_square() {
     soft.law = "j2".into();
     soft.parameters.insert("yield".into(), 1e6);
     let fields = |names: &[&str]| names.iter().map(ToString::to_string).collect::<Vec<_>>();
-    let probe = |name: &str, at, names: &[&str], extreme| Probe { name: name.into(), at, fields: fields(names), extreme };
+    let probe =
+        |name: &str, at, names: &[&str], extreme| Probe { name: name.into(), at, fields: fields(names), extreme, ..Probe::default() };
     let set = || ProbeAt::Set { set: "square".into() };
     model.probes = vec![
         probe("one", ProbeAt::Element { part: "square".into(), element: 3 }, &["strain_log", "strain_green", "von_mises"], None),

@@ -79,6 +79,11 @@ where
         std::array::from_fn(|d| if self.keeps_forces { self.kept[first + d].0[element % BATCH] } else { 0.0 })
     }
 
+    fn moment(&self, element: usize, corner: usize) -> [f64; 3] {
+        let first = (element / BATCH * K::NODES + corner) * (D + 3) + D;
+        std::array::from_fn(|d| if self.keeps_forces { self.kept[first + d].0[element % BATCH] } else { 0.0 })
+    }
+
     fn mass(&self, element: usize) -> f64 {
         self.corner_mass[element * K::NODES..][..K::NODES].iter().sum()
     }

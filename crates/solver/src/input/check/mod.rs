@@ -462,6 +462,9 @@ impl Check<'_> {
             self.part_list(&format!("{path}.parts"), &cut.parts);
             self.vector(&format!("{path}.point"), cut.point);
             self.direction(&format!("{path}.normal"), cut.normal);
+            if let Some(radius) = cut.radius {
+                self.number(&format!("{path}.radius"), radius);
+            }
             for (place, name) in cut.parts.iter().enumerate() {
                 if model.parts.iter().any(|part| part.name == *name && part.rigid.is_some()) {
                     let message = format!("part `{}` is rigid: nothing is known of the forces in it", excerpt(name));

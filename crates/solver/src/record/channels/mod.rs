@@ -16,7 +16,7 @@ pub(super) use probes::Probes;
 
 use crate::body_columns::BodyColumns;
 use crate::dimension::Dimension;
-use crate::error::Fault;
+use crate::error::{Fault, Warning};
 use crate::field::NodeFields;
 use crate::model::Model;
 use crate::step::System;
@@ -71,6 +71,23 @@ where
     fn rates(&self, _system: &System<D>, _row: &mut Vec<f64>) {}
     /// Adds levels before and after the last update of columns with a change.
     fn levels(&self, _system: &System<D>, _levels: &mut Vec<[f64; 2]>) {}
+    /// What the user should know of its columns, once forces at time zero are known.
+    fn warnings(&self, _system: &System<D>) -> Vec<Warning> {
+        Vec::new()
+    }
+    /// Contacts that push now across cuts, whose forces have nothing of them.
+    fn pushing(&self, _system: &System<D>) -> Vec<Pushing> {
+        Vec::new()
+    }
+}
+
+/// A contact that pushes across the plane of a cut.
+pub(crate) struct Pushing {
+    /// Number of the cut.
+    pub(crate) index: usize,
+    /// Names of both.
+    pub(crate) cut: String,
+    pub(crate) contact: String,
 }
 
 /// All groups of a system.

@@ -1,20 +1,23 @@
 //! Probes: places, velocities, accelerations, and values of fields, of nodes, elements and sets.
 
+mod values;
+
 use super::{AXES, Channel, Column, changes, samples};
 use crate::body_columns::BodyColumns;
 use crate::dimension::Dimension;
 use crate::error::Fault;
 use crate::field::kind::{FieldKind, fields_of};
 use crate::field::snapshot::LiveSnapshot;
-use crate::field::{Cell, NodeFields, OfNode, Source};
+use crate::field::{NodeFields, Source};
 use crate::material::variable::PLASTIC_STRAIN;
 use crate::mesh::{ElementGroup, Mesh};
 use crate::model::messages::UNKNOWN_NAME;
-use crate::model::{self, Extreme, Model, ProbeAt};
+use crate::model::{self, Model, ProbeAt};
 use crate::rotation::{Rotate, inverse};
 use crate::step::System;
 use crate::tensor::Dim;
 use crate::vector::{self, dot, first, minus, plus, times};
+use values::{Elements, Values};
 
 /// The group.
 pub(crate) struct Probes(Vec<Probe>);
@@ -28,9 +31,7 @@ struct Probe {
     /// Whether it has a spin.
     spins: bool,
     fields: Vec<&'static FieldKind>,
-    /// Elements of whose fields it has the mean: group, number in it, weight; the weights sum to one.
-    elements: Vec<(usize, u32, f64)>,
-    extreme: Option<Extreme>,
+    values: Values,
     /// What `embate check` reports of it.
     line: String,
 }
@@ -69,16 +70,18 @@ impl Probe {
         let kind = |name: &String| fields_of(D).iter().find(|kind| kind.name == *name);
         let mut fields: Vec<&FieldKind> = probe.fields.iter().filter_map(kind).collect();
         let of_element = matches!(probe.at, ProbeAt::Element { .. });
+        let of_cells = fields.iter().any(|kind| matches!(kind.source, Source::Cells(..)));
         let elements = match &probe.at {
-            ProbeAt::Element { part, element } => vec![element_of(&system.mesh, part, *element)?],
-            _ if fields.iter().all(|kind| matches!(kind.source, Source::Nodes(..))) => Vec::new(),
-            ProbeAt::Point { part, .. } | ProbeAt::Node { part, .. } => elements_at(&system.mesh, Some(part), &nodes),
+            ProbeAt::Element { part, element } => Elements::one(element_of(&system.mesh, part, *element)?),
+            _ if !of_cells => Elements::default(),
+            ProbeAt::Point { part, .. } | ProbeAt::Node { part, .. } => Elements::at(&system.mesh, Some(part), &nodes, probe.position),
             ProbeAt::Set { set } => {
-                elements_at(&system.mesh, system.mesh.parts.iter().find(|it| it.name == *set).map(|it| &it.name), &nodes)
+                let part = system.mesh.parts.iter().find(|it| it.name == *set).map(|it| &it.name);
+                Elements::at(&system.mesh, part, &nodes, probe.position)
             }
         };
         if of_element && fields.is_empty() {
-            let flows = system.blocks[elements[0].0].has(&PLASTIC_STRAIN);
+            let flows = elements.first().is_some_and(|group| system.blocks[group].has(&PLASTIC_STRAIN));
             let usual = ["stress", "von_mises", "plastic_strain"].map(String::from);
             fields = usual[..if flows { 3 } else { 2 }].iter().filter_map(kind).collect();
         }
@@ -88,8 +91,7 @@ impl Probe {
             spins: matches!(probe.at, ProbeAt::Set { .. }) && nodes.len() > 1 && !system.of_revolution,
             nodes,
             fields,
-            elements,
-            extreme: probe.extreme,
+            values: Values { extreme: probe.extreme, has_place: probe.place, elements },
             line,
         })
     }
@@ -124,61 +126,6 @@ impl Probe {
         (0..3).for_each(|d| inertia[d][d] += 1e-12 * trace);
         if trace > 0.0 { inverse::<3>(&inertia).map(|row| dot(row, momentum)) } else { [0.0; 3] }
     }
-
-    /// Adds the values of a field.
-    fn add_field<const D: usize>(&self, kind: &FieldKind, snapshot: &LiveSnapshot<'_, D>, row: &mut Vec<f64>)
-    where
-        Dim<D>: Dimension<D> + NodeFields<D>,
-    {
-        let (width, system) = (kind.width(), snapshot.system);
-        let mut join = Joined::new(self.extreme, width);
-        let mut own = vec![0.0; width];
-        match kind.source {
-            Source::Nodes(plane, space) => {
-                let OfNode(of_node) = <Dim<D>>::of_node(plane, space);
-                for &(node, weight) in &self.nodes {
-                    of_node(snapshot, node as usize, &mut own);
-                    join.add(&own, weight);
-                }
-            }
-            Source::Cells(of_cell) => {
-                for &(group, element, weight) in &self.elements {
-                    let (block, element) = (&system.blocks[group], element as usize);
-                    let is_alive = system.mesh.groups[group].is_alive(element);
-                    if self.extreme.is_some() && !is_alive {
-                        continue;
-                    }
-                    let cell = Cell { state: &block.state(element), is_alive, place: (group, element), within: system };
-                    of_cell.write(&cell, of_cell.variable().and_then(|variable| block.index_of(variable)), &mut own);
-                    join.add(&own, weight);
-                }
-            }
-        }
-        row.extend(join.values);
-    }
-}
-
-/// Values of several places as one.
-struct Joined {
-    extreme: Option<Extreme>,
-    values: Vec<f64>,
-}
-
-impl Joined {
-    /// Of no places: zero, and not a number for an extreme.
-    fn new(extreme: Option<Extreme>, width: usize) -> Self {
-        Self { extreme, values: vec![if extreme.is_some() { f64::NAN } else { 0.0 }; width] }
-    }
-
-    fn add(&mut self, own: &[f64], weight: f64) {
-        for (sum, &value) in self.values.iter_mut().zip(own) {
-            *sum = match self.extreme {
-                None => *sum + weight * value,
-                Some(Extreme::Max) => sum.max(value),
-                Some(Extreme::Min) => sum.min(value),
-            };
-        }
-    }
 }
 
 impl<const D: usize> Channel<D> for Probes
@@ -187,7 +134,7 @@ where
 {
     fn columns(&self, _: &System<D>) -> Vec<Column> {
         let mut columns = Vec::new();
-        for Probe { name, moves, spins, fields, .. } in &self.0 {
+        for Probe { name, moves, spins, fields, values, .. } in &self.0 {
             let of_axes = |what: &str| AXES[..D].iter().map(|axis| format!("{name}.{what}{axis}")).collect::<Vec<_>>();
             if *moves {
                 columns.extend(samples(of_axes("").into_iter().chain(of_axes("v"))));
@@ -197,11 +144,7 @@ where
                 let spin = if D == 2 { vec![format!("{name}.spin")] } else { of_axes("spin_") };
                 columns.extend(samples(spin));
             }
-            for field in fields {
-                let component = |component: &&str| format!("{name}.{}_{component}", field.name);
-                let names: Vec<String> = field.components.iter().map(component).collect();
-                columns.extend(samples(if names.is_empty() { vec![format!("{name}.{}", field.name)] } else { names }));
-            }
+            columns.extend(samples(fields.iter().flat_map(|field| values.names(field, name, &AXES[..D]))));
         }
         columns
     }
@@ -216,7 +159,7 @@ where
             if probe.moves && probe.spins {
                 row.extend(super::moment::<D>(probe.spin(system)));
             }
-            probe.fields.iter().for_each(|kind| probe.add_field(kind, &snapshot, row));
+            probe.fields.iter().for_each(|kind| probe.values.add(kind, &probe.nodes, &snapshot, row));
         }
     }
 
@@ -229,7 +172,7 @@ where
 }
 
 /// Where an element is stored, by the user's number in its part.
-fn element_of<const D: usize>(mesh: &Mesh<D>, part: &str, number: usize) -> Result<(usize, u32, f64), String>
+fn element_of<const D: usize>(mesh: &Mesh<D>, part: &str, number: usize) -> Result<(usize, u32), String>
 where
     Dim<D>: Dimension<D>,
 {
@@ -237,32 +180,10 @@ where
     let own = |(_, group): &(usize, &ElementGroup)| group.part == index;
     for (place, group) in mesh.groups.iter().enumerate().filter(own) {
         if let Some(element) = (0u32..).zip(&group.user_elements).find(|(_, user)| **user as usize == number) {
-            return Ok((place, element.0, 1.0));
+            return Ok((place, element.0));
         }
     }
     Err(format!("part \"{part}\" has {} elements, numbered from 0", mesh.elements_of(index)))
-}
-
-/// Elements at weighted nodes, of a part or of all: each node shares its weight out to its elements alike.
-fn elements_at<const D: usize>(mesh: &Mesh<D>, part: Option<&String>, nodes: &[(u32, f64)]) -> Vec<(usize, u32, f64)>
-where
-    Dim<D>: Dimension<D>,
-{
-    let mut weights = vec![0.0; mesh.positions.len()];
-    nodes.iter().for_each(|&(node, weight)| weights[mesh.leader_of(node) as usize] += weight);
-    let own = |group: &ElementGroup| part.is_none_or(|name| mesh.parts[group.part].name == *name);
-    let cells = || {
-        let own = mesh.groups.iter().enumerate().filter(move |(_, group)| own(group));
-        own.flat_map(|(place, group)| (0..group.elements()).map(move |element| (place, element, group.nodes_of(element))))
-    };
-    let mut counts = vec![0.0; mesh.positions.len()];
-    cells().flat_map(|(_, _, nodes)| nodes).for_each(|&node| counts[node as usize] += 1.0);
-    let share = |&node: &u32| weights[node as usize] / counts[node as usize];
-    let mut found: Vec<(usize, u32, f64)> =
-        cells().map(|(place, element, nodes)| (place, element as u32, nodes.iter().map(share).sum())).filter(|it| it.2 > 0.0).collect();
-    let sum: f64 = found.iter().map(|it| it.2).sum();
-    found.iter_mut().for_each(|it| it.2 /= sum);
-    found
 }
 
 type Resolved = (Vec<(u32, f64)>, String);
@@ -290,7 +211,7 @@ where
             Ok((vec![(index, 1.0)], format!("node {node} of \"{part}\" at {}", place(index))))
         }
         ProbeAt::Element { part, element } => {
-            let (group, stored, _) = element_of(&system.mesh, part, *element)?;
+            let (group, stored) = element_of(&system.mesh, part, *element)?;
             let middle = system.mesh.mean_place(system.mesh.groups[group].nodes_of(stored as usize));
             Ok((Vec::new(), format!("element {element} of \"{part}\" at {} m", vector::place(middle))))
         }

@@ -20,6 +20,7 @@ mod jobs;
 mod list;
 mod machine;
 mod man;
+mod mesh;
 mod messages;
 mod new;
 mod numbers;
@@ -77,6 +78,8 @@ enum Command {
     New(new::Arguments),
     /// Make a model from a deck of Abaqus or CalculiX (.inp), with a report of what became of each keyword
     Import(import::Arguments),
+    /// Make a mesh of a CAD file (.step, .iges, .brep) with the program Gmsh, where it is installed
+    Mesh(mesh::Arguments),
     /// Run the verification cases and compare with known values
     Verify(verify::Arguments),
     /// Measure how fast this machine is: kernels, whole steps, contact, beside what its memory and arithmetic
@@ -165,6 +168,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::List(arguments) => list::list(arguments),
         Command::New(arguments) => new::new(arguments),
         Command::Import(arguments) => import::import(arguments),
+        Command::Mesh(arguments) => mesh::mesh(arguments),
         Command::Verify(arguments) => verify::verify(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
         Command::Explain(arguments) => explain::explain(arguments),

@@ -1,6 +1,7 @@
 //! Formats that embate reads and writes, one a file.
 
 pub mod abaqus;
+pub mod cad;
 pub mod checkpoint;
 pub mod comparison;
 pub mod gmsh;

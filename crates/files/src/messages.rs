@@ -3,7 +3,7 @@
 //! Entries stand beside the code that raises them ([`embate_solver::message`]); the program adds its own and
 //! prints them (`embate explain`).
 
-use crate::{abaqus, checkpoint, gmsh, model_file, results, stl, sweep, verification};
+use crate::{abaqus, cad, checkpoint, gmsh, model_file, results, stl, sweep, verification};
 use embate_solver::catalogue;
 use embate_solver::message::{AREAS, BASE, Example, Message, SHOWN};
 use std::fmt::Write;
@@ -16,6 +16,7 @@ pub fn all() -> Vec<&'static Message> {
         gmsh::messages::MESSAGES,
         stl::messages::MESSAGES,
         abaqus::messages::MESSAGES,
+        cad::messages::MESSAGES,
         results::messages::MESSAGES,
         checkpoint::messages::MESSAGES,
         sweep::messages::MESSAGES,

@@ -12,7 +12,7 @@ use embate_files::post_mortem::Failed;
 use embate_files::results::{Checkpoints, Recorder, Report, ResultFolder};
 use embate_files::threads::Threads;
 use embate_solver::error::Error;
-use embate_solver::model::ImportedMesh;
+use embate_solver::mesh::PlacedMesh;
 use embate_solver::output::{Cells, Frame, Shown};
 use embate_solver::simulation::{self, Control, Observer, ObserverError, Options, Progress, State};
 use pyo3::exceptions::PyValueError;
@@ -400,13 +400,20 @@ impl Simulation {
         ))
     }
 
-    /// Of each mesh from a file or from memory: its name, and where its nodes are among those of the state
-    /// (u32, the largest number: nowhere).
-    fn imported<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyBytes>)>> {
-        let meshes = &self.loaded.model.meshes;
+    /// Of each mesh from a file or from memory, where parts have it that are not swept: its name, these
+    /// parts, and where its nodes are among those of the state (u32, the largest number: nowhere), one list
+    /// for each body of these parts.
+    fn placed<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Vec<String>, Vec<Bound<'py, PyBytes>>)>> {
+        let model = &self.loaded.model;
         self.with(|inner| {
-            let of = |(mesh, numbers): (&Arc<ImportedMesh>, &Vec<u32>)| Ok((mesh.source.clone(), bytes(py, numbers, u32::to_ne_bytes)?));
-            meshes.iter().zip(inner.simulation.imported()).map(of).collect()
+            let is_as_it_is = |place: &&PlacedMesh| place.parts.iter().all(|&part| model.parts[part].sweep.is_none());
+            let of = |place: &PlacedMesh| {
+                let parts = place.parts.iter().map(|&part| model.parts[part].name.clone()).collect();
+                let numbers = |copy| bytes(py, &place.numbers(copy).collect::<Vec<u32>>(), u32::to_ne_bytes);
+                let numbers = (0..place.copies).map(numbers).collect::<PyResult<Vec<_>>>()?;
+                Ok((model.meshes[place.file].source.clone(), parts, numbers))
+            };
+            inner.simulation.placed().iter().filter(is_as_it_is).map(of).collect()
         })
     }
 

@@ -163,3 +163,22 @@ def test_grids_go_to_pyvista_and_come_back() -> None:
     solid = embate.Model(name="c").run(end="1 us").material("steel", **STEEL).part(name="c", mesh=cube, material="steel", velocity=(0, 0, 1)).simulation()
     assert solid.dimension == 3 and solid.cells["hexahedron"].shape == (8, 8)
     assert solid.to_pyvista().volume == pytest.approx(8e-6)
+
+
+def test_a_mesh_in_several_places_has_numbers_for_each_part_and_body() -> None:
+    points, quads = grid(4, 2, (0.02, 0.01))
+    mesh = embate.Mesh(points, {"quad": quads})
+    model = embate.Model(name="places").run(end="1 us").material("steel", **STEEL)
+    model.part(name="one", mesh=mesh, material="steel").part(name="other", mesh=mesh, material="steel", translation=(0.1, 0))
+    model.part(name="row", mesh=mesh, material="steel", mirror={"normal": (1, 0)}, copies={"count": 2, "translation": (0, 0.5)})
+    simulation = model.simulation()
+    position = simulation.state.position
+    np.testing.assert_array_equal(position[simulation.node_numbers(mesh, part="one")], points)
+    np.testing.assert_allclose(position[simulation.node_numbers(mesh, part="other")], points + [0.1, 0], atol=1e-15)
+    numbers = simulation.node_numbers(mesh, "row")
+    assert numbers.shape == (2, len(points))
+    np.testing.assert_allclose(position[numbers], [points * [-1, 1], points * [-1, 1] + [0, 0.5]], atol=1e-15)
+    with pytest.raises(ValueError, match="in 3 places: name one of them, part='one' or part='other'"):
+        simulation.node_numbers(mesh)
+    with pytest.raises(ValueError, match="part 'two' does not have this mesh"):
+        simulation.node_numbers(mesh, part="two")

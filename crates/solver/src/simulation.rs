@@ -25,6 +25,7 @@ use crate::contact::tracker::SearchReport;
 use crate::error::{Error, Fault, Notice, Warning};
 use crate::field::NodeFields;
 use crate::hashes::Hashes;
+use crate::mesh::PlacedMesh;
 use crate::model::Model;
 use crate::output::{Cells, Field, Frame, Shown, Summary};
 use embate_lanes::Level;
@@ -471,11 +472,11 @@ impl Simulation {
         either!(self, run => run.frame())
     }
 
-    /// Where the nodes of each of the model's meshes from files are among those of a [`Frame`], in the file's
-    /// order; `u32::MAX`: no part has it.
+    /// Where the model's meshes from files are, with the numbers that their nodes have among those of a
+    /// [`Frame`].
     #[must_use]
-    pub fn imported(&self) -> &[Vec<u32>] {
-        either!(self, run => run.imported())
+    pub fn placed(&self) -> &[PlacedMesh] {
+        either!(self, run => run.placed())
     }
 
     /// A field now by its name in [`crate::output::FIELDS`], whether the model asks for it or not; `None`:

@@ -14,6 +14,7 @@ mod kept;
 #[cfg(unix)]
 mod links;
 mod lock;
+mod mesh;
 mod messages;
 mod outside;
 mod packaging;

@@ -40,7 +40,9 @@ pub fn reference_markdown() -> String {
     );
     out.push_str(
         "(its whole outside, or all its nodes), a side of a built-in shape such as `plate.top`, or a group \
-        of a mesh file; a part comes before a group of the same name.\n\n",
+        of a mesh file, as `foot` or as `plate.foot`: the group where the part `plate` is. The short form will do \
+        where parts have the mesh in one place. A part comes before a group of the same name, and a side `part.side` \
+        before a group.\n\n",
     );
     out.push_str(
         "## Files\n\nPaths of files begin at the folder of the model file; between folders stands `/` on \

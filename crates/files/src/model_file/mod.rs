@@ -108,6 +108,21 @@ pub fn time(text: &str) -> Result<f64, String> {
     if seconds.is_finite() && seconds >= 0.0 { Ok(seconds) } else { Err(format!("{text} is no time from the start on")) }
 }
 
+/// A length with its unit as in a model file, `2 mm` for example, or a number in m.
+///
+/// # Errors
+/// What is wrong with it, and how it is written.
+pub fn length(text: &str) -> Result<f64, String> {
+    let metres = match text.trim().parse::<f64>() {
+        Ok(metres) => metres,
+        Err(_) => {
+            let wanted = units::Wanted { name: "length", dimensions: &[Dimension::LENGTH], angle: false };
+            units::read(text, wanted).map_err(|(message, help)| format!("{message}; {help}"))?.0
+        }
+    };
+    if metres.is_finite() && metres > 0.0 { Ok(metres) } else { Err(format!("{text} is no length greater than 0")) }
+}
+
 /// A model as it was read, with the texts that it came from.
 #[derive(Clone, Debug)]
 pub struct Loaded {

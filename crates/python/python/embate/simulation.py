@@ -348,25 +348,37 @@ class Simulation(Cells):
     def _layout(self) -> Layout:
         return cells_of(*self._native.cells())
 
-    def node_numbers(self, mesh: Any) -> np.ndarray[Any, Any]:
+    def node_numbers(self, mesh: Any, part: str | None = None) -> np.ndarray[Any, Any]:
         """Where the points of a part's mesh are among the nodes of the state: ``state.position[numbers]`` are in the order of the points.
 
         Parameters
         ----------
         mesh
             What was given as ``mesh=`` of a part, the very object; -1 in the answer where no part has the point.
+        part
+            Name of the part whose nodes are wanted, where parts have the mesh in several places. Of one with ``copies`` the
+            answer has the shape (bodies, points).
+
+        Raises
+        ------
+        ValueError
+            When no part has the mesh as it is, or parts have it in several places and none of them is named.
         """
         names = self.model._mesh_names()
         if id(mesh) not in names:
             raise ValueError("mesh is none of those that parts of this model were given; the very object is wanted, not an equal one")
         name, known = names[id(mesh)]
-        numbers = np.full(len(known.points), -1, np.int64)
-        for source, data in self._native.imported():
-            if source == name:
-                found = np.frombuffer(data, np.uint32).astype(np.int64)
-                found[found == 2**32 - 1] = -1
-                numbers[np.flatnonzero(known.used())] = found
-        return numbers
+        places = [(parts, data) for source, parts, data in self._native.placed() if source == name and part in (None, *parts)]
+        if not places:
+            raise ValueError("no part has this mesh as it is" if part is None else f"part {part!r} does not have this mesh as it is")
+        if len(places) > 1:
+            raise ValueError(f"parts have this mesh in {len(places)} places: name one of them, part={places[0][0][0]!r} or part={places[1][0][0]!r}")
+        data = places[0][1]
+        numbers = np.full((len(data), len(known.points)), -1, np.int64)
+        found = np.array([np.frombuffer(one, np.uint32) for one in data]).astype(np.int64)
+        found[found == 2**32 - 1] = -1
+        numbers[:, np.flatnonzero(known.used())] = found
+        return numbers if len(data) > 1 else numbers[0]
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Writes model, state and history into one file, from which :func:`embate.load` goes on with the same bits."""

@@ -11,25 +11,28 @@ pub mod shapes;
 pub(crate) mod messages;
 pub mod surface;
 mod dimension;
+mod imported;
 mod order;
 mod persist;
 mod skin;
 mod thickness;
 
 pub use dimension::{Meshed, signed_volume};
+pub use imported::PlacedMesh;
 pub use skin::SkinNode;
 
 use crate::error::Fault;
 use crate::forest;
-use crate::mesh::messages::{BAD_ELEMENT, GROUP, TOO_MANY};
+use crate::mesh::messages::{BAD_ELEMENT, TOO_MANY};
 use crate::model::messages::{NOTHING, UNKNOWN_NAME};
-use crate::model::{ImportedMesh, MeshGroup, Model, Part, Shape, Sweep};
+use crate::model::{MeshGroup, Model, Part, Shape};
 use crate::tensor::Dim;
 use crate::vector::{minus, plus, times};
 use cell::{Cell, CellKind, MOST_NODES};
+use imported::{only, within};
+use placement::turn_over;
 use shapes::Body;
-use shapes::sweep::SweptMesh;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use surface::{Corners, Facet, Surface};
 
 /// Places of a model that are nearer to each other than this fraction of its extent are the same, and this
@@ -225,9 +228,8 @@ where
     pub groups: Vec<ElementGroup>,
     /// The user's number of each node: its place in the parts as they were made or read.
     pub user_nodes: Vec<u32>,
-    /// The user's number of each node of the model's mesh files, of each file in its order; `u32::MAX`: no
-    /// part has it.
-    pub imported: Vec<Vec<u32>>,
+    /// Where mesh files are, in the order of their first parts.
+    pub placed: Vec<PlacedMesh>,
     /// How many times its cells have been replaced by others; 0: they are those of the model.
     pub revision: u32,
     /// Nodes on the faces of shells and beams: the last ones of all.
@@ -246,18 +248,15 @@ where
     /// Whether each node, in the order of the curve that they are sorted along, is on an outline: those are
     /// numbered first.
     outlines: Vec<bool>,
-    /// Named pieces of the outside: `part.side`, and groups of lines in 2D, of surfaces in 3D.
+    /// Named pieces of the outside, by `part.side`.
     sides: BTreeMap<String, Vec<Facet<D>>>,
-    /// Named nodes: all other groups.
+    /// Named nodes, by `part.side`.
     points: BTreeMap<String, Vec<u32>>,
-}
-
-/// A mesh file's mesh in 2D, swept: the numbers that its nodes have here (`u32::MAX`: not yet used).
-struct Swept {
-    file: usize,
-    sweep: Sweep,
-    made: SweptMesh,
-    numbers: Vec<u32>,
+    /// Groups of mesh files that are pieces of the outside, by their names: of lines in 2D, of surfaces in
+    /// 3D, each with the place where it is.
+    surfaces: BTreeMap<String, Vec<(usize, Vec<Facet<D>>)>>,
+    /// Nodes of all other groups.
+    sets: BTreeMap<String, Vec<(usize, Vec<u32>)>>,
 }
 
 /// At most so many faults of one kind are reported one by one.
@@ -275,31 +274,25 @@ where
     pub fn new(model: &Model) -> Result<Self, Vec<Fault>> {
         let mut mesh = Self::default();
         let mut faults = Vec::new();
-        let mut imported = vec![Vec::new(); model.meshes.len()];
-        let mut swept: Vec<Swept> = Vec::new();
+        let mut swept = Vec::new();
         for (index, part) in model.parts.iter().enumerate() {
             match &part.shape {
-                Shape::Group { mesh: file, group } => match model.meshes.get(*file) {
-                    Some(source) if part.sweep.is_none() => mesh.add_group(source, group, part, &mut imported[*file], &mut faults),
-                    Some(_) => mesh.add_swept(model, part, *file, &mut swept, &mut faults),
-                    None => faults.push(Fault::new(&UNKNOWN_NAME, format!("part[{index}]"), "its mesh was not read", "")),
-                },
+                Shape::Group { mesh: file, .. } if *file < model.meshes.len() => mesh.add_imported(model, index, &mut swept, &mut faults),
+                Shape::Group { .. } => faults.push(Fault::new(&UNKNOWN_NAME, format!("part[{index}]"), "its mesh was not read", "")),
                 _ => mesh.add_shape(part, &mut faults),
             }
             mesh.check_elements(index, &mut faults);
         }
-        let is_shell = |part: usize| model.parts[part].is_of_shells();
         let mut on_shells = Vec::new();
-        for (source, numbers) in model.meshes.iter().zip(&imported) {
-            on_shells.extend(mesh.add_named_groups(source, numbers, is_shell, &mut faults));
+        for (place, swept) in swept.iter().enumerate() {
+            on_shells.extend(mesh.add_named_groups(model, place, swept.as_ref()));
         }
-        for it in &swept {
-            on_shells.extend(mesh.add_named_groups(&it.made.mesh, &it.numbers, is_shell, &mut faults));
+        if mesh.positions.len() > u32::MAX as usize - 1 {
+            faults.push(Fault::new(&TOO_MANY, "", "the model has more than 4 billion nodes", "make it smaller"));
         }
         if !faults.is_empty() {
             return Err(faults);
         }
-        mesh.imported = imported;
         mesh.reorder(|part| model.parts[part].has_rotations());
         mesh.take_thicknesses(model, &mut faults);
         mesh.check_growth(model, &mut faults);
@@ -340,87 +333,29 @@ where
     /// Adds the elements of the part that comes next, in the user's order; `number` is the mesh's number of a
     /// node.
     fn add_elements<'c>(&mut self, cells: impl Iterator<Item = Cell<'c>>, number: impl Fn(&u32) -> u32) {
+        self.add_elements_of_bodies(cells.map(|cell| (0, cell)), false, |node, _| number(&node));
+    }
+
+    /// The same of several bodies, each element with the body that it is in, from 0. Those that are mirrored
+    /// are turned over.
+    fn add_elements_of_bodies<'c>(&mut self, cells: impl Iterator<Item = (usize, Cell<'c>)>, is_mirrored: bool, number: impl Fn(u32, usize) -> u32) {
         let part = self.parts.len();
         let mut groups: Vec<ElementGroup> = Vec::new();
-        for (user, cell) in (0..).zip(cells) {
+        for (user, (copy, cell)) in (0..).zip(cells) {
             let at = groups.iter().position(|group| group.kind == cell.kind).unwrap_or_else(|| {
                 groups.push(ElementGroup::new(part, cell.kind));
                 groups.len() - 1
             });
-            groups[at].connectivity.extend(cell.nodes.iter().map(&number));
+            let nodes = &mut groups[at].connectivity;
+            let first = nodes.len();
+            nodes.extend(cell.nodes.iter().map(|&node| number(node, copy)));
+            if is_mirrored {
+                turn_over::<D>(cell.kind, &mut nodes[first..]);
+            }
             groups[at].user_elements.push(user);
         }
         groups.sort_by_key(|group| std::cmp::Reverse((group.kind.nodes(), group.kind)));
         self.groups.extend(groups);
-    }
-
-    /// Adds the cells of a group; `numbers[file node]` becomes the mesh node (`u32::MAX`: not yet used).
-    fn add_group(&mut self, source: &ImportedMesh, group: &str, part: &Part, numbers: &mut Vec<u32>, faults: &mut Vec<Fault>) {
-        numbers.resize(source.positions.len(), u32::MAX);
-        let path = format!("part[{}]", self.parts.len());
-        let dimension = match part {
-            part if part.is_of_lines() => 1,
-            part if part.is_of_sheets() => 2,
-            _ => D as u8,
-        };
-        let Some(group) = source.groups.iter().find(|g| g.name == group && g.dimension == dimension) else {
-            let kind = ["zero", "one", "two", "three"][usize::from(dimension)];
-            faults.push(Fault::new(
-                &GROUP,
-                path,
-                format!("{} has no {kind}-dimensional group \"{group}\"", source.source),
-                "name a group of the mesh file",
-            ));
-            self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
-            return;
-        };
-        for &node in group.cells.iter().flatten() {
-            let number = &mut numbers[node as usize];
-            if *number == u32::MAX {
-                *number = self.positions.len() as u32;
-                self.positions.push(Dim::<D>::of_3d(source.positions[node as usize]));
-            }
-        }
-        let number = |node: &u32| numbers[*node as usize];
-        self.add_elements(group.elements().flatten(), number);
-        self.parts.push(PartMesh { name: part.name.clone(), nodes: sorted(group.cells.iter().flatten().map(number)), faces: Vec::new() });
-    }
-
-    /// Adds a group of a mesh in 2D that is swept; parts of one file that are swept alike share their
-    /// nodes.
-    fn add_swept(&mut self, model: &Model, part: &Part, file: usize, all: &mut Vec<Swept>, faults: &mut Vec<Fault>) {
-        let (Shape::Group { group, .. }, Some(sweep)) = (&part.shape, &part.sweep) else { return };
-        let path = format!("part[{}]", self.parts.len());
-        let at = all.iter().position(|it| it.file == file && it.sweep == *sweep).unwrap_or_else(|| {
-            let is_alike = |other: &&Part| other.sweep.as_ref() == Some(sweep);
-            let wanted: Vec<&str> = model.parts.iter().filter(is_alike).filter_map(|other| other.shape.group_of(file)).collect();
-            let made = sweep.swept_mesh(&model.meshes[file], &wanted).unwrap_or_else(|wrong| {
-                let Fault { path: at, kind, message, help } = wrong.at(sweep.key());
-                faults.push(Fault::new(kind, format!("{path}.{at}"), message, help));
-                SweptMesh::default()
-            });
-            all.push(Swept { file, sweep: sweep.clone(), made, numbers: Vec::new() });
-            all.len() - 1
-        });
-        let Swept { made, numbers, .. } = &mut all[at];
-        if made.mesh.positions.is_empty() {
-            self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
-            return; // its fault is reported
-        }
-        self.add_group(&made.mesh, group, part, numbers, faults);
-        for (_, ends) in made.ends.iter().filter(|(name, _)| name == group) {
-            for (side, facets) in sweep.sides().into_iter().zip(ends) {
-                let cells = facets.iter().filter_map(|facet| Facet::<D>::of_cell(facet.corners()));
-                let facets = cells.map(|facet| facet.renamed(|node| numbers[node as usize])).collect();
-                self.sides.insert(format!("{}.{side}", part.name), facets);
-            }
-        }
-        let number = |node: &u32| numbers[*node as usize];
-        for (_, rims) in made.rims.iter().filter(|(name, _)| name == group) {
-            for (side, nodes) in sweep.sides().into_iter().zip(rims) {
-                self.points.insert(format!("{}.{side}", part.name), sorted(nodes.iter().map(number)));
-            }
-        }
     }
 
     /// Elements of a part.
@@ -438,52 +373,6 @@ where
     fn cells(&self, parts: &[String]) -> impl Iterator<Item = Cell<'_>> + Clone {
         let is_of = move |group: &&ElementGroup| group.is_body(D) && (parts.is_empty() || parts.contains(&self.parts[group.part].name));
         self.groups.iter().filter(is_of).flat_map(ElementGroup::live_outer_cells)
-    }
-
-    /// Names the groups of a file. Returns those that lie on shells, if only in part: their pieces are those
-    /// of the middle until there are faces ([`Self::put_on_faces`]).
-    fn add_named_groups(
-        &mut self,
-        source: &ImportedMesh,
-        numbers: &[u32],
-        is_shell: impl Fn(usize) -> bool,
-        faults: &mut Vec<Fault>,
-    ) -> Vec<String> {
-        let shells = self.groups.iter().filter(|group| is_shell(group.part) && group.kind.dimension() + 1 == D);
-        let middle = shells.flat_map(ElementGroup::cells).filter_map(|cell| Facet::<D>::of_cell(cell.nodes));
-        let middle: Vec<Facet<D>> = middle.flat_map(|facet| [facet.canonical(), facet.reversed().canonical()]).collect();
-        let mut outside = self.outside_of_solids();
-        outside.extend(&middle);
-        let middle: BTreeSet<Facet<D>> = middle.into_iter().collect();
-        let mut on_shells = Vec::new();
-        for group in &source.groups {
-            let nodes = || group.cells.iter().flatten().map(|&node| numbers.get(node as usize).copied().unwrap_or(u32::MAX));
-            if nodes().any(|node| node == u32::MAX) {
-                continue; // a group of something that no part uses
-            }
-            let number = |cell: &Vec<u32>| cell.iter().map(|&node| numbers[node as usize]).collect::<Vec<u32>>();
-            let facet = |cell: &Vec<u32>| Facet::<D>::of_cell(&number(cell));
-            let facets: Option<Vec<Facet<D>>> = group.cells.iter().map(facet).collect();
-            match facets.filter(|_| usize::from(group.dimension) + 1 == D).map(|facets| surface::oriented(&facets, &outside)) {
-                Some(Ok(facets)) => {
-                    on_shells.extend(facets.iter().any(|facet| middle.contains(facet)).then(|| group.name.clone()));
-                    self.sides.insert(group.name.clone(), facets);
-                }
-                // A line inside a body, and what is not on one, is no surface, but still a set of nodes.
-                _ => drop(self.points.insert(group.name.clone(), sorted(nodes()))),
-            }
-        }
-        if self.positions.len() > u32::MAX as usize - 1 {
-            faults.push(Fault::new(&TOO_MANY, "", "the model has more than 4 billion nodes", "make it smaller"));
-        }
-        on_shells
-    }
-
-    /// Outside of each part whose elements bound bodies as they are.
-    fn outside_of_solids(&self) -> Vec<Facet<D>> {
-        let bodies = |part| self.groups_of(part).filter(|group| group.kind.dimension() == D);
-        let outside_of = |part| surface::exterior::<D>(bodies(part).flat_map(ElementGroup::cells)).ok();
-        (0..self.parts.len()).filter_map(outside_of).flatten().collect()
     }
 
     /// Every element must have a form that it can be computed with; see [`Meshed::wrong_form`].
@@ -539,17 +428,20 @@ where
         all.filter(|(_, skin)| nodes.binary_search(&skin.owner).is_ok()).map(|(node, _)| node)
     }
 
-    /// Nodes of a part, a `part.side` or a group, ascending; of the face of a shell those of its middle,
-    /// which lead it. `None` when there is no such name.
+    /// Nodes of a part, a group, a `part.side` or a `part.group`, ascending; of the face of a shell those of
+    /// its middle, which lead it. `None` when there is no such name, or groups in several places have it.
     #[must_use]
     pub fn nodes(&self, name: &str) -> Option<Vec<u32>> {
         if let Some(part) = self.parts.iter().find(|part| part.name == name) {
             return Some(sorted(part.nodes.iter().copied()));
         }
-        if let Some(facets) = self.sides.get(name) {
-            return Some(sorted(facets.iter().flat_map(Corners::corners).map(|&node| self.leader_of(node))));
-        }
-        self.points.get(name).cloned()
+        let leaders = |facets: &Vec<Facet<D>>| sorted(facets.iter().flat_map(Corners::corners).map(|&node| self.leader_of(node)));
+        let group = || only(self.surfaces.get(name)).map(leaders).or_else(|| only(self.sets.get(name)).cloned());
+        let side = || self.sides.get(name).map(leaders).or_else(|| self.points.get(name).cloned());
+        group().or_else(side).or_else(|| {
+            let (place, group) = self.group_in_place(name)?;
+            within(self.surfaces.get(group), place).map(leaders).or_else(|| within(self.sets.get(group), place).cloned())
+        })
     }
 
     /// Mean of the places of nodes at the start, m; seen from the first of them, so that far from the origin
@@ -608,27 +500,28 @@ where
         Dim::<D>::outside_without(self.cells(parts), |facet| leave_out(facet) | self.is_within_joint(facet, &joints))
     }
 
-    /// Surface of a part (its whole outside), a `part.side` or a group of lines (in 3D of surfaces),
-    /// without the segments or facets that `leave_out` names (those on a symmetry, which are no outside of
-    /// the whole body).
+    /// Surface of a part (its whole outside), a `part.side`, or a group of lines (in 3D of surfaces) as
+    /// `group` or `part.group`, without the segments or facets that `leave_out` names (those on a symmetry,
+    /// which are no outside of the whole body).
     ///
     /// # Errors
     /// A fault without path when there is no such surface.
     pub fn surface(&self, name: &str, leave_out: impl Fn(Facet<D>) -> bool) -> Result<Surface<D>, Fault> {
-        let only = |name: &str| [name.to_string()];
+        let only_part = |name: &str| [name.to_string()];
         let is_part = |name: &str| self.parts.iter().any(|part| part.name == name);
         if is_part(name) {
-            return self.outside_without(&only(name), leave_out);
+            return self.outside_without(&only_part(name), leave_out);
         }
-        let Some(side) = self.sides.get(name) else {
+        let owner = || name.split_once('.').map(|(part, _)| part).filter(|part| is_part(part));
+        let side = only(self.surfaces.get(name)).or_else(|| self.sides.get(name));
+        let side = side.map(|side| (side, owner().map_or(Vec::new(), |part| only_part(part).to_vec())));
+        let Some((side, of)) = side.or_else(|| self.surface_in_place(name)) else {
             let help = match D {
                 2 => "name a part, a side as part.side, or a one-dimensional group of a mesh file",
                 _ => "name a part, a side as part.side, or a two-dimensional group of a mesh file",
             };
             return Err(Fault::new(&UNKNOWN_NAME, "", format!("there is no surface \"{name}\""), help));
         };
-        let owner = name.split_once('.').map(|(part, _)| part).filter(|part| is_part(part));
-        let of = owner.map_or(Vec::new(), |part| only(part).to_vec());
         let mut facets = side.clone();
         if self.groups.iter().any(|group| !group.eroded.is_empty()) {
             let mut outside = surface::exterior::<D>(self.cells(&of))?;
@@ -637,6 +530,13 @@ where
         }
         facets.retain(|&facet| !leave_out(facet));
         Dim::<D>::surface(facets, self.cells(&of))
+    }
+
+    /// The pieces of `part.group`, and the parts that share the nodes of the group.
+    fn surface_in_place(&self, name: &str) -> Option<(&Vec<Facet<D>>, Vec<String>)> {
+        let (place, group) = self.group_in_place(name)?;
+        let parts = self.placed[place].parts.iter().map(|&part| self.parts[part].name.clone()).collect();
+        Some((within(self.surfaces.get(group), place)?, parts))
     }
 }
 

@@ -54,10 +54,11 @@ where
         let rename = |nodes: &mut [u32]| nodes.iter_mut().for_each(|node| *node = number[*node as usize]);
         self.parts.iter_mut().for_each(|part| rename(&mut part.nodes));
         self.groups.iter_mut().for_each(|group| rename(&mut group.connectivity));
-        for facet in self.sides.values_mut().flatten() {
+        let surfaces = self.surfaces.values_mut().flatten().flat_map(|(_, facets)| facets);
+        for facet in self.sides.values_mut().flatten().chain(surfaces) {
             *facet = facet.renamed(|node| number[node as usize]).canonical();
         }
-        for nodes in self.points.values_mut() {
+        for nodes in self.points.values_mut().chain(self.sets.values_mut().flatten().map(|(_, nodes)| nodes)) {
             rename(nodes);
             nodes.sort_unstable();
         }

@@ -48,7 +48,7 @@ where
             parts,
             groups,
             user_nodes,
-            imported,
+            placed,
             revision,
             skins,
             kin,
@@ -58,9 +58,11 @@ where
             outlines,
             sides,
             points,
+            surfaces,
+            sets,
         } = self;
         persist_points(positions, archive)?;
-        persist_each!(archive; parts, groups, user_nodes, imported, revision, thicknesses, outlines, sides, points);
+        persist_each!(archive; parts, groups, user_nodes, placed, revision, thicknesses, outlines, sides, points, surfaces, sets);
         let mut owners: Vec<u32> = skins.iter().map(|skin| skin.owner).collect();
         let mut arms: Vec<[f64; D]> = skins.iter().map(|skin| skin.arm).collect();
         owners.persist(archive)?;
@@ -121,11 +123,13 @@ where
             && self.groups.iter().all(of_group)
             && (0..parts).all(is_numbered)
             && is_permutation(&self.user_nodes, nodes)
-            && self.imported.iter().flatten().all(|&node| node == u32::MAX || (node as usize) < nodes)
+            && self.placed.iter().all(|place| place.is_sound(nodes, parts))
             && self.outlines.len() + self.skins.len() == nodes
             && self.skins.iter().all(|skin| (skin.owner as usize) < self.outlines.len())
             && self.sides.values().flatten().all(|facet| are_nodes(facet.corners()))
             && self.points.values().all(|points| are_nodes(points))
+            && self.surfaces.values().flatten().all(|(_, facets)| facets.iter().all(|facet| are_nodes(facet.corners())))
+            && self.sets.values().flatten().all(|(_, nodes)| are_nodes(nodes))
     }
 }
 

@@ -1,9 +1,10 @@
-//! Where the body of a built-in shape goes: mirrored, turned, moved, copied.
+//! Where the body of a part goes: mirrored, turned, moved, copied.
 //!
-//! Bodies come from the shapes, placements from the model; placed bodies go to the mesh. Turns use the
-//! shapes' own sine: the same bits everywhere. In 2D the third components are zero, and turns are
-//! about z.
+//! Bodies come from the shapes and from mesh files, placements from the model; placed bodies go to the mesh.
+//! Turns use the shapes' own sine: the same bits everywhere. In 2D the third components are zero, and turns
+//! are about z.
 
+use super::cell::CellKind;
 use super::shapes::{Body, cos_sin, quarters, unit};
 use super::surface::Corners;
 use super::{Dim, Meshed};
@@ -24,27 +25,51 @@ impl Placement {
     where
         Dim<D>: Meshed<D>,
     {
-        if let Some(mirror) = &self.mirror {
-            let n = unit(mirror.normal).unwrap_or_default();
-            for x in &mut body.positions {
-                let along = (1..D).fold((x[0] - mirror.point[0]) * n[0], |sum, d| sum + (x[d] - mirror.point[d]) * n[d]);
-                *x = std::array::from_fn(|d| x[d] - 2.0 * along * n[d]);
-            }
+        if self.mirror.is_some() {
             body.turn_over();
         }
-        turn(&mut body.positions, &Turn { angle: self.rotation, about: self.rotation_point, axis: self.rotation_axis }, 1);
-        shift(&mut body.positions, self.translation, 1);
-        let Some(copies) = &self.copies else { return body };
         let one = body.clone();
-        let by = Turn { angle: copies.angle, about: copies.point, axis: copies.axis };
-        for copy in 1..copies.count {
+        self.place(&mut body.positions, 0);
+        for copy in 1..self.count() {
             let mut next = one.clone();
-            turn(&mut next.positions, &by, copy);
-            shift(&mut next.positions, copies.translation, copy);
+            self.place(&mut next.positions, copy);
             body.append(next);
         }
         body
     }
+
+    /// Moves points to where they are in one of the bodies, which are counted from 0.
+    pub(super) fn place<const D: usize>(&self, positions: &mut [[f64; D]], copy: usize) {
+        if let Some(mirror) = &self.mirror {
+            let n = unit(mirror.normal).unwrap_or_default();
+            for x in positions.iter_mut() {
+                let along = (1..D).fold((x[0] - mirror.point[0]) * n[0], |sum, d| sum + (x[d] - mirror.point[d]) * n[d]);
+                *x = std::array::from_fn(|d| x[d] - 2.0 * along * n[d]);
+            }
+        }
+        turn(positions, &Turn { angle: self.rotation, about: self.rotation_point, axis: self.rotation_axis }, 1);
+        shift(positions, self.translation, 1);
+        if let Some(copies) = self.copies.as_ref().filter(|_| copy > 0) {
+            turn(positions, &Turn { angle: copies.angle, about: copies.point, axis: copies.axis }, copy);
+            shift(positions, copies.translation, copy);
+        }
+    }
+}
+
+/// Numbers the nodes of a cell again after their positions were mirrored: what was on the left, or above,
+/// still is. Lines have a left in 2D only.
+pub(super) fn turn_over<const D: usize>(kind: CellKind, nodes: &mut [u32]) {
+    if D == 2 && kind == CellKind::Line {
+        nodes.reverse();
+    } else {
+        kind.reflect(nodes);
+    }
+}
+
+/// The same of pieces of a surface, which follow each other the other way round.
+pub(super) fn turn_pieces_over<F: Corners>(facets: &mut [F]) {
+    facets.reverse();
+    facets.iter_mut().for_each(|facet| *facet = facet.reversed());
 }
 
 impl TriangleSurface {
@@ -62,16 +87,12 @@ impl<const D: usize> Body<D>
 where
     Dim<D>: Meshed<D>,
 {
-    /// Numbers the nodes of elements and sides again after positions were mirrored: what was on the left is
-    /// on the right now.
+    /// Numbers the nodes of elements and sides again for positions that are mirrored.
     fn turn_over(&mut self) {
-        for (kind, nodes) in &mut self.elements {
-            nodes.chunks_exact_mut(kind.nodes()).for_each(|cell| kind.reflect(cell));
+        for (&kind, nodes) in &mut self.elements {
+            nodes.chunks_exact_mut(kind.nodes()).for_each(|cell| turn_over::<D>(kind, cell));
         }
-        for (_, facets) in &mut self.sides {
-            facets.reverse();
-            facets.iter_mut().for_each(|facet| *facet = facet.reversed());
-        }
+        self.sides.iter_mut().for_each(|(_, facets)| turn_pieces_over(facets));
     }
 
     /// Adds another body of the same shape: its elements after those that there are, its sides to those of

@@ -3,9 +3,8 @@
 use super::messages::SHELLS;
 use super::{Dim, Mesh, Meshed};
 use crate::error::Fault;
-use crate::model::{FieldValues, Model, Shape};
+use crate::model::{FieldValues, MeshGroup, Model, Shape};
 use crate::vector::place;
-use std::collections::BTreeMap;
 
 impl<const D: usize> Mesh<D>
 where
@@ -18,27 +17,27 @@ where
         if !self.groups.iter().any(|group| named(group.part).is_some()) {
             return;
         }
-        // By mesh file: its node of each number of a user.
-        let mut of_users: BTreeMap<usize, BTreeMap<u32, u32>> = BTreeMap::new();
         let mut all = vec![Vec::new(); self.groups.len()];
         for (corners, group) in all.iter_mut().zip(&self.groups) {
             let (Some(section), Shape::Group { mesh, group: name }) = (named(group.part), &model.parts[group.part].shape) else { continue };
             let Some(source) = model.meshes.get(*mesh) else { continue };
             let Some(field) = source.fields.iter().find(|field| field.name == section.thickness_field) else { continue };
-            let of_user = of_users.entry(*mesh).or_insert_with(|| self.imported[*mesh].iter().copied().zip(0..).collect());
-            let file_node = |node: u32| of_user.get(&self.user_nodes[node as usize]).copied().unwrap_or(u32::MAX);
-            let own = source.groups.iter().position(|it| it.name == *name && usize::from(it.dimension) == group.kind.dimension());
+            let Some(placed) = self.placed.iter().find(|place| place.parts.contains(&group.part)) else { continue };
+            let of_group = |it: &MeshGroup| it.name == *name && usize::from(it.dimension) == group.kind.dimension();
+            let Some(own) = source.groups.iter().position(of_group) else { continue };
+            let cells = &source.groups[own].cells;
             let count = group.kind.nodes();
             for (element, nodes) in group.connectivity.chunks_exact(count).enumerate() {
+                // Bodies of a part follow each other.
                 let user = group.user_elements[element] as usize;
+                let (copy, cell) = (user / cells.len(), user % cells.len());
                 for &node in nodes {
-                    let value = match &field.values {
-                        FieldValues::Nodes(values) => values.get(file_node(node) as usize).copied().flatten(),
-                        FieldValues::Corners(groups) => own.and_then(|own| {
-                            let at = source.groups[own].cells.get(user)?.iter().position(|other| *other == file_node(node))?;
-                            groups.get(own)?.get(user)?.get(at).copied()
-                        }),
-                    };
+                    let is_it = |&other: &u32| placed.number(other, copy) == self.user_nodes[node as usize];
+                    let at = cells[cell].iter().position(is_it);
+                    let value = at.and_then(|at| match &field.values {
+                        FieldValues::Nodes(values) => values.get(cells[cell][at] as usize).copied().flatten(),
+                        FieldValues::Corners(groups) => groups.get(own)?.get(cell)?.get(at).copied(),
+                    });
                     corners.push(value.unwrap_or(f64::NAN));
                 }
             }

@@ -22,6 +22,7 @@ pub(crate) mod placement;
 mod profile;
 pub mod reference;
 mod run;
+mod sharing;
 mod shell;
 mod triangles;
 
@@ -211,8 +212,8 @@ pub struct Material {
     pub failure: BTreeMap<String, f64>,
 }
 
-/// A mesh that came from a file: nodes and named groups of cells. Parts that use the same mesh share its
-/// nodes.
+/// A mesh that came from a file: nodes and named groups of cells. Parts that use the same mesh in the same
+/// place share its nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportedMesh {
     /// Where it came from, for messages.

@@ -22,13 +22,7 @@ section! {
         form: Form::Repeated,
         required: true,
         groups: &[&SHAPES],
-        rules: &[
-            Rule::NotBoth("extrude", "revolve"),
-            Rule::NotBoth("mesh", "mirror"),
-            Rule::NotBoth("mesh", "rotation"),
-            Rule::NotBoth("mesh", "translation"),
-            Rule::NotBoth("mesh", "copies"),
-        ],
+        rules: &[Rule::NotBoth("extrude", "revolve")],
         ..Section::EMPTY
     };
     name: String = Name, Required, "Unique name.";
@@ -68,21 +62,21 @@ section! {
         "Factor on the mass of the part where mass resists motion: 100 makes steps ten times as long. What \
             gravity pulls at stays the true mass.";
     "mirror" = Table(&MIRROR), Optional("not mirrored"),
-        "A line, in 3D a plane, that the shape is mirrored on, before it is turned.";
+        "A line, in 3D a plane, that the shape or mesh is mirrored on, before it is turned.";
     "rotation" = Table(&ROTATION), Optional("not turned"),
-        "An angle by which the shape is turned, before it is moved.";
+        "An angle by which the shape or mesh is turned, before it is moved.";
     "extrude" = Table(&EXTRUDE), Optional("the part stays as it is"),
         "Extrudes a 2D shape along z: the part becomes a solid, lines become a shell (`shell4`).";
     "revolve" = Table(&REVOLVE), Optional("the part stays as it is"),
         "Revolves a 2D shape about a line: the part becomes a solid, lines become a shell (`shell4`).";
-    "translation" = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape is moved.";
+    "translation" = Spatial(Dimension::LENGTH, Finite), Default("[0, 0]"), "How far the shape or mesh is moved.";
     "copies" = Table(&COPIES), Optional("one body"),
-        "More bodies of the same shape, in a row or around a point.";
+        "More bodies of the same shape or mesh, in a row or around a point.";
     /// Where its elements come from; of a group of a mesh file the reader of the file says which.
     shape: Shape, read shape;
     /// How a shape in 2D becomes a solid, or lines a shell in 3D; `None`: it stays as it is.
     sweep: Option<Sweep>, read |part| part.tables().into_iter().find_map(|(name, table)| Sweep::read(name, table));
-    /// Where the body of a built-in shape goes.
+    /// Where its body goes.
     placement: Placement, read Placement::read;
 }
 

@@ -1,4 +1,4 @@
-//! Where the body of a built-in shape goes: mirrored, turned, moved, copied. The mesh builder does it.
+//! Where the body of a part goes: mirrored, turned, moved, copied. The mesh builder does it.
 
 use super::{Values, section};
 use crate::quantity::Dimension;
@@ -7,7 +7,8 @@ use crate::vocabulary::Kind::{Angle, Integer, Spatial};
 use crate::vocabulary::Need::{Default as Written, Required};
 use crate::vocabulary::{Rule, Section, key};
 
-/// Where the body of a built-in shape goes: it is mirrored, then turned, then moved, then copied.
+/// Where the body of a shape or of a group of a mesh file goes: it is mirrored, then turned, then moved, then
+/// copied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placement {
     /// A line, in 3D a plane, that it is mirrored on.
@@ -46,11 +47,17 @@ impl Placement {
         }
         placement
     }
+
+    /// How many bodies there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.copies.map_or(1, |copies| copies.count)
+    }
 }
 
 pub(crate) static ROTATION: Section = Section {
     name: "rotation",
-    doc: "The shape is turned about a point, in 3D about an axis.",
+    doc: "The shape or mesh is turned about a point, in 3D about an axis.",
     keys: &[
         key("angle", Angle(Dimension::NONE, Finite), Required, "Angle, counter-clockwise; about an axis by the right-hand rule."),
         key("point", Spatial(Dimension::LENGTH, Finite), Written("[0, 0]"), "The point; in 3D one of the axis."),
@@ -64,7 +71,7 @@ section! {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Mirror in MIRROR = Section {
         name: "mirror",
-        doc: "The shape is mirrored on a line, in 3D on a plane.",
+        doc: "The shape or mesh is mirrored on a line, in 3D on a plane. Its sides keep their names; what was above a shell, or on its left, still is.",
         ..Section::EMPTY
     };
     normal: [f64; 3] = Spatial(Dimension::NONE, Finite), Required,
@@ -78,7 +85,7 @@ section! {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Copies in COPIES = Section {
         name: "copies",
-        doc: "The part consists of several bodies of one shape, each turned and moved from the one before. Sides are those of all of them.",
+        doc: "The part consists of several bodies of one shape or mesh, each turned and moved from the one before. Sides and groups are those of all of them.",
         rules: &[Rule::SomeOf(&["translation", "angle"])],
         ..Section::EMPTY
     };

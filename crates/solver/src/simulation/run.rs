@@ -14,7 +14,7 @@ use crate::error::{Error, Fault, INSTRUCTIONS, MASS_ADDED, Notice, Warning};
 use crate::field::snapshot::LiveSnapshot;
 use crate::hashes::{self, Hashes, Hashing};
 use crate::material::messages::{IMPLAUSIBLE, OTHER_UNITS};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, PlacedMesh};
 use crate::mesh::messages::TINY_STEP;
 use crate::model::{self, Cadence, Model};
 use crate::monitor::RunMonitor;
@@ -463,9 +463,9 @@ where
         frame
     }
 
-    /// The user's number of each node of the model's mesh files.
-    pub(crate) fn imported(&self) -> &[Vec<u32>] {
-        &self.system.mesh.imported
+    /// Where the model's mesh files are, with the user's numbers of their nodes.
+    pub(crate) fn placed(&self) -> &[PlacedMesh] {
+        &self.system.mesh.placed
     }
 
     /// A field now, whether the model asks for it or not; `None`: there is none of this name.

@@ -60,6 +60,7 @@ mod quantities;
 mod pressed;
 mod prestress;
 mod pinball_in_3d;
+mod placed;
 mod plasticity;
 mod post_mortem;
 mod probed_fields;

@@ -19,6 +19,7 @@ mod write_conditions;
 pub use keywords::table_markdown;
 pub use report::{Entry, Outcome, Report};
 pub use units::Units;
+pub(crate) use write::{free, quoted};
 
 use super::deck::{Deck, Element, Purpose};
 use super::mesh::{self, Names};

@@ -45,7 +45,7 @@ pub(super) struct Writing {
 }
 
 /// A text in quotes.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {
@@ -65,7 +65,7 @@ pub(super) fn plain(name: &str) -> String {
 }
 
 /// The name, or the name with the first number from 2, that `taken` lacks.
-pub(super) fn free(name: &str, taken: &BTreeSet<String>) -> String {
+pub(crate) fn free(name: &str, taken: &BTreeSet<String>) -> String {
     let numbered = (2..).map(|number| format!("{name}-{number}"));
     std::iter::once(name.to_string()).chain(numbered).find(|name| !taken.contains(name)).unwrap_or_default()
 }

@@ -432,3 +432,32 @@ fn a_thickness_at_nodes_is_that_of_the_shells_there() {
     let unknown = made_faults(&deck(section, "*NODAL THICKNESS\nX7-S, 2.0\n"));
     assert!(unknown.len() == 1 && unknown[0].message.contains("no node set \"X7-S\""), "{unknown:?}");
 }
+
+#[test]
+fn parts_of_an_imported_deck_are_placed_with_their_thicknesses() {
+    // 2 mm thick at x = 0 and 4 mm at 10 mm; mirrored on x = 10 mm and there twice, 100 mm apart along y. The
+    // thick end stays at 10 mm, the thin one is at 20 mm.
+    let section = "*NODAL THICKNESS\nX0-S, 2.0\nX1-S, 4.0\n*SHELL SECTION, ELSET=S, MATERIAL=STEEL, NODAL THICKNESS\n99.0, 3\n";
+    let deck = grid("S", "S4R", [1, 2], [10.0, 6.0, 0.0], 1) + section + STEEL + &step("");
+    let (made, plain) = imported(&deck);
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mesh.inp"), &made.mesh).unwrap();
+    let set = [
+        "part[0].mirror={ normal = [1, 0, 0], point = [\"10 mm\", 0, 0] }",
+        "part[0].copies={ count = 2, translation = [0, \"100 mm\", 0] }",
+    ];
+    let text = format!("{}\n[[probe]]\nname = \"thin\"\nset = \"{}.X0-S\"\n", made.model, plain.parts[0].name);
+    let model = load_text("m", &text, folder.path(), &set.map(String::from)).unwrap_or_else(|diagnostics| panic!("{diagnostics}"));
+    let simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap_or_else(|error| panic!("{error}"));
+    let mass = simulation.overview().parts[0].mass;
+    assert!((mass / (2.0 * 7850.0 * 10e-3 * 6e-3 * 3e-3) - 1.0).abs() < 1e-12, "{mass}");
+    let value = |column: &str| simulation.history_row()[simulation.history_columns().iter().position(|it| it == column).unwrap()];
+    assert!((value("thin.x") - 20e-3).abs() < 1e-15 && (value("thin.y") - 53e-3).abs() < 1e-15, "{} {}", value("thin.x"), value("thin.y"));
+    // The faces are half of the thickness from the middle: 1 mm at the thin end, 2 mm at the other, all
+    // around.
+    let places = simulation.coordinates();
+    for x in places.as_chunks::<3>().0.iter().filter(|x| x[2].abs() > 1e-9) {
+        let wanted = if x[0] > 15e-3 { 1e-3 } else { 2e-3 };
+        assert!((x[2].abs() - wanted).abs() < 1e-4, "{x:?}");
+    }
+}

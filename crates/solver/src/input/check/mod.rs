@@ -591,7 +591,7 @@ pub fn name_is_plain(name: &str) -> Result<(), (String, String)> {
 fn node_count(model: &Model, part: &Part) -> Option<u128> {
     if let Shape::Group { mesh, group } = &part.shape {
         let it = model.meshes.get(*mesh)?.groups.iter().find(|it| it.name == *group && it.dimension == model.cells_dimension(part))?;
-        return Some(it.cells.iter().flatten().collect::<BTreeSet<_>>().len() as u128);
+        return Some((it.cells.iter().flatten().collect::<BTreeSet<_>>().len() * part.placement.count()) as u128);
     }
     part.count().filter(|count| count.exact).map(|count| count.nodes as u128)
 }

@@ -188,10 +188,7 @@ impl Check<'_> {
             if let Shape::Group { mesh, group } = &part.shape {
                 self.group(path, part, *mesh, group);
             }
-            if part.placement != Placement::default() {
-                let help = "place it in the mesh generator";
-                self.fault(&CLASH, format!("{path}.mesh"), "a group of a mesh file can't be mirrored, turned, moved or copied", help);
-            }
+            self.placement(path, &part.placement);
             return;
         };
         let key = format!("{path}.{key}");
@@ -430,7 +427,7 @@ impl Model {
         let groups = self.meshes.get(*mesh).map_or(&[][..], |imported| &imported.groups);
         let found = groups.iter().find(|it| it.name == *group && it.dimension == self.cells_dimension(part));
         let layers = part.sweep.as_ref().map_or(1, |sweep| sweep.count(Count { nodes: 0, elements: 1, exact: true }).elements);
-        found.map_or(0, |it| it.cells.len() as u128).saturating_mul(layers as u128)
+        found.map_or(0, |it| it.cells.len() as u128).saturating_mul(layers as u128).saturating_mul(part.placement.count() as u128)
     }
 
     /// The fault of a model that needs more memory than `limit`, bytes, which is what `whose` says: so many

@@ -159,13 +159,19 @@ fn names_mean_parts_before_groups_before_sides() {
     let mut model = sound();
     assert_eq!(model.reference("ring", Wanted::Nodes), Ok(Reference::Part(0)));
     assert_eq!(model.reference("ring.start", Wanted::Surface), Ok(Reference::Side { part: 0, side: 2 }));
-    assert_eq!(model.reference("upper", Wanted::Surface), Ok(Reference::Group { mesh: 0, group: 1 }));
+    assert_eq!(model.reference("upper", Wanted::Surface), Ok(Reference::Group { part: 1, mesh: 0, group: 1 }));
+    assert_eq!(model.reference("block.upper", Wanted::Surface), Ok(Reference::Group { part: 1, mesh: 0, group: 1 }));
     model.parts[1].name = "upper".into();
     assert_eq!(model.reference("upper", Wanted::Surface), Ok(Reference::Part(1)));
     assert!(model.reference("body", Wanted::Surface).is_err() && model.reference("block.top", Wanted::Nodes).is_err());
     let copy = model.meshes[0].clone();
     model.meshes.push(copy);
-    assert!(model.reference("body", Wanted::Nodes).is_err_and(|(message, _)| message == "group `body` is in 2 meshes"));
+    assert!(model.reference("body", Wanted::Nodes).is_ok(), "no part has the other mesh");
+    model.parts.push(Part { name: "other".into(), shape: Shape::Group { mesh: 1, group: "body".into() }, ..Part::default() });
+    let said = model.reference("body", Wanted::Nodes).unwrap_err();
+    assert_eq!(said.0, "group `body` is in 2 places, with the parts `upper` and `other`");
+    assert_eq!(said.1, "name the part too: `upper.body` or `other.body`");
+    assert_eq!(model.reference("other.body", Wanted::Nodes), Ok(Reference::Group { part: 2, mesh: 1, group: 0 }));
 }
 
 #[test]

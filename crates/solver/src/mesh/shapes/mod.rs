@@ -360,7 +360,7 @@ impl Part {
         let skin = self.shape.solid().filter(|_| self.is_of_sheets()).and_then(|(shape, _)| shape.skin());
         let shape = skin.map(|skin| skin.count).or_else(|| self.shape.count())?;
         let one = self.sweep.as_ref().map_or(shape, |sweep| sweep.count(shape));
-        Some(one.times(self.placement.copies.map_or(1, |copies| copies.count)))
+        Some(one.times(self.placement.count()))
     }
 
     /// Its body in 2D, placed; `None` for a group of a mesh file.
@@ -429,7 +429,7 @@ static MESH_SECTION: Section = Section {
     name: "mesh",
     doc: "A group of a mesh file (Gmsh `.msh` 2.2 or 4.1, 3D if it has a group of volumes, or a part is made of its surfaces as a shell with `shell4`; Abaqus or CalculiX \
         `.inp`; STL `.stl` for a shell of triangles, `shell3`), triangles, wedges and tetrahedra too. Its other groups can be named in contacts, constraints \
-        and probes.",
+        and probes, as `group` or `part.group`. Parts of one file that are mirrored, turned, moved and copied alike share its nodes; those of different places do not.",
     form: Form::Inline,
     required: false,
     keys: &[
@@ -441,7 +441,7 @@ static MESH_SECTION: Section = Section {
             "Name of a physical group of surfaces (of solids of volumes, of bars, beams and of shells in 2D of lines), or of an element set; of an STL file `all`, \
             and its open edges are the group `rim`.",
         ),
-        key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file."),
+        key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file, such as `\"1 mm\"`: its unit, or a scale."),
         key(
             "tolerance",
             Kind::Quantity(Dimension::LENGTH, Positive),

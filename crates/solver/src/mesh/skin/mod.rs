@@ -67,11 +67,11 @@ where
     /// Puts groups of elements of shells on the faces that they look from: the side from which the cells of
     /// a group run counter-clockwise, in 2D that on the left of its lines. Where a solid has the same piece
     /// it stays with the solid.
-    pub(super) fn put_on_faces(&mut self, groups: &[String]) {
+    pub(super) fn put_on_faces(&mut self, groups: &[(String, usize)]) {
         if groups.is_empty() {
             return;
         }
-        let solids: BTreeSet<Facet<D>> = self.outside_of_solids().into_iter().map(Corners::canonical).collect();
+        let solids: BTreeSet<Facet<D>> = self.outside_of_solids(0..self.parts.len()).into_iter().map(Corners::canonical).collect();
         let mut faces: BTreeMap<Facet<D>, Facet<D>> = BTreeMap::new();
         let shells = self.groups.iter().filter(|group| !group.outer.is_empty());
         for (cell, outer) in shells.flat_map(|group| group.outer_cells().map(|(element, outer)| (group.cell(element), outer))) {
@@ -83,8 +83,9 @@ where
             faces.insert(own.canonical(), above.canonical());
             faces.insert(own.reversed().canonical(), below.reversed().canonical());
         }
-        for (_, facets) in self.sides.iter_mut().filter(|(name, _)| groups.contains(name)) {
-            for facet in facets.iter_mut().filter(|facet| !solids.contains(&facet.canonical())) {
+        for (name, place) in groups {
+            let here = self.surfaces.get_mut(name).into_iter().flatten().filter(|(at, _)| at == place);
+            for facet in here.flat_map(|(_, facets)| facets).filter(|facet| !solids.contains(&facet.canonical())) {
                 *facet = faces.get(&facet.canonical()).copied().unwrap_or(*facet);
             }
         }

@@ -5,7 +5,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, final
 
-__all__ = ["Frame", "Model", "Simulation", "__version__", "cells", "channel", "fields", "frames", "history", "schema", "sections"]
+__all__ = ["Frame", "Model", "Simulation", "__version__", "cells", "channel", "fields", "followed", "frames", "history", "schema", "sections"]
 
 __version__: str
 
@@ -88,6 +88,7 @@ class Frame:
 
 def history(folder: str | PathLike[str], of_whole_bodies: bool) -> tuple[list[str], list[str], bytes] | None: ...
 def frames(folder: str | PathLike[str]) -> list[tuple[int, float, Path]]: ...
+def followed(x: list[float], y: list[float], places: list[float]) -> list[float]: ...
 def channel(
     expression: str, names: list[str], values: list[list[float]], class_number: float | None, corner: float | None
 ) -> list[float]: ...

@@ -54,8 +54,13 @@ fn overview_text(model: &Model, overview: &Overview) -> String {
         with_unit(model.run.end, "s")
     ));
     let warnings = overview.warnings.iter().map(ToString::to_string).collect();
-    for (title, lines) in [("probes", &overview.probes), ("initial penetrations", &overview.initial_penetrations), ("warnings", &warnings)]
-    {
+    let lists = [
+        ("contacts of tied or joined parts", &overview.contacts),
+        ("probes", &overview.probes),
+        ("initial penetrations", &overview.initial_penetrations),
+        ("warnings", &warnings),
+    ];
+    for (title, lines) in lists {
         if !lines.is_empty() {
             text.push_str(&format!("{title}\n  {}\n", lines.join("\n  ")));
         }

@@ -27,8 +27,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "KEY=BOUNDS", required = true)]
     vary: Vec<String>,
     /// What was measured: OUTPUT=VALUE, where OUTPUT is as in `embate sweep`, for example
-    /// `at=1ms(tip.y)=3.2mm`, or COLUMN=FILE with a curve over time, a CSV file whose first line may name
-    /// units: `time [ms],tip.y [mm]`; may be repeated
+    /// `at=1ms(tip.y)=3.2mm`; COLUMN=FILE with a curve over time, a CSV file whose first line may name
+    /// units: `time [ms],tip.y [mm]`; or "COLUMN over COLUMN=FILE", such as a force over a displacement; may
+    /// be repeated
     #[arg(long, value_name = "WHAT=MEASURED", required = true)]
     measured: Vec<String>,
     /// Length of the differences between runs that give the derivatives, as a part of the bounds' distance

@@ -62,6 +62,11 @@ impl Place {
     pub(crate) fn load(&self, origin: &Origin, set: &[String]) -> Result<(Loaded, Origin), Failure> {
         let path =
             self.model.as_ref().map_or_else(|| origin.path.clone(), |path| std::path::absolute(path).unwrap_or_else(|_| path.clone()));
+        if path.as_os_str().is_empty() {
+            let text = "the model of this run was in the memory of a program and names files, so it is not in the results";
+            let help = "write it by `model.save(...)` of Python, with the files that it names beside it, and name it with --model";
+            return Err(Failure::Input(CliError::new(&NO_CHECKPOINT, text).help(help)));
+        }
         let origin = Origin { path, set: origin.set.iter().chain(set).cloned().collect() };
         let loaded = input::load(&ModelArguments { model: origin.path.clone(), set: origin.set.clone(), leave: self.leave })?;
         Ok((loaded, origin))

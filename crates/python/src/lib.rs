@@ -23,7 +23,7 @@ mod _embate {
     #[pymodule_export]
     use super::simulation::Simulation;
     #[pymodule_export]
-    use super::{cells, channel, fields, schema, sections};
+    use super::{cells, channel, fields, followed, schema, sections};
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "a name of Python")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
@@ -75,6 +75,12 @@ fn channel(
         pyo3::exceptions::PyValueError::new_err(format!("{expression:?}, at character {}: {}", wrong.at, wrong.message))
     };
     channel::values(expression, filter, &names, &values).map_err(wrong)
+}
+
+/// Values of the curve (x, y) at places that are passed in their order; a text where one is not reached.
+#[pyfunction]
+fn followed(x: Vec<f64>, y: Vec<f64>, places: Vec<f64>) -> Result<Vec<f64>, PyErr> {
+    embate_files::sweep::fit::followed(&x, &y, &places).map_err(|missed| pyo3::exceptions::PyValueError::new_err(missed.to_string()))
 }
 
 /// The fields of a dimension: name, components, unit, whether it is at nodes, what it is.

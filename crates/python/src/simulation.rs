@@ -7,9 +7,9 @@ use crate::fault::{self, Class, Entry, guarded, raise};
 use crate::model::Model;
 use crate::{bytes, numbers};
 use embate_files::checkpoint::{Checkpoint, Identity, Origin};
-use embate_files::model_file::Loaded;
+use embate_files::model_file::{GivenMeshes, Loaded};
 use embate_files::post_mortem::Failed;
-use embate_files::results::{Checkpoints, Recorder, Report, ResultFolder};
+use embate_files::results::{Checkpoints, Pause, Recorder, Report, ResultFolder};
 use embate_files::threads::Threads;
 use embate_solver::error::Error;
 use embate_solver::mesh::PlacedMesh;
@@ -303,17 +303,29 @@ impl Simulation {
         })
     }
 
-    /// Begins to write results into a folder, which is made; `force`: what is there goes. Only a model of a
-    /// file can be resumed or run again by the command, so only its results have states and hashes.
-    fn record(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<()> {
+    /// Begins to write results into a folder, which is made; `force`: what is there goes. A model that came
+    /// from no file is written beside them, where `given` has its text, its meshes as .msh files, and what of
+    /// it was overridden: so the command can run it again. One that names files besides can't be.
+    fn record(&self, py: Python<'_>, folder: PathBuf, force: bool, given: Option<(String, GivenMeshes, Vec<String>)>) -> PyResult<()> {
         let (loaded, options, origin) = (&self.loaded, &self.options, &self.origin);
         self.without_lock(py, |inner| {
             let model = &loaded.model;
             let path = folder;
             let folder = ResultFolder::create(&path, force).map_err(|error| fault::of_results(&error))?;
             let shown = (inner.simulation.history_columns(), inner.simulation.cells());
-            // No one can resume, or run again, a model that is in memory alone.
-            let checkpoints = origin.clone().map(|origin| Checkpoints::of(model, origin));
+            let origin = match (origin.clone(), given) {
+                (Some(origin), _) => origin,
+                (None, Some((text, meshes, set))) if loaded.names_only(&meshes) => {
+                    let path = folder.keep_model(&model.name, &text, &meshes).map_err(|error| fault::of_results(&error))?;
+                    Origin { path, set }
+                }
+                (None, _) => Origin::default(),
+            };
+            // Without its file a state helps no one who does not ask for it.
+            let is_lost = origin.path.as_os_str().is_empty();
+            let mut checkpoints = Checkpoints::of(model, origin);
+            checkpoints.pause = if is_lost { Pause::Never } else { checkpoints.pause };
+            let checkpoints = Some(checkpoints.with_words(loaded, inner.simulation.part_meshes(model)));
             let quiet = Box::new(|_: &Progress<'_>| Control::Continue);
             let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, quiet);
             inner.recorder = Some(recorder.map_err(|error| fault::of_results(&error))?);

@@ -22,7 +22,7 @@ def tensile(**changes: Any) -> embate.Model:
     model.constraint(on="bar.left", velocity={"x": "pull"}).constraint(on="bar.right", velocity={"x": 5.0})
     model.curve("pull", time=[0], value=[-5.0])
     model.load(damping=3e5)
-    return model.probe(name="end", set="bar.right")
+    return model.probe(name="end", set="bar.right").probe(name="start", set="bar.left")
 
 
 def curve(model: embate.Model) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
@@ -66,6 +66,28 @@ def test_errors_are_those_of_noise() -> None:
     scatter = float(np.std(found, ddof=1))
     # χ of 11 degrees of freedom: within these bounds in more than 99.9 % of all cases.
     assert 0.4 < scatter / float(np.mean(errors)) < 1.8, (scatter, errors)
+
+
+def test_loading_and_unloading_are_told_apart() -> None:
+    # Pulled and let back: the same places twice, with other energies.
+    def cycle(**changes: Any) -> embate.Model:
+        return tensile(**changes).with_set({"curve.pull.time": [0, 40e-6, 40.1e-6], "curve.pull.value": [-5.0, -5.0, 8.0]})
+
+    history = cycle(**{"yield": 300e6}).simulation(threads=1).run().history
+    x, y = history["end.x"][1:] - history["start.x"][1:], history["energy.internal"][1:]
+    turn = int(np.argmax(x))
+    assert 10 < turn < len(x) - 5
+    measured = {("way", "work"): (x[::2], y[::2])}
+
+    def measure(simulation: embate.Simulation) -> dict[Any, Any]:
+        it = simulation.history
+        return {("way", "work"): (it["end.x"] - it["start.x"], it["energy.internal"])}
+
+    found = embate.calibrate(cycle(), measured, {"material.steel.yield": (100e6, 600e6)}, measure=measure, tolerance=1e-6)
+    assert found.parameters["material.steel.yield"] == pytest.approx(300e6, rel=2e-3), found
+    far = {("end.x", "energy.internal"): ([0.010001, 0.02], [1.0, 2.0])}
+    with pytest.raises(embate.RunError, match="the run does not come to 2.000000e-2"):
+        embate.calibrate(tensile(), far, {"material.steel.yield": (100e6, 600e6)})
 
 
 def test_what_is_blind_or_at_a_bound_is_told() -> None:

@@ -48,8 +48,6 @@ def test_what_is_read_is_what_was_computed(written: tuple[embate.Simulation, Pat
     assert "von_mises" in dir(last) and "blocks, done" in repr(results) and "<table>" in results._repr_html_()
     with pytest.raises(AttributeError, match="it has displacement"):
         last.strees
-    with pytest.raises(embate.FileError, match="memory of a program"):
-        results.model
 
 
 def test_results_of_the_command_have_their_model_and_units(tmp_path: Path, command: str, model: embate.Model) -> None:
@@ -172,6 +170,52 @@ def test_what_is_damaged_or_missing_is_told(written: tuple[embate.Simulation, Pa
     (out / "history.csv").write_text("time,a\n0,x\n")
     with pytest.raises(embate.FileError, match="line 2"):
         results.history
+
+
+def test_a_model_in_memory_is_beside_its_results(tmp_path: Path, command: str) -> None:
+    x, y = np.meshgrid(np.linspace(0.006, 0.014, 6), np.linspace(0.0062, 0.0142, 6))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    corner = (np.arange(5)[:, None] * 6 + np.arange(5)).ravel()
+    quads = np.column_stack([corner, corner + 1, corner + 7, corner + 6])
+    given = sections()
+    given["part"][1] = {"name": "upper", "material": "steel", "mesh": (points, quads), "velocity": (0, -80)}
+    model = embate.Model(given, name="blocks", set={"run.end": "30 us"})
+    out = tmp_path / "out"
+    simulation = model.simulation().run(out=out)
+    assert sorted(file.name for file in (out / "model-of-run").iterdir()) == ["blocks.toml", "mesh-1.msh"]
+    results = embate.results(out)
+    assert results.model.end == pytest.approx(30e-6) and results.model.simulation().run().hash() == simulation.hash()
+    assert [part["name"] for part in results.provenance["parts"]] == ["lower", "upper"]
+
+    def by_command(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+    replayed = by_command("replay", out, "--from", "20 us", "--to", "22 us", "--output-every", "1 us", "--quiet")
+    assert replayed.returncode == 0, replayed.stderr
+    assert by_command("report", out).returncode == 0
+    model.with_set({"part[1].velocity": (0, -81)}).simulation().run(out=tmp_path / "other")
+    differs = by_command("diff", out, tmp_path / "other")
+    assert differs.returncode == 1 and "part[1].velocity" in differs.stdout + differs.stderr, differs.stdout + differs.stderr
+    assert "--model-" not in differs.stderr, differs.stderr
+    # One that names files is not there, and who asks for it is told so.
+    folder = embate.Model(given, name="blocks").save(tmp_path / "saved.toml").parent
+    group = (folder / "saved.toml").read_text().split('group = "')[1].split('"')[0]
+    given["part"][1]["mesh"] = {"file": "mesh-1.msh", "group": group}
+    named = tmp_path / "named"
+    embate.Model(given, name="blocks", folder=folder).simulation().run(out=named)
+    assert not (named / "model-of-run").exists()
+    with pytest.raises(embate.FileError, match="names files"):
+        embate.results(named).model
+    refused = by_command("replay", named, "--from", "20 us", "--to", "22 us", "--output-every", "1 us", "--quiet")
+    assert refused.returncode == 2 and "names files" in refused.stderr, refused.stderr
+    again = by_command("replay", named, "--from", "20 us", "--to", "22 us", "--output-every", "1 us", "--quiet", "--model", folder / "saved.toml")
+    assert again.returncode == 0, again.stderr
+    # A section that was given later is not of this simulation.
+    later = embate.Model(sections(), name="blocks")
+    simulation = later.simulation()
+    later.probe(name="more", set="upper")
+    simulation.run(out=tmp_path / "later")
+    assert not (tmp_path / "later" / "model-of-run").exists()
 
 
 def test_a_run_that_fails_has_its_post_mortem_and_says_where(tmp_path: Path, model: embate.Model) -> None:

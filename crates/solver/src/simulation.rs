@@ -2,6 +2,7 @@
 //! loop is in `simulation/run.rs`, written once for both dimensions.
 
 mod clock;
+mod contact_pairs;
 mod few;
 mod output_cursor;
 mod memory;
@@ -211,6 +212,8 @@ pub struct Overview {
     pub steps_expected: u64,
     /// Initial penetrations, one line each: contact, node, place, depth.
     pub initial_penetrations: Vec<String>,
+    /// Contacts of bodies of which some are tied or joined besides, one line each.
+    pub contacts: Vec<String>,
     /// Probes, one line each: which node, its place, its distance from the wanted point.
     pub probes: Vec<String>,
     /// Things the user should know besides [`Simulation::model_warnings`].

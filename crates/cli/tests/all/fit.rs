@@ -81,6 +81,91 @@ fn a_curve_over_time_is_followed_and_errors_are_those_of_its_noise() {
     assert!((shown * scale - error).abs() < 1e-2 * error, "{} {error}", answer.out);
 }
 
+/// A bar of 100 mm and 1 cm² that is pulled by 2 mm and let back by 0.2 mm; `E`, `σ_y` and `H` are 200 GPa,
+/// 300 MPa and 2 GPa.
+const TENSILE: &str = r#"
+[run]
+end = "20 ms"
+[material.steel]
+law = "j2"
+density = 7800
+young = "200 GPa"
+poisson = 0.3
+yield = "250 MPa"
+hardening = "1 GPa"
+[[part]]
+name = "bar"
+material = "steel"
+element = "bar2"
+area = "1e-4 m"
+truss = { lines = [[[0, 0], ["100 mm", 0]]] }
+[[constraint]]
+on = "bar.point0"
+fixed = ["x", "y"]
+[[constraint]]
+on = "bar.point1"
+fixed = ["y"]
+displacement = { x = "pull" }
+[curve.pull]
+time = ["0 ms", "16 ms", "17 ms", "20 ms"]
+value = ["0 mm", "2 mm", "2 mm", "1.8 mm"]
+[[cut]]
+name = "middle"
+point = ["50 mm", 0]
+normal = [1, 0]
+[[probe]]
+name = "P"
+set = "bar.point1"
+[[channel]]
+name = "elongation"
+expression = "P.x - 0.1"
+[output]
+history = 400
+forces = "sample"
+pictures = false
+"#;
+
+/// The force (N) of the bar at an elongation (m), drawn out further than ever or let back from `farthest`, in
+/// closed form: with ε = ln(l/l₀), σ = σ_y + E H/(E + H) (ε − σ_y/E) beyond the yield, elastic on the way
+/// back, and the area A₀ exp(2 ε_t) with ε_t = −ν σ/E − ½ (ε − σ/E).
+fn force_at(elongation: f64, farthest: f64) -> f64 {
+    let (young, poisson, yields, hardening) = (200e9, 0.3, 300e6, 2e9);
+    let strain = |elongation: f64| (1.0 + elongation / 0.1).ln();
+    let drawn = |strain: f64| {
+        let beyond = strain - yields / young;
+        if beyond < 0.0 { young * strain } else { yields + young * hardening / (young + hardening) * beyond }
+    };
+    let here = strain(elongation);
+    let stress = if elongation < farthest { drawn(strain(farthest)) - young * (strain(farthest) - here) } else { drawn(here) };
+    let across = -poisson * stress / young - 0.5 * (here - stress / young);
+    stress * 1e-4 * (2.0 * across).exp()
+}
+
+#[test]
+fn force_over_displacement_gives_yield_and_hardening() {
+    let folder = fresh("fit-tensile");
+    fs::write(folder.join("flight.toml"), TENSILE).unwrap();
+    let pulled = (1..=40).map(|k| 0.05e-3 * f64::from(k)).map(|x| (x, force_at(x, x)));
+    // The same elongations on the way back, at other forces.
+    let back = [1.95e-3, 1.9e-3, 1.85e-3].map(|x| (x, force_at(x, 2e-3)));
+    let rows: String = pulled.chain(back).map(|(x, force)| format!("{},{}\n", 1e3 * x, 1e-3 * force)).collect();
+    fs::write(folder.join("tensile.csv"), format!("elongation [mm],force [kN/m]\n{rows}")).unwrap();
+    let vary = ["--vary", "material.steel.yield=100MPa:600MPa", "--vary", "material.steel.hardening=0.2GPa:10GPa", "--tolerance", "1e-8"];
+    let answer = again(&folder, &[&vary[..], &["--measured", "cut.normal_force[middle] over elongation=tensile.csv"]].concat());
+    assert_eq!(answer.code, Some(0), "{}", answer.err);
+    let (yields, hardening) = (found(&answer, "material.steel.yield"), found(&answer, "material.steel.hardening"));
+    assert!((yields / 300e6 - 1.0).abs() < 2e-4 && (hardening / 2e9 - 1.0).abs() < 2e-3, "{}", answer.out);
+    // What the run never comes to is refused: further out, and further back.
+    for (rows, word) in [("1,30\n2.5,32\n", "point 2 of far.csv: the run does not come to 2.5"), ("1,30\n0.5,28\n", "point 2")] {
+        fs::write(folder.join("far.csv"), format!("elongation [mm],force [kN/m]\n{rows}")).unwrap();
+        let answer = again(&folder, &[&vary[..], &["--measured", "cut.normal_force[middle] over elongation=far.csv", "--force"]].concat());
+        assert_eq!(answer.code, Some(1), "{}", answer.out);
+        assert!(answer.err.contains("E0909") && answer.err.contains(word), "{}", answer.err);
+    }
+    let answer = again(&folder, &[&vary[..], &["--measured", "cut.normal_force[middle] over elongations=tensile.csv", "--force"]].concat());
+    assert!(answer.code == Some(2) && answer.err.contains("E0902") && answer.err.contains("elongation"), "{}", answer.err);
+}
+
 #[test]
 fn what_nothing_depends_on_or_a_bound_holds_is_reported() {
     let arguments = [
@@ -106,6 +191,7 @@ fn what_can_not_be_is_reported_before_anything_runs() {
         (vec!["--vary", "part.block.velocity[0]=9:1", measured[0], measured[1]], 2, "E0907"),
         (vec![vary[0], vary[1], "--measured", "P.x=nowhere.csv"], 2, "E0908"),
         (vec![vary[0], vary[1], "--measured", "last(Q.x)=1"], 2, "E0902"),
+        (vec![vary[0], vary[1], "--measured", "P.x over P.y=5mm"], 2, "more than one place"),
         (vec!["--vary", "part.block.velosity[0]=1:9", measured[0], measured[1]], 2, "velosity"),
         (vec!["--vary", "material.steel.density=-5:5", measured[0], measured[1]], 2, "must be"),
         (vec![vary[0], vary[1], measured[0], measured[1], "--step", "0"], 2, "--step is 0"),

@@ -264,3 +264,29 @@ fn looking_at_a_failure_changes_nothing_of_its_results() {
     assert!(fs::read_to_string(folder.join("other/post-mortem/README.md")).unwrap() == page);
     assert!(fs::read(folder.join("other/post-mortem/neighbourhood.svg")).unwrap() == picture);
 }
+
+#[test]
+fn a_model_that_can_not_begin_leaves_no_folder_and_takes_no_results_away() {
+    let folder = fresh("post-mortem-no-begin");
+    fs::write(folder.join("flight.toml"), crate::FLIGHT).unwrap();
+    let run = |out: &str, set: &[&str]| {
+        let set = set.iter().flat_map(|set| ["--set", set]);
+        embate(&folder, ["run", "flight.toml", "--quiet", "--out", out].into_iter().chain(set))
+    };
+    // Inside an obstacle at the start; elements that are inside out at rest; an impossible value.
+    let inside = "obstacle=[{ name = \"wall\", plane = { point = [0.005, 0], normal = [1, 0] } }]";
+    let inverted = "part=[{ name = \"block\", material = \"steel\", velocity = [1, 0], quadrilateral = { corners = [[0, 0], [0.01, 0], \
+                    [0.001, 0.001], [0, 0.01]], elements = [3, 3] } }]";
+    assert_eq!(run("kept", &[]).code, Some(0));
+    let summary = fs::read(folder.join("kept/summary.json")).unwrap();
+    for (set, code) in [(inside, "E0407"), (inverted, "E0201"), ("material.steel.poisson=0.5", "E0110")] {
+        for out in ["none", "kept"] {
+            let answer = run(out, &[set]);
+            assert_eq!(answer.code, Some(2), "{set}: {}", answer.err);
+            assert!(answer.err.contains(code) && answer.err.contains("nothing was run"), "{set}: {}", answer.err);
+            assert!(!answer.err.contains("post-mortem"), "{set}: {}", answer.err);
+        }
+        assert!(!folder.join("none").exists(), "{set}");
+        assert!(fs::read(folder.join("kept/summary.json")).unwrap() == summary && !folder.join("kept/post-mortem").exists(), "{set}");
+    }
+}

@@ -159,6 +159,13 @@ impl Loaded {
         all
     }
 
+    /// Whether all files that it names are among these: then its text and these are all of it.
+    #[must_use]
+    pub fn names_only(&self, given: &GivenMeshes) -> bool {
+        let is_given = |value: &str| given.contains_key(value.trim_matches(['"', '\'']));
+        self.written().iter().filter(|(path, _)| path.ends_with(".file")).all(|(_, value)| is_given(value))
+    }
+
     fn note(&self, node: &Node, path: String, all: &mut Vec<(String, String)>) {
         match &node.value {
             tree::Value::Table(entries) => entries.iter().for_each(|entry| {

@@ -2,9 +2,10 @@
 
 use super::lock::FolderLock;
 use super::provenance::RAN;
-use super::{HASHES, ResultsError, atomic::part_path};
+use super::{HASHES, ResultsError, atomic::part_path, write_whole};
 use crate::checkpoint::{FOLDER, is_checkpoint};
 use crate::{plain, post_mortem};
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -15,6 +16,8 @@ const FILES: &[&str] =
     &["summary.json", "history.csv", HASHES, RAN, "fields.pvd", "obstacles.pvd", "animation.gif", "final.png", "energy.svg", "history.svg"];
 /// Folder of the frames.
 const FRAMES: &str = "fields";
+/// Folder of the model of a run that came from no file.
+const MODEL: &str = "model-of-run";
 /// Folder in which pictures are made before they are complete.
 const PICTURES: &str = "pictures.part";
 
@@ -60,7 +63,7 @@ impl ResultFolder {
         let own = Self::take(path)?;
         if force {
             remove_existing(path, |_, _| true)?;
-            for folder in [path.join(PICTURES), path.join(FOLDER)] {
+            for folder in [PICTURES, FOLDER, MODEL].map(|name| path.join(name)) {
                 // Stays if something foreign lies in it.
                 let _ = fs::remove_dir(folder);
             }
@@ -104,6 +107,8 @@ impl ResultFolder {
                 frame_number(name).is_some_and(|number| number >= frames)
             } else if file.parent() == Some(&path.join(FOLDER)) {
                 is_checkpoint(name).is_none_or(|own| own > step)
+            } else if file.parent() == Some(&path.join(MODEL)) {
+                false
             } else {
                 // Collections and what ran are written again; tables are cut.
                 !self.is_table(file, hashes) && !["fields.pvd", "obstacles.pvd", RAN].contains(&name)
@@ -131,7 +136,7 @@ impl ResultFolder {
         remove_existing(path, |_, _| true)?;
         post_mortem::remove(path)?;
         drop(lock);
-        for folder in [path.join(PICTURES), path.join(FRAMES), path.join(FOLDER), path.to_path_buf()] {
+        for folder in [path.join(PICTURES), path.join(FRAMES), path.join(FOLDER), path.join(MODEL), path.to_path_buf()] {
             // Stays if something foreign lies in it.
             let _ = fs::remove_dir(folder);
         }
@@ -144,6 +149,24 @@ impl ResultFolder {
         for folder in [self.path.join(FRAMES), self.path.clone()] {
             let _ = fs::File::open(folder).and_then(|folder| folder.sync_all());
         }
+    }
+
+    /// Writes a model that came from no file beside its results, so that it can be run again: its text, and
+    /// the bytes of the meshes that it names as files. Returns the path of the model file.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn keep_model(&self, name: &str, text: &str, meshes: &BTreeMap<String, Vec<u8>>) -> Result<PathBuf, ResultsError> {
+        let folder = self.path.join(MODEL);
+        plain::folder(&folder).map_err(ResultsError::file("create", &folder))?;
+        for (mesh, bytes) in meshes.iter().filter(|(mesh, _)| is_model_file(mesh)) {
+            write_whole(&folder.join(mesh), bytes)?;
+        }
+        // What looks like a path stays in the folder.
+        let name = Path::new(name).file_name().and_then(|name| name.to_str()).unwrap_or("model");
+        let file = folder.join(format!("{name}.toml"));
+        write_whole(&file, text.as_bytes())?;
+        Ok(std::path::absolute(&file).unwrap_or(file))
     }
 
     /// Where it is.
@@ -218,8 +241,8 @@ fn existing(path: &Path) -> Result<Vec<PathBuf>, ResultsError> {
         }
     }
     type Is = fn(&str) -> bool;
-    for (folder, is_own) in [(FRAMES, is_frame as Is), (FOLDER, |name| is_checkpoint(name.strip_suffix(".part").unwrap_or(name)).is_some())]
-    {
+    let is_state: Is = |name| is_checkpoint(name.strip_suffix(".part").unwrap_or(name)).is_some();
+    for (folder, is_own) in [(FRAMES, is_frame as Is), (FOLDER, is_state), (MODEL, is_model_file)] {
         let folder = path.join(folder);
         if plain::is_folder(&folder).map_err(ResultsError::file("write into", &folder))? {
             let mut files = Vec::new();
@@ -234,6 +257,13 @@ fn existing(path: &Path) -> Result<Vec<PathBuf>, ResultsError> {
         }
     }
     Ok(found)
+}
+
+/// A model file or one of its meshes, `mesh-1.msh`, `.part` or not.
+fn is_model_file(name: &str) -> bool {
+    let name = name.strip_suffix(".part").unwrap_or(name);
+    let number = name.strip_prefix("mesh-").and_then(|rest| rest.strip_suffix(".msh"));
+    name.ends_with(".toml") || number.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()))
 }
 
 /// `frame-00000.vtu` or `obstacles-00000.vtu`, with five digits or more, `.part` or not.
@@ -251,6 +281,28 @@ fn frame_number(name: &str) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_model_is_kept_beside_its_results_and_goes_with_them() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("out");
+        let folder = ResultFolder::create(&path, false).unwrap();
+        let meshes = BTreeMap::from([("mesh-1.msh".to_string(), vec![1, 2]), ("../far.msh".to_string(), vec![3])]);
+        let file = folder.keep_model("../disk", "end = 1", &meshes).unwrap();
+        assert_eq!(file, path.join("model-of-run/disk.toml"));
+        assert_eq!(
+            (fs::read_to_string(&file).unwrap().as_str(), fs::read(path.join("model-of-run/mesh-1.msh")).unwrap()),
+            ("end = 1", vec![1, 2])
+        );
+        assert!(!place.path().join("far.msh").exists());
+        fs::write(path.join("model-of-run/mine.txt"), "").unwrap();
+        folder.cut(0, true, 0).unwrap();
+        assert!(file.exists(), "results that continue keep it");
+        drop(folder);
+        drop(ResultFolder::create(&path, true).unwrap());
+        let left: Vec<_> = fs::read_dir(path.join("model-of-run")).unwrap().map(|it| it.unwrap().file_name()).collect();
+        assert_eq!(left, ["mine.txt"]);
+    }
 
     #[test]
     fn only_own_frames_are_recognised() {

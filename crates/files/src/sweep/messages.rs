@@ -63,13 +63,13 @@ pub(super) static MEASURED: Message = Message {
     title: "a measurement of a fit that can't be",
     example: Example::Command("fit model.toml --vary material.steel.young=100GPa:300GPa --measured block.vx=nowhere.csv"),
     cause: "There is no number and no table behind the name, or the table has not two columns of numbers.",
-    remedy: "Give a number with its unit, or a CSV file with time and value in each row.",
+    remedy: "Give a number with its unit, or a CSV file with two numbers in each row: time, or the column that the curve is over, and value.",
 };
 
 pub(super) static FIRST_RUN: Message = Message {
     code: "E0909",
     title: "a fit whose first run fails",
     example: Example::Command("fit model.toml --vary run.energy_limit=1e-300:2e-300 --measured last(energy.kinetic)=1"),
-    cause: "The search begins in the middle of the bounds, or at the first value between them, and there the model fails.",
-    remedy: "Give a first value with which the model runs: --vary key=LOWEST:FIRST:HIGHEST.",
+    cause: "The search begins in the middle of the bounds, or at the first value between them, and there the model fails, or does not come to a place at which something was measured.",
+    remedy: "Give a first value with which the model runs: --vary key=LOWEST:FIRST:HIGHEST. Let the run last until it has come to all places, or leave out those that it never comes to.",
 };

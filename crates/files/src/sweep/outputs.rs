@@ -64,12 +64,17 @@ impl Output {
         })
     }
 
+    /// Its value, where the run has it and it is a number.
+    pub(super) fn number(&self, samples: &Samples) -> Option<f64> {
+        samples.number(&self.source).ok()
+    }
+
     /// Its cell in the table; empty where the run does not have it.
     pub(super) fn cell(&self, samples: &Samples) -> String {
         let mut cell = String::new();
         if let Some(text) = samples.text(&self.source) {
             append_text(&mut cell, text);
-        } else if let Ok(value) = samples.number(&self.source) {
+        } else if let Some(value) = self.number(samples) {
             append_number(&mut cell, value);
         }
         cell

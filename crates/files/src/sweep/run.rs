@@ -71,6 +71,10 @@ struct Shared {
 
 /// Numbers of a run, or why it has none.
 pub(super) type Numbers = Result<Vec<f64>, String>;
+/// What a run recorded and how it ended, or why it failed.
+type Recorded = Result<(Samples, RunEnd), String>;
+/// Finds numbers in what a run recorded, with the help of a function for an output by its name.
+pub(super) type Seen<'a> = dyn Fn(&Samples, &dyn Fn(&str) -> Result<f64, String>) -> Numbers + 'a;
 
 impl Sweep {
     /// Runs what has not been run, then writes the table and the plot.
@@ -217,23 +221,22 @@ impl Sweep {
         }
     }
 
-    /// Outputs of all runs as numbers, in memory alone; of a run that fails or has not all of them the
-    /// reason. `None`: the user stopped it.
-    pub(super) fn numbers(&self, running: &Running<'_>) -> Result<Option<Vec<Numbers>>, SweepError> {
-        let one = |run: usize| {
-            let bug = |_| Ok(Some(self.failed(run, "this run ended with a bug in embate".to_string())));
-            catch_unwind(AssertUnwindSafe(|| self.run_one(run, running))).unwrap_or_else(bug)
-        };
+    /// Numbers that `seen` finds in each run, in memory alone: it gets what was recorded, and a function for
+    /// an output by its name. Of a run that fails or does not have them the reason. `None`: the user stopped
+    /// it.
+    pub(super) fn numbers(&self, running: &Running<'_>, seen: &Seen<'_>) -> Result<Option<Vec<Numbers>>, SweepError> {
+        let bug = |_| Ok(Some(Err("this run ended with a bug in embate".to_string())));
+        let one = |run: usize| catch_unwind(AssertUnwindSafe(|| self.recorded(run, running))).unwrap_or_else(bug);
         let mut all = Vec::new();
-        for entry in in_parallel(self.runs(), running.jobs, &one) {
-            let Some(entry) = entry? else { return Ok(None) };
-            let numbers: Option<Vec<f64>> =
-                entry.cells.iter().map(|cell| cell.parse().ok().filter(|value: &f64| value.is_finite())).collect();
-            all.push(match numbers {
-                _ if entry.end == RunEnd::Failed => Err(entry.error),
-                Some(numbers) => Ok(numbers),
-                None => Err("the run has not all that was measured".to_string()),
-            });
+        for recorded in in_parallel(self.runs(), running.jobs, &one) {
+            let Some(recorded) = recorded? else { return Ok(None) };
+            all.push(recorded.and_then(|(samples, _)| {
+                let number = |name: &str| {
+                    let output = self.outputs.iter().find(|output| output.name == name);
+                    output.and_then(|output| output.number(&samples)).ok_or_else(|| format!("the run has no `{name}`"))
+                };
+                seen(&samples, &number)
+            }));
         }
         Ok(Some(all))
     }
@@ -244,17 +247,25 @@ impl Sweep {
 
     /// Runs to the end; `None` where the user stopped it.
     fn run_one(&self, run: usize, running: &Running<'_>) -> Result<Option<Entry>, SweepError> {
+        Ok(self.recorded(run, running)?.map(|recorded| match recorded {
+            Ok((samples, end)) => Entry { run, end, error: String::new(), cells: self.cells(&samples) },
+            Err(error) => self.failed(run, error),
+        }))
+    }
+
+    /// What a run recorded and how it ended, or why it failed.
+    fn recorded(&self, run: usize, running: &Running<'_>) -> Result<Option<Recorded>, SweepError> {
         let (begin, cpu) = (Instant::now(), (running.user_cpu_seconds)());
         let used = || Some((running.user_cpu_seconds)()? - cpu?);
         let model = match self.model(run, running.keep) {
             Ok(model) => model,
             Err(faults) => {
-                return Ok(Some(self.failed(run, first_line(&faults.entries.first().map_or(String::new(), |it| it.message.clone())))));
+                return Ok(Some(Err(first_line(&faults.entries.first().map_or(String::new(), |it| it.message.clone())))));
             }
         };
         let mut simulation = match Simulation::new(&model, &self.options) {
             Ok(simulation) => simulation,
-            Err(error) => return Ok(Some(self.failed(run, reported(&error)))),
+            Err(error) => return Ok(Some(Err(reported(&error)))),
         };
         let folder = self.folder(running.folder, run);
         let recorder = match running.keep {
@@ -292,7 +303,7 @@ impl Sweep {
             write_figures(&folder, samples.columns(), &samples.rows, &report)?;
         }
         if let Some(error) = error {
-            return Ok(Some(self.failed(run, error)));
+            return Ok(Some(Err(error)));
         }
         samples.summary = report.value();
         samples.add_channels(&model);
@@ -300,7 +311,7 @@ impl Sweep {
             samples.stay_until(model.run.end);
         }
         let end = if report.status == RunStatus::Done { RunEnd::Done } else { RunEnd::Stopped };
-        Ok(Some(Entry { run, end, error: String::new(), cells: self.cells(&samples) }))
+        Ok(Some(Ok((samples, end))))
     }
 }
 

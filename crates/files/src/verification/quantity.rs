@@ -186,6 +186,15 @@ impl Samples {
         })
     }
 
+    /// All values of a column.
+    ///
+    /// # Errors
+    /// That there is no such column.
+    pub(crate) fn values(&self, name: &str) -> Result<Vec<f64>, String> {
+        let index = self.column(name).map_err(|(_, message, _)| message)?;
+        Ok(self.rows.iter().map(|row| row[index]).collect())
+    }
+
     /// Time and value of a column from one time to another, both interpolated on straight lines.
     pub(super) fn curve(&self, name: &str, [begin, end]: [Option<f64>; 2]) -> Result<Vec<[f64; 2]>, String> {
         let index = self.column(name).map_err(|(_, message, _)| message)?;

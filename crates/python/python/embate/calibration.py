@@ -10,6 +10,7 @@ from typing import Any, Union
 
 import numpy as np
 
+from . import _embate
 from ._optional import needed
 from .errors import RunError
 from .errors import Warning as EmbateWarning
@@ -102,7 +103,9 @@ def calibrate(
         The model.
     measured : dict
         What was measured. ``{"tip.x": (times, values)}`` is a column of the history over time, ``{("punch.y", "obstacle.force_y[die]"): (x, y)}`` a column over another one, a number the last value
-        of a column. With ``measure`` the names are those that it returns. Units are SI.
+        of a column. With ``measure`` the names are those that it returns. Units are SI. Curves are followed in their order, as by ``embate fit``: the value of a point is taken where the run
+        passes its x at or after the point before, so loading is compared with loading and unloading with unloading; going back by less than 1 % of the measured range of x turns no curve. A
+        run that does not come to a point counts as one that fails.
     parameters : dict
         Path of a key -> (lowest, highest) or (lowest, first, highest), SI numbers: ``{"material.steel.yield": (200e6, 600e6)}``.
     measure : callable, optional
@@ -129,7 +132,7 @@ def calibrate(
     Raises
     ------
     embate.RunError
-        The model fails with the first values. Later failures count as bad fits.
+        The model fails with the first values, or does not come to a measured point. Later failures count as bad fits.
     """
     optimize = needed("scipy.optimize", "calibrate")
     if not isinstance(model, Model):
@@ -354,14 +357,13 @@ def _columns(history: Any, name: Name) -> tuple[Array, Array]:
 
 
 def _at(wanted: Array, pair: Any, name: Name, is_of_history: bool) -> Array:
-    """A simulated curve at the measured x; where it goes back, what it had first."""
+    """A simulated curve at the measured x, followed in its order."""
     x, y = (np.asarray(one, float) for one in pair)
     if x.shape != y.shape or x.ndim != 1 or len(x) < 2:
         raise ValueError(f"{name!r}: the simulated curve has the shapes {x.shape} and {y.shape}")
-    if x[-1] < x[0]:
-        x, y, wanted = -x, y, -wanted
-    ahead = np.concatenate([[True], x[1:] > np.maximum.accumulate(x)[:-1]])
-    x, y = x[ahead], y[ahead]
     if isinstance(name, str) and is_of_history and wanted.max() > x[-1] * (1 + 1e-6):
         raise ValueError(f"{name!r} was measured until {wanted.max():.6g} s, and the run ends at {x[-1]:.6g} s; give it a later end")
-    return np.asarray(np.interp(wanted, x, y))
+    try:
+        return np.asarray(_embate.followed(x.tolist(), y.tolist(), wanted.tolist()))
+    except ValueError as error:
+        raise RunError(f"{name!r}: {error}") from None

@@ -155,6 +155,16 @@ class Model(Sections):
                 ) from None
         return whole, meshes
 
+    def _given(self) -> tuple[str, dict[str, bytes], list[str]] | None:
+        """Of a model that is not that of a file its text, its meshes, and what is overridden; None of one that can't be written as files."""
+        if self._path is not None and not self._sections:
+            return None
+        try:
+            return *self._files(), self._overrides()
+        except Exception:
+            # Objects of meshes that are gone by now, a file that can't be read any more.
+            return None
+
     def _named(self, known: dict[int, tuple[str, Mesh]]) -> dict[str, Any]:
         """The sections, with meshes of arrays by the names of their files; which are known then."""
         sections = dict(self._sections)

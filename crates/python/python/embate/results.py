@@ -158,7 +158,7 @@ class Results:
 
     @property
     def provenance(self) -> dict[str, Any]:
-        """``run.json``: what was run, key by key (``keys``), and how it is shown; empty of a model that was in memory alone."""
+        """``run.json``: what was run, key by key (``keys``), and how it is shown; its ``model`` is empty of a model in memory that names files."""
         return self._json("run.json")
 
     @property
@@ -178,12 +178,12 @@ class Results:
         Raises
         ------
         embate.FileError
-            The model was not that of a file.
+            The model was in memory, and names files.
         """
         provenance = self.provenance
         path = str(provenance.get("model") or "")
         if not path:
-            raise FileError(f"{self.folder} doesn't say what file its model came from: it was in the memory of a program")
+            raise FileError(f"{self.folder} doesn't say what file its model came from: it was in the memory of a program, and names files or was changed since")
         model = Model(path)
         model._saved_set = [str(text) for text in provenance.get("set", [])]
         return model

@@ -105,6 +105,8 @@ class Simulation(Cells):
         self._threads = _count(threads, "threads")
         self._instruction_set = instruction_set
         self._native = _native if _native is not None else _embate.Simulation(model._native(), self._threads, instruction_set)
+        #: The model as it was then: what is added to it later is not of this simulation.
+        self._made_of = model._read
         self._callbacks: list[tuple[int, Callable[[Simulation], Any]]] = []
         self._working = threading.Lock()
         #: Of a sweep: warnings are not shown, and it ends early where this says no.
@@ -143,7 +145,7 @@ class Simulation(Cells):
         failure: RunError | None = None
         with self._at_work():
             if out is not None:
-                self._native.record(Path(fspath(out)), bool(force))
+                self._native.record(Path(fspath(out)), bool(force), self.model._given() if self.model._read is self._made_of else None)
             try:
                 with _shown(progress, self) as show:
                     while not self.is_over and self.time < end and self._goes_on():

@@ -12,9 +12,11 @@ use crate::vector::{first, length, minus, place};
 
 /// Models beyond these are of a unit that is not meant, m: from viruses to mountains.
 const MODELS: [f64; 2] = [1e-6, 1e4];
-/// A mesh file whose body and elements are both so many times larger, or smaller, than all others was written
-/// in another unit: mm beside m, or inches beside mm are more.
-const APART: f64 = 300.0;
+/// A mesh file whose elements are so many times larger, or smaller, than all others, and its bodies by the
+/// second number at least, was written in another unit: mm beside m, or inches beside mm.
+const APART: [f64; 2] = [300.0, 30.0];
+/// Shells whose elements are so many times as long as they are thick are thinner than any foil.
+const THIN: f64 = 2000.0;
 /// Of a part so many elements are measured.
 const MEASURED: usize = 1000;
 
@@ -33,7 +35,37 @@ where
     Dim<D>: Builds<D>,
 {
     let mut warnings = whole(model, mesh).map_or_else(|| beside_others(model, mesh), |warning| vec![warning]);
+    warnings.extend(shells(model, mesh));
     warnings.extend(probes(model, mesh));
+    warnings
+}
+
+/// Shells that are thinner than any foil beside their elements, or thicker than their part is long.
+fn shells<const D: usize>(model: &Model, mesh: &Mesh<D>) -> Vec<Warning>
+where
+    Dim<D>: Builds<D>,
+{
+    let mut warnings = Vec::new();
+    for (index, part) in model.parts.iter().enumerate() {
+        let Some(section) = part.section.as_ref().filter(|section| section.thickness > 0.0 && section.thickness_field.is_empty()) else {
+            continue;
+        };
+        let (Size { body, element }, thickness) = (size(mesh, index), section.thickness);
+        let message = if element > THIN * thickness {
+            format!("the shell is {thickness:.3e} m thick, and its elements are {:.0} times as long", element / thickness)
+        } else if thickness > body {
+            format!("the shell is {thickness:.3e} m thick, more than the part is long, {body:.3e} m")
+        } else {
+            continue;
+        };
+        warnings.push(Warning {
+            kind: &SIZES,
+            path: format!("part[{index}].section.thickness"),
+            message,
+            consequence: "its mass and stiffness are those of something else".into(),
+            help: "write the thickness with its unit, such as `\"1 mm\"`: a number without one is in m".into(),
+        });
+    }
     warnings
 }
 
@@ -84,8 +116,10 @@ where
             all.fold([f64::INFINITY, 0.0f64], |[low, high], it| [low.min(it), high.max(it)])
         };
         let both = [(|size| size.body) as fn(&Size) -> f64, |size| size.element].map(|of| [range(&own, of), range(&others, of)]);
-        let is_larger = both.iter().all(|[own, others]| own[0] > APART * others[1]);
-        let is_smaller = both.iter().all(|[own, others]| APART * own[1] < others[0]);
+        let [apart, least] = APART;
+        let all = |is: &dyn Fn(f64, [[f64; 2]; 2]) -> bool| is(least, both[0]) && is(apart, both[1]);
+        let is_larger = all(&|times, [own, others]| own[0] > times * others[1]);
+        let is_smaller = all(&|times, [own, others]| times * own[1] < others[0]);
         if !(is_larger || is_smaller) {
             continue;
         }

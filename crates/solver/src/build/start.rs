@@ -64,7 +64,8 @@ where
             let found = look.penetrations(&self.mesh.positions, tolerance);
             match contact.interface.initial_penetration {
                 InitialPenetration::Error => {
-                    self.faults.extend(initial::fault(model, &format!("contact[{i}]"), &contact.name, &found, None))
+                    let fault = initial::fault(model, &format!("contact[{i}]"), &contact.name, &found, None);
+                    self.faults.extend(fault.map(|fault| beside_ties(model, contact, fault)));
                 }
                 InitialPenetration::Ignore => lines.extend(initial::line(&contact.name, &found, IGNORED)),
                 InitialPenetration::PushOut => {
@@ -145,6 +146,15 @@ where
                 self.faults.extend(self.mesh.faults_of_elements());
             }
         }
+    }
+}
+
+/// The fault of a contact of bodies, where others are tied: ties hold surfaces that need not fit.
+fn beside_ties(model: &model::Model, contact: &model::Contact, fault: Fault) -> Fault {
+    let is_beside = matches!(contact.partners, model::Partners::Bodies(_)) && model.contacts.iter().any(|it| it.tied.is_some());
+    match is_beside {
+        true => Fault { help: format!("{}; where it is at a tie, whose surfaces need not fit, \"ignore\" is right", fault.help), ..fault },
+        false => fault,
     }
 }
 

@@ -24,6 +24,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &UNSOLVED,
     &MISSED,
     &PASSING,
+    &ROUGH,
 ];
 
 pub(crate) static SHARED_SURFACE: Message = Message {
@@ -253,4 +254,13 @@ pub(crate) static PASSING: Message = Message {
     cause: "Bodies move towards each other, or towards an obstacle, on straight ways that nothing changes before they meet, and no \
         contact has to do with both: without a contact nothing keeps bodies apart.",
     remedy: "Add a contact of both, such as `bodies = \"all\"`; name the part in the `parts` of the obstacle.",
+};
+
+pub(crate) static ROUGH: Message = Message {
+    code: "W0409",
+    title: "a coefficient of friction that no surfaces have",
+    example: Example::Model("[[contact]]\nname = \"hit\"\nbetween = [\"block.right\", \"wall.left\"]\nfriction = 20\n"),
+    cause: "A coefficient of friction between 3 and 90 is more than that of rubber on a road by far: most often an angle of friction in \
+        degrees was written.",
+    remedy: "Write the tangent of the angle: 0.364 for 20 degrees. Bind what shall not slide by `tied`. Nothing, where it is meant.",
 };

@@ -22,6 +22,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &OPEN_CAVITY,
     &WRONG_SIDE,
     &SPEED,
+    &FALLING,
 ];
 
 pub(crate) static CURVE: Message = Message {
@@ -200,4 +201,16 @@ pub(crate) static SPEED: Message = Message {
     ),
     cause: "A body moves at more than 20 km/s, without an equation of state: guns reach a tenth, and no solid bears what it meets then.",
     remedy: "Look at the unit of the velocity: a number without one is in m/s. Of what is that fast, give the material an equation of state.",
+};
+
+pub(crate) static FALLING: Message = Message {
+    code: "W0503",
+    title: "gravity on bodies that nothing holds",
+    example: Example::Model(
+        "[[part]]\nname = \"block\"\nmaterial = \"steel\"\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] }\n\n\
+         [[load]]\ngravity = [0, \"-9.81 m/s^2\"]\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
+    ),
+    cause: "Gravity without a curve is the only load, no body moves at the start, and there is no constraint, obstacle, symmetry, spring or \
+        joint with the ground: all fall freely, and nothing is strained.",
+    remedy: "Hold the bodies by a [[constraint]], or let them lie on an [[obstacle]].",
 };

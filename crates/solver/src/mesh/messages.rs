@@ -258,8 +258,9 @@ pub(crate) static SIZES: Message = Message {
         "[run]\nend = \"200 s\"\n\n[[part]]\nname = \"block\"\nmaterial = \"steel\"\nvelocity = [1, 0]\n\
          rectangle = { corner = [0, 0], size = [20000, 10000], elements = [4, 2] }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "The whole model is larger than 10 km or smaller than 1 µm, or a part of a mesh file and its elements are more than \
-        300 times larger, or smaller, than all that is not of the file.",
+    cause: "The whole model is larger than 10 km or smaller than 1 µm; or the elements of a part of a mesh file are more than 300 times, \
+        and the part is more than 30 times, larger or smaller than all that is not of the file; or a shell is thinner than a 2000th of the \
+        length of its elements, or thicker than its part is long.",
     remedy: "Write lengths with their unit: a number without one is in m. Of a mesh file `scale` is the unit of its lengths, \
         such as `scale = \"1 mm\"`.",
 };

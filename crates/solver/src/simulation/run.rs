@@ -1,6 +1,7 @@
 //! A model of one dimension, step by step: the loop, events, the end. [`super::Simulation`] is one of these.
 
 use super::clock::Clock;
+use super::contact_pairs;
 use super::memory::Memory;
 use super::output_cursor::OutputCursor;
 use super::parts::KnownParts;
@@ -50,6 +51,8 @@ where
     pub(super) model_warnings: Vec<Warning>,
     pub(crate) warnings: Vec<Notice>,
     pub(super) known_parts: KnownParts,
+    /// See [`Overview::contacts`].
+    pub(super) contact_lines: Vec<String>,
     pub(super) history: Cadence,
     pub(super) fields: Cadence,
     pub(super) max_steps: u64,
@@ -117,6 +120,7 @@ where
             model_warnings,
             warnings: Vec::new(),
             known_parts: KnownParts::new(model, &system),
+            contact_lines: contact_pairs::lines(model, &system.mesh),
             history: model.output.history,
             fields: model.output.fields,
             max_steps: model.run.max_steps.unwrap_or(u64::MAX),
@@ -516,6 +520,7 @@ where
             governor: system.governor_in_words(),
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,
             initial_penetrations: self.system.initial_penetrations.clone(),
+            contacts: self.contact_lines.clone(),
             probes: self.recorded.probe_lines(),
             warnings: self.warnings.clone(),
         }

@@ -29,7 +29,7 @@ where
         #[rustfmt::skip]
         let Self {
             threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, hash_steps: _, hashing: _, search_names: _, pool: _,
-            known_cells: _, memory: _, tracer: _, known_parts: _,
+            known_cells: _, memory: _, tracer: _, known_parts: _, contact_lines: _,
             system, recorded, momentum, shortest, monitor, output_cursor, is_steered,
         } = self;
         archive.section("run")?;

@@ -488,3 +488,23 @@ fn what_springs_hold_when_a_contact_ends_is_booked() {
         }
     }
 }
+
+#[test]
+fn a_tied_pair_in_a_contact_of_bodies_is_named() {
+    let mut model = model(1e-4);
+    for (name, y) in [("upper", 0.1), ("lower", 0.0), ("far", -0.2)] {
+        add(&mut model, name, rectangle([0.0, y], [0.1, 0.1], [5, 5]), [0.0, 0.0]);
+    }
+    all(&mut model);
+    assert_eq!(simulation(&model).overview().contacts, [""; 0]);
+    model.contacts.push(Contact { tied: Some(f64::INFINITY), ..Contact::between("glue", "upper.bottom", "lower.top") });
+    let lines = simulation(&model).overview().contacts;
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    assert!(lines[0].starts_with("all: 3 pairs of 3 parts; upper with lower is tied as well (by glue)"), "{lines:?}");
+    // Both push: the contact has a part of the force while the two are pressed together.
+    model.parts.retain(|part| part.name != "far");
+    model.parts[0].velocity = [0.0, -1.0, 0.0];
+    let (_, history) = run(&model);
+    let most = |name: &str| history.column(name).into_iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+    assert!(most("contact.force_y[all:upper-lower]") > 0.1 * most("contact.force_y[glue]"));
+}

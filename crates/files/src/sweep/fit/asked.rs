@@ -21,12 +21,40 @@ pub(super) struct Parameter {
 /// Something that was measured.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Target {
-    /// What a run gives for it, as outputs of a sweep.
-    pub(super) outputs: Vec<String>,
-    /// What was measured, SI, as many.
+    pub(super) what: What,
+    /// What was measured, SI: one number, or one for each place of a curve.
     pub(super) values: Vec<f64>,
     /// The largest of them.
     pub(super) size: f64,
+}
+
+/// What a run gives for it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum What {
+    /// An output of a sweep.
+    Number(String),
+    /// A column over another one, which is followed.
+    Curve { column: String, over: String, places: Vec<f64>, file: String },
+}
+
+/// Between the columns of a curve.
+const OVER: &str = " over ";
+/// What a file of a curve is like.
+const FORM: &str = "a curve has two columns: time, or the column that it is over, and value";
+/// The column that a curve is over where none is named.
+const TIME: &str = "time";
+
+impl Target {
+    /// What of it has to be there, as outputs of a sweep.
+    pub(super) fn outputs(&self) -> Vec<String> {
+        match &self.what {
+            What::Number(output) => vec![output.clone()],
+            What::Curve { column, over, places, .. } if over == TIME => {
+                vec![format!("at={:?}({column})", places.iter().fold(0.0, |last: f64, time| last.max(*time)))]
+            }
+            What::Curve { column, over, .. } => [column, over].map(|name| format!("last({name})")).to_vec(),
+        }
+    }
 }
 
 /// Reads `KEY=LOWEST:HIGHEST` and `KEY=LOWEST:FIRST:HIGHEST`.
@@ -76,30 +104,43 @@ fn number(text: &str) -> Option<(f64, String)> {
     value.is_finite().then_some((value, unit))
 }
 
-/// Reads `OUTPUT=VALUE` and `COLUMN=FILE`.
+/// Reads `OUTPUT=VALUE`, `COLUMN=FILE` and `COLUMN over COLUMN=FILE`.
 pub(super) fn targets(texts: &[String]) -> Result<Vec<Target>, SweepError> {
     texts.iter().map(|text| target(text).map_err(|wrong| asked(&MEASURED, text, wrong))).collect()
 }
 
 fn target(text: &str) -> Result<Target, Wrong> {
-    let form = "write it like at=1ms(tip.y)=3.2mm, or tip.y=measured.csv for a curve over time";
+    let form = "write it like at=1ms(tip.y)=3.2mm, tip.y=measured.csv for a curve over time, or force over tip.y=measured.csv";
     let (name, measured) = text.rsplit_once('=').ok_or_else(|| ("nothing was measured".to_string(), form.to_string()))?;
     let (name, measured) = (name.trim(), measured.trim());
     if name.is_empty() || measured.is_empty() {
         return Err(("nothing was measured".to_string(), form.to_string()));
     }
-    let (outputs, values): (Vec<String>, Vec<f64>) = match number(measured) {
-        Some((value, _)) => (vec![name.to_string()], vec![value]),
-        None if number_and_unit(measured).is_some() && !Path::new(measured).exists() => {
+    let (what, values) = match (number(measured), name.split_once(OVER)) {
+        (Some((value, _)), None) => (What::Number(name.to_string()), vec![value]),
+        (Some(_), Some(_)) => return Err((format!("a curve was measured at more than one place, not `{measured}`"), form.to_string())),
+        (None, _) if number_and_unit(measured).is_some() && !Path::new(measured).exists() => {
             return Err((format!("`{measured}` has no unit that is known"), form.to_string()));
         }
-        None => curve(Path::new(measured))?.into_iter().map(|[time, value]| (format!("at={time:?}({name})"), value)).unzip(),
+        (None, columns) => {
+            let (column, over) = columns.unwrap_or((name, TIME));
+            let (places, values): (Vec<f64>, Vec<f64>) =
+                curve(Path::new(measured))?.into_iter().map(|[place, value]| (place, value)).unzip();
+            if over == TIME && places.iter().any(|time| *time < 0.0) {
+                return Err((
+                    format!("{measured} has times before 0, when the run begins"),
+                    "shift the times, or leave these rows out".into(),
+                ));
+            }
+            let [column, over, file] = [column.trim(), over.trim(), measured].map(ToString::to_string);
+            (What::Curve { column, over, places, file }, values)
+        }
     };
     let size = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    Ok(Target { outputs, values, size: if size > 0.0 { size } else { 1.0 } })
+    Ok(Target { what, values, size: if size > 0.0 { size } else { 1.0 } })
 }
 
-/// A curve over time of a table with two columns, whose first line may name them with units:
+/// A curve of a table with two columns, place and value, whose first line may name them with units:
 /// `time [ms],tip.y [mm]`.
 fn curve(file: &Path) -> Result<Vec<[f64; 2]>, Wrong> {
     let shown = file.display();
@@ -113,7 +154,7 @@ fn curve(file: &Path) -> Result<Vec<[f64; 2]>, Wrong> {
     }
     let mut points: Vec<[f64; 2]> = Vec::new();
     for (number, row) in rows.iter().enumerate().skip(usize::from(has_head)) {
-        let wrong = |what: &str| (format!("row {} of {shown} {what}", number + 1), "a curve has two columns, time and value".to_string());
+        let wrong = |what: &str| (format!("row {} of {shown} {what}", number + 1), FORM.to_string());
         let [time, value] = row.as_slice() else { return Err(wrong("has not two columns")) };
         let [time, value] = [(time, units[0]), (value, units[1])].map(|(field, unit)| {
             let text = with_unit(field, unit).text;
@@ -126,11 +167,7 @@ fn curve(file: &Path) -> Result<Vec<[f64; 2]>, Wrong> {
         let (Some(time), Some(value)) = (time, value) else { return Err(wrong("is not two numbers")) };
         points.push([time, value]);
     }
-    if points.is_empty() {
-        Err((format!("{shown} has no rows"), "a curve has two columns, time and value".to_string()))
-    } else {
-        Ok(points)
-    }
+    if points.is_empty() { Err((format!("{shown} has no rows"), FORM.to_string())) } else { Ok(points) }
 }
 
 #[cfg(test)]
@@ -167,12 +204,16 @@ mod tests {
             path.display().to_string()
         };
         let number = target("at=1ms(tip.y) = 3.2 mm").unwrap();
-        assert_eq!((number.outputs, number.values, number.size), (vec!["at=1ms(tip.y)".to_string()], vec![3.2e-3], 3.2e-3));
+        assert_eq!((number.outputs(), number.values, number.size), (vec!["at=1ms(tip.y)".to_string()], vec![3.2e-3], 3.2e-3));
         let curve = target(&format!("tip.y={}", file("a.csv", "time [ms],y [mm]\n0,0\n0.5,-2\n"))).unwrap();
-        assert_eq!(curve.outputs, ["at=0.0(tip.y)", "at=0.0005(tip.y)"]);
+        assert_eq!(curve.outputs(), ["at=0.0005(tip.y)"]);
         assert_eq!((curve.values, curve.size), (vec![0.0, -2e-3], 2e-3));
         let plain = target(&format!("tip.y={}", file("b.csv", "0,1\n1 ms,2\n"))).unwrap();
-        assert_eq!((plain.outputs[1].as_str(), plain.values[1]), ("at=0.001(tip.y)", 2.0));
+        assert_eq!((plain.outputs()[0].as_str(), plain.values[1]), ("at=0.001(tip.y)", 2.0));
+        let over = target(&format!("cut.force_x[mid] over tip.x = {}", file("over.csv", "x [mm],force [kN]\n-1,2\n-2,3\n"))).unwrap();
+        assert_eq!((over.outputs(), over.values), (vec!["last(cut.force_x[mid])".into(), "last(tip.x)".into()], vec![2e3, 3e3]));
+        let What::Curve { places, over, column, .. } = over.what else { panic!("no curve") };
+        assert_eq!((places, over.as_str(), column.as_str()), (vec![-1e-3, -2e-3], "tip.x", "cut.force_x[mid]"));
         for (text, word) in [
             ("tip.y".to_string(), "nothing was measured"),
             ("tip.y=".to_string(), "nothing was measured"),
@@ -181,6 +222,8 @@ mod tests {
             (format!("tip.y={}", file("c.csv", "t,y\n1,2,3\n")), "row 2 of"),
             (format!("tip.y={}", file("d.csv", "t,y\n1,x\n")), "is not two numbers"),
             (format!("tip.y={}", file("e.csv", "t,y\n")), "has no rows"),
+            (format!("tip.y={}", file("f.csv", "-1 ms,2\n")), "times before 0"),
+            ("tip.y over tip.x=3 mm".to_string(), "more than one place"),
         ] {
             let message = target(&text).unwrap_err().0;
             assert!(message.contains(word), "{text}: {message}");

@@ -1,18 +1,23 @@
 //! Fits: values of keys with which a model follows what was measured, by least squares.
 //!
 //! The walk: keys with their bounds and what was measured (`asked.rs`) -> a search (`search.rs`), which asks
-//! for runs -> these, as a sweep whose values go together ([`super::Sweep`]) -> the table of all runs. The
-//! program's command `fit` asks and reports; `embate.calibrate` of Python does the same with scipy.
+//! for runs -> these, as a sweep whose values go together ([`super::Sweep`]), and their curves at the places
+//! where something was measured (`follow.rs`) -> the table of all runs. The program's command `fit` asks and
+//! reports; `embate.calibrate` of Python does the same with scipy.
 
 mod asked;
+mod follow;
 mod search;
+
+pub use follow::{Missed, followed};
 
 use super::run::Numbers;
 use super::run::Running;
 use super::{Keep, Request, Sweep, SweepError};
 use crate::PathPolicy;
 use crate::results::{ResultsError, append_number, append_text, write_whole};
-use asked::{Parameter, Target};
+use crate::verification::Samples;
+use asked::{Parameter, Target, What};
 use search::{Search, squares};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,7 +32,7 @@ const RUNS_MAX: usize = 100_000;
 pub struct Wanted<'a> {
     /// `KEY=LOWEST:HIGHEST` or `KEY=LOWEST:FIRST:HIGHEST` for each key.
     pub varied: &'a [String],
-    /// `OUTPUT=VALUE` or `COLUMN=FILE` for each thing measured.
+    /// `OUTPUT=VALUE`, `COLUMN=FILE` or `COLUMN over COLUMN=FILE` for each thing measured.
     pub measured: &'a [String],
     /// Length of the differences between runs, a part of the range of each key.
     pub step: f64,
@@ -120,7 +125,7 @@ impl<'a> Fit<'a> {
     ) -> Result<Option<Self>, SweepError> {
         let parameters = asked::parameters(wanted.varied)?;
         let targets = asked::targets(wanted.measured)?;
-        let outputs = targets.iter().flat_map(|target| target.outputs.iter().cloned()).collect();
+        let outputs = targets.iter().flat_map(Target::outputs).collect();
         // Derivatives and four tries for each step.
         let steps = (wanted.runs.min(RUNS_MAX) / (parameters.len() + 4)).max(1);
         let search = Search { step: wanted.step, tolerance: wanted.tolerance, steps };
@@ -222,7 +227,7 @@ impl<'a> Fit<'a> {
     /// Outputs at some places; of a run that fails the reason.
     fn runs(&self, places: &[Vec<f64>], fitting: &Fitting<'_>) -> Result<Option<Vec<Numbers>>, SweepError> {
         let Some(sweep) = self.sweep(places, fitting.jobs, fitting.is_stopped)? else { return Ok(None) };
-        sweep.numbers(&Running {
+        let running = Running {
             folder: fitting.folder,
             keep: Keep::Rows,
             force: false,
@@ -230,7 +235,26 @@ impl<'a> Fit<'a> {
             user_cpu_seconds: || None,
             is_stopped: fitting.is_stopped,
             on_advance: &|_| (),
-        })
+        };
+        sweep.numbers(&running, &|samples, number| self.seen(samples, number))
+    }
+
+    /// What a run gives for everything measured; `number` finds an output of the sweep.
+    fn seen(&self, samples: &Samples, number: &dyn Fn(&str) -> Result<f64, String>) -> Numbers {
+        let mut seen = Vec::new();
+        for target in &self.targets {
+            match &target.what {
+                What::Number(output) => seen.push(number(output)?),
+                What::Curve { column, over, places, file } => {
+                    let [x, y] = [over, column].map(|name| samples.values(name));
+                    let values = followed(&x?, &y?, places);
+                    seen.extend(
+                        values.map_err(|missed| format!("`{column} over {over}`, point {} of {file}: {missed}", missed.number + 1))?,
+                    );
+                }
+            }
+        }
+        if seen.iter().all(|value| value.is_finite()) { Ok(seen) } else { Err("the run has not all that was measured".to_string()) }
     }
 
     /// Differences as parts of the largest measured value; the mean over a curve counts as much as a number.

@@ -8,12 +8,13 @@ use super::plausible;
 use crate::contact::messages::OPEN;
 use crate::element::{Element, Quad4, Quad4Full, Tri3};
 use crate::error::Warning;
+use crate::load::messages::FALLING;
 use crate::material::messages::{FLUID, LOCKING, SOFTENING};
 use crate::material::{self, Law, Null, Parameters};
 use crate::mesh::messages::NOT_ON_SHELLS;
-use crate::model::{Material, Model, ObstacleShape, Part, Shape, TriangleSurface};
+use crate::model::{Load, Material, Model, ObstacleShape, Part, Shape, TriangleSurface};
 use crate::stress_state::PLANE_STRESS;
-use crate::vector::place;
+use crate::vector::{length, place};
 
 /// From this Poisson's ratio on elements without averaged dilatation are too stiff for any use: K is fifty
 /// times µ.
@@ -26,6 +27,8 @@ impl Model {
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = plausible::warnings(self);
         warnings.extend(plausible::speeds(self));
+        warnings.extend(plausible::frictions(self));
+        warnings.extend(self.falling());
         for (name, it) in &self.materials {
             warnings.extend(self.softening(name, it));
         }
@@ -41,6 +44,33 @@ impl Model {
             }
         }
         warnings
+    }
+
+    /// Gravity alone on bodies at rest that nothing holds.
+    fn falling(&self) -> Option<Warning> {
+        // One that follows a curve is a field that is driven.
+        let only_gravity = self.loads.iter().all(|load| matches!(load, Load::Gravity { curve: None, .. }));
+        let is_held = !(self.constraints.is_empty() && self.obstacles.is_empty() && self.symmetries.is_empty() && self.springs.is_empty())
+            || self.joints.iter().any(|joint| joint.between.len() == 1);
+        let acts = |part: &Part| {
+            let moves = part.velocity != [0.0; 3] || part.spin != 0.0 || part.radial_velocity.is_some();
+            moves || part.rigid.is_some() || part.stress_initial.is_some() || part.temperature_initial.is_some()
+        };
+        let has_pressure = !self.cavities.is_empty() || self.materials.values().any(|it| !it.eos.is_empty());
+        if is_held || !only_gravity || has_pressure || self.parts.iter().any(acts) {
+            return None;
+        }
+        let Some((index, Load::Gravity { acceleration, .. })) = self.loads.iter().enumerate().next() else { return None };
+        Some(Warning {
+            kind: &FALLING,
+            path: format!("load[{index}].gravity"),
+            message: "gravity pulls, and nothing holds: there is no constraint, obstacle, symmetry or spring".into(),
+            consequence: format!(
+                "all bodies fall freely, by {:.3e} m until the end, and nothing is strained",
+                0.5 * length(*acceleration) * self.run.end * self.run.end
+            ),
+            help: "hold them by a [[constraint]], or let them lie on an [[obstacle]]".into(),
+        })
     }
 
     /// Settings of the run that do not act on shells and beams.

@@ -82,6 +82,7 @@ mod shocks;
 mod slips;
 mod softening;
 mod space;
+mod stages;
 mod steering;
 mod stress_states;
 mod subcycling;

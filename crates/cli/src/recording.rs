@@ -240,14 +240,20 @@ fn closing_text(report: &Report, path: &Path) -> String {
     };
     let threads = if report.threads == 1 { "1 thread".to_string() } else { format!("{} threads", report.threads) };
     let speed = report.element_steps_per_second.map_or(String::new(), |speed| format!("{:.1} million element-steps/s, ", speed * 1e-6));
-    let figures = [
+    let mut figures: Vec<Vec<String>> = [
         ["steps".into(), format!("{} to t = {}", grouped(report.steps), with_unit(report.time_end, "s"))],
         ["smallest step".into(), format!("{} ({})", with_unit(report.stable_time_step_min, "s"), report.stable_time_step_governor)],
         ["speed".into(), format!("{speed}{threads}, {}", report.simd)],
         ["energy drift".into(), per_cent(report.energy_drift)],
         ["penetration".into(), format!("{} at most", with_unit(report.penetration_max, "m"))],
     ]
-    .map(Vec::from);
+    .map(Vec::from)
+    .into();
+    let stages = report.stages.iter().map(|stage| {
+        let rest = stage.at_rest.map_or("", |rests| if rests { ", at rest" } else { ", not at rest" });
+        vec![format!("stage {}", stage.name), format!("{} to {}{rest}", with_unit(stage.begin, "s"), with_unit(stage.end, "s"))]
+    });
+    figures.splice(1..1, stages);
     let files: Vec<Vec<String>> = FILES
         .iter()
         .filter(|(name, _)| path.join(name).exists())

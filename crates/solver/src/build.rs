@@ -76,6 +76,8 @@ where
         return Err(faults.into_iter().chain(of_mesh).collect());
     }
     let mut warnings = model.warnings();
+    let with_windows = model.with_windows();
+    let model = with_windows.as_ref().unwrap_or(model);
     let mesh = mesh.map_or_else(|| Mesh::new(model), Ok)?;
     let (system, of_mesh) = system_of(model, mesh, level, threads)?;
     warnings.extend(of_mesh);
@@ -135,7 +137,9 @@ where
     mesh: Mesh<D>,
     /// Body that each node of the mesh belongs to.
     body_of_node: Vec<u32>,
+    /// What holds nodes in the first stage, and in the later ones.
     constraints: Constraints<D>,
+    later_constraints: Vec<Constraints<D>>,
     joins: Joins<D>,
     curves: Curves,
     faults: Vec<Fault>,
@@ -169,8 +173,10 @@ where
     fn new(model: &'a Model, mesh: Mesh<D>) -> Result<Self, Vec<Fault>> {
         let curves = Curves::new(model);
         let joins = Joins::new(model, &mesh)?;
+        let of_stage = |stage| Constraints::new(model, &mesh, &curves, &joins, stage);
         Ok(Self {
-            constraints: Constraints::new(model, &mesh, &curves, &joins)?,
+            constraints: of_stage(0)?,
+            later_constraints: (1..model.stages.len()).map(of_stage).collect::<Result<_, _>>()?,
             positions: mesh.positions.clone(),
             mass: vec![0.0; mesh.positions.len()],
             ..Self::of(model, mesh, joins, curves)
@@ -184,6 +190,7 @@ where
             body_of_node: mesh.bodies(),
             mesh,
             constraints: Constraints::default(),
+            later_constraints: Vec::new(),
             joins,
             curves,
             faults: Vec::new(),

@@ -316,8 +316,20 @@ impl Ledger {
 
     /// Adds kinetic energy that mass brings which is added before the update, as work from outside, J/m.
     pub(crate) fn bring(&mut self, kinetic: f64) {
+        self.launch(kinetic, 0.0);
+    }
+
+    /// Adds a change of v^{n+½} between two steps as work from outside, J/m: by what ½ Σ m|v^{n+1/2}|²
+    /// changes; `ahead` is what internal and contact forces do less in the half step that follows, because
+    /// they act on other velocities.
+    pub(crate) fn launch(&mut self, kinetic: f64, ahead: f64) {
         self.works.load += kinetic;
-        self.halves[0] += kinetic;
+        self.halves[0] += kinetic + ahead;
+    }
+
+    /// Adds energy at n + ½ of springs of contacts that end between two steps, J/m.
+    pub(crate) fn free(&mut self, stored: f64) {
+        self.halves[2] += stored;
     }
 
     /// Largest |change of kinetic energy − sum of works| over the largest total energy.

@@ -221,6 +221,29 @@ pub struct MassInRun {
     pub kinetic_energy: f64,
 }
 
+impl Summary {
+    /// Whether the run is not at its end yet.
+    #[must_use]
+    pub fn is_early(&self) -> bool {
+        self.time_end < self.end * (1.0 - 1e-9)
+    }
+}
+
+/// A stage of a run, over or until now.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StageRun {
+    /// Its name.
+    pub name: String,
+    /// When it began, s.
+    pub begin: f64,
+    /// When it was over, or the present time, s.
+    pub end: f64,
+    /// Whether all was at rest at its end; `None`: it is not relaxed.
+    pub is_at_rest: Option<bool>,
+    /// Kinetic over internal energy at its end, of one that is relaxed.
+    pub ratio: Option<f64>,
+}
+
 /// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of
 /// each.
 #[derive(Clone, Debug, PartialEq)]
@@ -235,8 +258,12 @@ pub struct Summary {
     pub steps: u64,
     /// Time reached, s.
     pub time_end: f64,
+    /// Time at which the run ends: that of the model, less what stages that were at rest early have left, s.
+    pub end: f64,
     /// When relaxation had brought everything to rest, which ended the run, s.
     pub rest: Option<f64>,
+    /// The stages so far; the last one until now.
+    pub stages: Vec<StageRun>,
     /// Smallest time step taken, s.
     pub stable_time_step_min: f64,
     /// What governed that step.

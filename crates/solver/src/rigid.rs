@@ -525,6 +525,25 @@ where
         }
     }
 
+    /// Takes the velocities of what is free away, for [`Bodies::launch`].
+    pub(crate) fn hold_back(&mut self) -> Vec<Row<D>> {
+        let take = |body: &mut Body<D>| {
+            let velocity = std::mem::take(&mut body.velocity);
+            body.free_part(&velocity)
+        };
+        self.list.iter_mut().map(take).collect()
+    }
+
+    /// Adds these velocities between two steps; nodes follow with the next update of velocities, over the
+    /// coming step (s) as here.
+    pub(crate) fn launch(&mut self, rows: &[Row<D>], time_step: f64, positions: &[[f64; D]], velocities: &mut [[f64; D]]) {
+        for (body, row) in self.list.iter_mut().zip(rows) {
+            Body::<D>::add_force(&mut body.velocity, row);
+            Dim::<D>::start_spins(body);
+            body.lead(time_step, positions, velocities);
+        }
+    }
+
     /// Kinetic energy with v^{n+½}, J/m; without what is driven.
     #[must_use]
     pub fn kinetic(&self) -> f64 {

@@ -15,6 +15,7 @@ mod nodal_bound;
 mod nodes;
 mod persist;
 pub(crate) mod relaxation;
+pub(crate) mod stages;
 pub(crate) mod rotations;
 pub(crate) mod subcycling;
 
@@ -54,6 +55,7 @@ pub(crate) use nodal_bound::NodalBound;
 use nodes::Nodes;
 use relaxation::Relaxation;
 use rotations::NodalRotations;
+use stages::Stages;
 use subcycling::Subcycling;
 
 /// Nodes that one task updates.
@@ -157,6 +159,8 @@ where
     pub(crate) erosion: Option<Box<Erosion<D>>>,
     /// What brings everything to rest; `None`: nothing.
     pub(crate) relaxation: Option<Relaxation<D>>,
+    /// The stages of the run; `None`: it has none.
+    pub(crate) stages: Option<Box<Stages<D>>>,
     /// Nodes that rotate.
     pub(crate) rotations: NodalRotations,
     /// Nodes on the faces of shells.
@@ -216,6 +220,9 @@ where
     /// An inverted element, a collapsed step, a value that is not finite, too much energy drift, a node that
     /// runs away, a contact that is too deep.
     pub fn step(&mut self) -> Result<(), Error> {
+        if self.is_stage_over() {
+            self.enter_next_stage();
+        }
         self.move_nodes();
         self.evaluate_forces()?;
         self.check_limits()
@@ -250,7 +257,7 @@ where
     /// As [`System::step`].
     pub fn start(&mut self) -> Result<(), Error> {
         self.joins.begin(&self.mass, &mut self.velocities);
-        self.constraints.begin(&self.velocities);
+        self.constraints.begin(&self.velocities, &self.curves, 0.0);
         self.constraints.drive(&self.curves, [0.0, 0.0], &self.positions);
         for (node, velocity) in self.velocities.iter_mut().enumerate() {
             if let Some(held) = self.constraints.of(node) {
@@ -562,8 +569,13 @@ where
     /// Nodes that are held and that the velocity update advances by themselves, and what holds them: none of
     /// rigid bodies, and none on faces of shells.
     pub(crate) fn held(&self) -> impl Iterator<Item = (u32, &NodeConstraint<D>)> {
+        self.held_by(&self.constraints)
+    }
+
+    /// The same with the constraints of another stage.
+    pub(crate) fn held_by<'a>(&'a self, constraints: &'a Constraints<D>) -> impl Iterator<Item = (u32, &'a NodeConstraint<D>)> {
         let is_advanced = |node: u32| self.bodies.of_node(node).is_none() && self.skins.carrier(node as usize).is_none();
-        self.constraints.held().filter(move |(node, _)| is_advanced(*node))
+        constraints.held().filter(move |(node, _)| is_advanced(*node))
     }
 
     /// Force (N/m) in the last update of what holds one of [`System::held`].

@@ -32,6 +32,8 @@ const FREE: &[&str] = &[
 const NAMES: &[(&str, &str)] = &[
     ("materials.", "material."),
     ("parts[", "part["),
+    ("stages[", "stage["),
+    ("load_terms[", "load["),
     ("contacts[", "contact["),
     ("obstacles[", "obstacle["),
     ("curves.", "curve."),

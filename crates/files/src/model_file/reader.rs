@@ -45,6 +45,8 @@ impl Vocabulary {
 pub(crate) struct Record {
     /// Path of the table.
     pub(crate) path: String,
+    /// Where it stands.
+    pub(super) place: Place,
     /// Name in `[section.NAME]`; empty elsewhere.
     pub(crate) name: String,
     values: BTreeMap<String, Datum>,
@@ -313,7 +315,7 @@ impl Reader<'_> {
 
     /// Reads one table: its keys, those that are missing, and its rules.
     fn table(&mut self, section: &Section, entries: &[Entry], path: &str, place: Place) -> Record {
-        let mut record = Record { path: path.to_string(), ..Record::default() };
+        let mut record = Record { path: path.to_string(), place, ..Record::default() };
         let (keys, complete) = keys_of(section, entries);
         for entry in entries {
             let path = join(path, &entry.key);
@@ -376,9 +378,7 @@ impl Reader<'_> {
 
     fn missing(&mut self, section: &Section, key: &Key, path: &str, place: Place) {
         let what = if section.name.is_empty() { format!("the {}", self.vocabulary.what) } else { called(section, path) };
-        let message = format!("{what} has no `{}`", key.name);
-        let help = format!("add `{} = {}`: {}", key.name, value::example(key), lower(key.doc));
-        self.faults.value(&MISSING_KEY, path, place, (message, help));
+        self.faults.value(&MISSING_KEY, path, place, lacking(&what, key));
     }
 
     fn unknown(&mut self, section: &Section, keys: &[Key], entry: &Entry, path: &str) {
@@ -516,6 +516,11 @@ fn join(path: &str, key: &str) -> String {
 }
 
 /// What a table is called in messages: its header, or its key for an inline one.
+/// What is said where a key is missing.
+pub(super) fn lacking(what: &str, key: &Key) -> (String, String) {
+    (format!("{what} has no `{}`", key.name), format!("add `{} = {}`: {}", key.name, value::example(key), lower(key.doc)))
+}
+
 fn called(section: &Section, path: &str) -> String {
     match section.form {
         Form::Inline => format!("`{}`", section.name),

@@ -122,6 +122,12 @@ pub(super) fn figures(left: &Left) -> String {
     add("time reached", si("/time_end", "s"));
     add("steps", count("/steps"));
     add("at rest", si("/rest", "s"));
+    for stage in summary.get("stages").and_then(Value::as_array).into_iter().flatten() {
+        let time = |key: &str| stage.get(key).and_then(Value::as_f64).map(|time| shown(time, "s"));
+        let rest = stage.get("at_rest").and_then(Value::as_bool).map_or("", |rests| if rests { ", at rest" } else { ", not at rest" });
+        let name = format!("stage {}", stage.get("name").and_then(Value::as_str).unwrap_or_default());
+        add(&name, time("begin").zip(time("end")).map(|(begin, end)| format!("{begin} to {end}{rest}")));
+    }
     add("smallest step", si("/stable_time_step_min", "s"));
     add("which asked for it", left.text("stable_time_step_governor").filter(|text| !text.is_empty()).map(ToString::to_string));
     add("energy drift", number("/energy_drift").map(|drift| format!("{} %", shown(100.0 * drift, ""))));

@@ -5,7 +5,7 @@
 
 use crate::program;
 use embate_solver::error::Notice;
-use embate_solver::output::{Eroded, ForcePeak, Summary};
+use embate_solver::output::{Eroded, ForcePeak, StageRun, Summary};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -140,6 +140,9 @@ pub struct Report {
     /// When relaxation had brought everything to rest, which ended the run, s; left out where it did not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rest: Option<f64>,
+    /// The stages of the run so far; left out where it has none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<Stage>,
     /// Wall time of the run with its output and pictures, without reading and meshing the model, s.
     pub wall_seconds: f64,
     /// User CPU time of the whole process, s; `None` where the system does not report it.
@@ -208,6 +211,31 @@ fn erosion(erosion: &embate_solver::output::Erosion, dimension: usize) -> Erosio
     Erosion { elements: erosion.elements.iter().cloned().collect(), mass_loose: erosion.mass_loose, first }
 }
 
+/// A stage of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stage {
+    /// Its name.
+    pub name: String,
+    /// When it began, s.
+    pub begin: f64,
+    /// When it was over, s; of the last one the time reached.
+    pub end: f64,
+    /// Whether all was at rest at its end; left out where it is not relaxed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_rest: Option<bool>,
+    /// Kinetic over internal energy at its end, where it is relaxed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kinetic_ratio: Option<f64>,
+}
+
+impl Stage {
+    fn of(StageRun { name, begin, end, is_at_rest, ratio }: &StageRun) -> Self {
+        // Nothing that is strained yet has a ratio.
+        let kinetic_ratio = ratio.filter(|ratio| ratio.is_finite());
+        Self { name: name.clone(), begin: *begin, end: *end, at_rest: *is_at_rest, kinetic_ratio }
+    }
+}
+
 impl Report {
     /// A report of the solver's figures; the rest is filled in by the recorder.
     #[must_use]
@@ -228,6 +256,7 @@ impl Report {
             steps: summary.steps,
             time_end: summary.time_end,
             rest: summary.rest,
+            stages: summary.stages.iter().map(Stage::of).collect(),
             wall_seconds: 0.0,
             user_cpu_seconds: None,
             output_seconds: 0.0,

@@ -333,10 +333,9 @@ fn report(
     let mut report = Report::of(summary, &model.name, &model.parts.iter().map(|part| part.name.clone()).collect::<Vec<_>>());
     let (element_steps, seconds) = (summary.elements as f64 * summary.steps as f64, stepping.elapsed().as_secs_f64());
     report.element_steps_per_second = (element_steps > 0.0 && seconds > 0.0).then(|| element_steps / seconds);
-    let is_early = summary.rest.is_none() && summary.time_end < model.run.end * (1.0 - 1e-9);
     report.status = match error {
         Some(_) => RunStatus::Failed,
-        None if is_early => RunStatus::Stopped,
+        None if summary.is_early() => RunStatus::Stopped,
         None => RunStatus::Done,
     };
     report.error = error;

@@ -120,11 +120,10 @@ impl Case {
             recorder.finish(error.clone(), &summary, || None).unwritten.map_or(Ok(()), Err)?;
         }
         let end = simulation.time();
-        let is_early = end < model.run.end * (1.0 - 1e-9);
-        if is_early && summary.rest.is_some() {
+        if summary.rest.is_some() {
             samples.stay_until(model.run.end);
         }
-        let early = (is_early && summary.rest.is_none()).then(|| format!("the run ended early, at {end:.4e} s"));
+        let early = summary.is_early().then(|| format!("the run ended early, at {end:.4e} s"));
         let stopped = is_stopped.then(|| "the run was stopped".to_string());
         Ok(ModelRun { samples, error: error.or(stopped).or(early) })
     }

@@ -5,6 +5,7 @@ use crate::contact::formulation::{self, FormulationKind, Setup, Side, Surfaces};
 use crate::contact::search::SearchKind;
 use crate::contact::{Contact, ContactKind, Formulation};
 use crate::error::Fault;
+use crate::load::window::Window;
 use crate::mesh::surface::Sided;
 use crate::mesh::surface::tributary::Depth;
 use crate::model;
@@ -31,7 +32,8 @@ where
         for (i, contact) in self.model.contacts.iter().enumerate() {
             match self.formulation(contact, outlines) {
                 Ok((formulation, terms)) => {
-                    let made = Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active);
+                    let made = Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active)
+                        .within(Window::of(self.model, &contact.interface.stages));
                     if let Some(ties) = made.ties() {
                         self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
                     }
@@ -81,7 +83,8 @@ where
             match <Dim<D>>::obstacle(self, obstacle, outlines) {
                 Ok((body, formulation)) => {
                     let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
-                    contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active));
+                    let made = Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active);
+                    contacts.push(made.within(Window::of(self.model, &obstacle.interface.stages)));
                 }
                 Err(fault) => self.faults.push(below(&format!("obstacle[{i}]"), fault)),
             }

@@ -51,7 +51,7 @@ where
     let all_meet = model.contacts.iter().any(|contact| meets_all(&contact.partners));
     let all_stop = model.obstacles.iter().all(|obstacle| obstacle.parts.is_empty());
     let count = builder.body_of_node.iter().max().map_or(0, |last| *last as usize + 1);
-    if (all_meet && all_stop) || model.run.relaxation.is_some() || count > BODIES_MOST {
+    if (all_meet && all_stop) || model.run.relaxation.is_some() || !model.stages.is_empty() || count > BODIES_MOST {
         return Default::default();
     }
     let mut bodies = Bodies::new(builder, count);

@@ -41,6 +41,7 @@ use crate::step::free::Groups;
 use crate::step::mass_scaling::MassScaling;
 use crate::step::relaxation::Relaxation;
 use crate::step::rotations::NodalRotations;
+use crate::step::stages::Stages;
 use crate::step::{CHUNK, Governor, NodalBound, System};
 use crate::tensor::Dim;
 use crate::vector::{minus, place, unit};
@@ -145,7 +146,7 @@ where
         // What is added to resist motion weighs nothing.
         let body_forces = BodyForces::new(model, &self.mesh, &self.curves, &self.mass, &part_mass_true);
         let mut damping = Damping::new(model, &self.mesh, &self.mass, part_mass);
-        if model.run.relaxation.is_some() {
+        if model.first_relaxation().is_some() {
             damping.relax(0.0);
         }
         let velocities = self.velocities(part_mass);
@@ -186,7 +187,21 @@ where
         let Elements { mut blocks, mut velocities, shares, body_forces, damping, mass_added, mass_for_step } = elements;
         let Conditions { springs, forces, cavities, boundary, contacts, criteria } = conditions;
         let Self {
-            model, mesh, constraints, joins, curves, positions, mass, body_parts, bodies, terms, outlines, moduli, time_step, ..
+            model,
+            mesh,
+            constraints,
+            later_constraints,
+            joins,
+            curves,
+            positions,
+            mass,
+            body_parts,
+            bodies,
+            terms,
+            outlines,
+            moduli,
+            time_step,
+            ..
         } = self;
         let is_cut = |part: usize| model.cuts.iter().any(|cut| cut.radius.is_some() && cut.takes(&mesh.parts[part].name));
         for ((block, criteria), group) in blocks.iter_mut().zip(&criteria).zip(&mesh.groups) {
@@ -242,7 +257,8 @@ where
                 .as_ref()
                 .filter(|own| own.in_run)
                 .map(|own| MassScaling::new(own, model.run.safety, [mass_for_step, mass_added[1]])),
-            relaxation: model.run.relaxation.map(|relaxation| Relaxation::new(relaxation, nodes)),
+            relaxation: model.first_relaxation().map(|relaxation| Relaxation::new(relaxation, nodes)),
+            stages: Stages::of(model, later_constraints),
             step: 0,
             time: 0.0,
             time_step_old: 0.0,
@@ -288,6 +304,7 @@ where
         system.find_rotations(|block| spins.get(block).copied().unwrap_or_default());
         system.load_rotations(model);
         system.find_skins();
+        system.hold_velocities_back();
         system
     }
 

@@ -8,8 +8,8 @@ mod series;
 
 use crate::error::{Fault, Warning};
 use crate::expression::{Expression, Words, Wrong};
+use crate::model::Model;
 use crate::model::messages::{COARSE_CHANNEL, FORMULA};
-use crate::model::{Cadence, Model};
 use filter::Filter;
 use series::SERIES;
 
@@ -137,10 +137,7 @@ pub fn values(formula: &str, filter: Option<Filter>, names: &[String], columns: 
 
 /// Filters for which the rows of the history are too far apart.
 pub(crate) fn warnings(model: &Model) -> impl Iterator<Item = Warning> {
-    let interval = match model.output.history {
-        Cadence::Count(count) => model.run.end / count.max(1) as f64,
-        Cadence::Interval(interval) => interval,
-    };
+    let interval = model.history_interval();
     let of = move |(index, filter): (usize, Filter)| {
         (interval > filter.longest_interval() * (1.0 + 1e-9)).then(|| Warning {
             kind: &COARSE_CHANNEL,

@@ -39,6 +39,7 @@ pub(crate) mod rebuild;
 use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::contact_forces::ContactForces;
+use crate::load::window::Window;
 use crate::mesh::surface::tributary::{self, Depth};
 use crate::mesh::surface::{Corners, Facet, Sided};
 use crate::rigid::{Bodies, RigidMotion};
@@ -227,7 +228,9 @@ where
     /// Number of the terms that its springs follow.
     terms: usize,
     /// Times between which it acts, s.
-    active: [f64; 2],
+    pub(crate) active: [f64; 2],
+    /// In which stages it acts; `None`: between these times.
+    window: Option<Window>,
     /// Time of the last detection, s.
     time: f64,
     /// Where its springs of this step lie in the list of all.
@@ -253,6 +256,7 @@ where
             checked: Certificate::default(),
             terms,
             active,
+            window: None,
             time: 0.0,
             found: 0..0,
         }
@@ -265,7 +269,7 @@ where
     pub(crate) fn persist(&mut self, archive: &mut Archive<'_>, springs: usize) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            name: _, kind: _, terms: _, active: _,
+            name: _, kind: _, terms: _, active: _, window: _,
             totals, penetration, has_pressed, friction_work, formulation, checked, time, found,
         } = self;
         persist_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, &mut found.start, &mut found.end);
@@ -275,6 +279,24 @@ where
 
     fn acts_at(&self, time: f64) -> bool {
         (self.active[0]..self.active[1]).contains(&time)
+    }
+
+    /// The same in the stages of a window, if there is one.
+    #[must_use]
+    pub(crate) fn within(self, window: Option<Window>) -> Self {
+        let active = window.map_or(self.active, |window| window.times);
+        Self { active, window, ..self }
+    }
+
+    /// Notes that a stage begins at `now`, s. Returns the energy (J/m) of its springs where it acts no more.
+    pub(crate) fn enter(&mut self, stage: usize, now: f64, springs: &Springs<D>) -> f64 {
+        let Some(window) = &mut self.window else { return 0.0 };
+        window.enter(stage, now);
+        self.active = window.times;
+        if self.active[1] != now {
+            return 0.0;
+        }
+        springs.answers(self.found.clone()).flat_map(|answer| answer.books().stored).sum()
     }
 
     /// Adds the springs of the step to `springs`.

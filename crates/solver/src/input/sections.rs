@@ -9,7 +9,7 @@ use crate::failure::CRITERIA;
 use crate::model::values::Datum;
 use crate::model::{
     CAVITY, CHANNEL, CONSTRAINT, CONTACT, CURVE, CUT, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS,
-    PROBE, RUN, SPRING, SYMMETRY, Values, WELD,
+    PROBE, RUN, SPRING, STAGE, SYMMETRY, Values, WELD,
 };
 use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
@@ -33,6 +33,7 @@ pub static TOP: Section = Section {
 /// Every section, in the order of the documentation.
 pub static SECTIONS: &[&Section] = &[
     &RUN,
+    &STAGE,
     &MATERIAL,
     &PART,
     &CONTACT,

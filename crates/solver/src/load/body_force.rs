@@ -9,6 +9,7 @@
 //! ω̇. Each part gives its share of a node's mass. Works are external.
 
 use super::curve::Curves;
+use super::curve::factor::{Factor, curve_of};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
@@ -29,10 +30,10 @@ pub struct BodyForces<const D: usize> {
 #[derive(Clone, Debug, PartialEq)]
 struct Acting<const D: usize> {
     field: Field<D>,
-    /// Curve of the factor.
-    curve: Option<usize>,
+    /// c.
+    factor: Factor,
     /// c now.
-    factor: f64,
+    factor_now: f64,
     /// Share of the load's parts in the mass of each node.
     shares: Vec<f64>,
     /// Sum of these parts of the masses of the nodes, kg/m.
@@ -80,11 +81,11 @@ where
     #[must_use]
     pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, mass: &[f64], part_mass: &[Vec<(u32, f64)>]) -> Self {
         let load = |(index, load): (usize, &Load)| {
-            let (parts, curve, field) = match load {
-                Load::Gravity { parts, acceleration, curve } => (parts, curve, Field::Uniform(first(*acceleration))),
-                Load::Centrifugal { parts, speed, curve, .. } if model.is_axisymmetric() => (parts, curve, Field::Axial { speed: *speed }),
-                Load::Centrifugal { parts, about, speed, curve } => {
-                    (parts, curve, Field::Centrifugal { centre: first(about.centre), axis: axis(about.direction), speed: *speed })
+            let (parts, field) = match load {
+                Load::Gravity { parts, acceleration, .. } => (parts, Field::Uniform(first(*acceleration))),
+                Load::Centrifugal { parts, speed, .. } if model.is_axisymmetric() => (parts, Field::Axial { speed: *speed }),
+                Load::Centrifugal { parts, about, speed, .. } => {
+                    (parts, Field::Centrifugal { centre: first(about.centre), axis: axis(about.direction), speed: *speed })
                 }
                 Load::Damping { .. } | Load::StiffnessDamping { .. } | Load::Force { .. } | Load::Moment { .. } | Load::Pressure { .. } => {
                     return None;
@@ -98,9 +99,9 @@ where
                     }
                 }
             }
-            let curve = curve.as_ref().and_then(|name| curves.find(name));
+            let factor = curves.factor_on(index, curve_of(load));
             let whole = shares.iter().zip(mass).map(|(share, mass)| share * mass).sum();
-            Some(Acting { field, curve, factor: 1.0, shares, whole, everywhere: parts.is_empty(), index })
+            Some(Acting { field, factor, factor_now: 1.0, shares, whole, everywhere: parts.is_empty(), index })
         };
         let mut forces = Self { loads: model.loads.iter().enumerate().filter_map(load).collect(), now: Vec::new() };
         forces.prepare(curves, [0.0; 2], &mesh.positions);
@@ -116,19 +117,19 @@ where
     /// Whether they change with time or place.
     #[must_use]
     pub fn varies(&self) -> bool {
-        self.loads.iter().any(|load| load.curve.is_some() || !matches!(load.field, Field::Uniform(_)))
+        self.loads.iter().any(|load| load.factor.varies() || !matches!(load.field, Field::Uniform(_)))
     }
 
     /// Takes their means between two times (s) at these positions (m).
-    pub fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; D]]) {
+    pub fn prepare(&mut self, curves: &Curves, update: [f64; 2], positions: &[[f64; D]]) {
         let nodes = self.loads.first().map_or(0, |load| load.shares.len());
         self.now.clear();
         self.now.resize(nodes, [0.0; D]);
         for load in &mut self.loads {
-            load.factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
+            load.factor_now = curves.factor(load.factor, update);
             for ((sum, &share), x) in self.now.iter_mut().zip(&load.shares).zip(positions) {
                 if share > 0.0 {
-                    let acceleration = load.field.at(load.factor, *x);
+                    let acceleration = load.field.at(load.factor_now, *x);
                     *sum = plus(*sum, acceleration.map(|component| component * share));
                 }
             }
@@ -154,9 +155,9 @@ where
     pub(crate) fn resultant(&self, index: usize, mass: &[f64], positions: &[[f64; D]]) -> [f64; D] {
         let Some(load) = self.loads.iter().find(|load| load.index == index) else { return [0.0; D] };
         if let Field::Uniform(acceleration) = load.field {
-            return times(load.factor * load.whole, acceleration);
+            return times(load.factor_now * load.whole, acceleration);
         }
-        let force = |((&m, &share), &x): ((&f64, &f64), &[f64; D])| times(m * share, load.field.at(load.factor, x));
+        let force = |((&m, &share), &x): ((&f64, &f64), &[f64; D])| times(m * share, load.field.at(load.factor_now, x));
         mass.iter().zip(&load.shares).zip(positions).map(force).fold([0.0; D], plus)
     }
 
@@ -169,6 +170,6 @@ where
     /// Acceleration now at a point of a free obstacle, m/s².
     #[must_use]
     pub fn everywhere(&self, x: [f64; D]) -> [f64; D] {
-        self.loads.iter().filter(|load| load.everywhere).fold([0.0; D], |sum, load| plus(sum, load.field.at(load.factor, x)))
+        self.loads.iter().filter(|load| load.everywhere).fold([0.0; D], |sum, load| plus(sum, load.field.at(load.factor_now, x)))
     }
 }

@@ -4,6 +4,8 @@
 
 use super::curve::{Curves, Meaning, Speed};
 use super::join::{Joins, back};
+use super::window::Window;
+use crate::archive::{Archive, ArchiveResult};
 use crate::error::Fault;
 use crate::load::messages::{HELD_TWICE, OFF_SYMMETRY};
 use crate::mesh::Mesh;
@@ -218,11 +220,12 @@ where
 {
     /// From the symmetries and constraints of a model.
     ///
-    /// `joins` says which nodes move as one: what holds one of them holds its leader.
+    /// `joins` says which nodes move as one: what holds one of them holds its leader. Constraints of other
+    /// stages than `stage` hold nothing.
     ///
     /// # Errors
     /// Names without nodes, symmetry lines that hold no node, motions that contradict each other on a node.
-    pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, joins: &Joins<D>) -> Result<Self, Vec<Fault>> {
+    pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, joins: &Joins<D>, stage: usize) -> Result<Self, Vec<Fault>> {
         let mut result = Self::default();
         if model.symmetries.is_empty() && model.constraints.is_empty() && joins.is_empty() {
             return Ok(result);
@@ -235,7 +238,8 @@ where
         }
         result.mirrors.sort_by_key(|mirror| mirror.node);
         for (i, constraint) in model.constraints.iter().enumerate() {
-            result.constrain(i, constraint, place, curves, &mut faults);
+            let is_of_stage = Window::of(model, &constraint.stages).is_none_or(|window| window.has(stage));
+            result.constrain(i, constraint, is_of_stage, place, curves, &mut faults);
         }
         result.fix_tips(place, &mut faults);
         let changes = |held: &NodeConstraint<D>| held.turn.is_some() || held.speeds.iter().any(|speed| speed.as_constant().is_none());
@@ -267,7 +271,15 @@ where
     }
 
     /// Holds the nodes of a constraint.
-    fn constrain(&mut self, i: usize, constraint: &Constraint, place: Place<'_, D>, curves: &Curves, faults: &mut Vec<Fault>) {
+    fn constrain(
+        &mut self,
+        i: usize,
+        constraint: &Constraint,
+        is_of_stage: bool,
+        place: Place<'_, D>,
+        curves: &Curves,
+        faults: &mut Vec<Fault>,
+    ) {
         let mut found = Telling::new(format!("constraint[{i}]"));
         self.conditions.push(format!("constraint[{i}] on \"{}\"", constraint.on));
         let Some(nodes) = place.mesh.nodes(&constraint.on) else {
@@ -279,6 +291,9 @@ where
             ));
             return;
         };
+        if !is_of_stage {
+            return;
+        }
         if let Some(speed) = constraint.rotation.as_ref().and_then(|rotation| curves.speed(&rotation.speed)) {
             let about = constraint.rotation.as_ref().map(|rotation| rotation.about).unwrap_or_default();
             self.turns.push(Turn { centre: first(about.centre), axis: axis(about.direction), speed });
@@ -439,13 +454,21 @@ where
         }
     }
 
-    /// Reports what accelerates from which velocities (m/s) it begins.
-    pub fn begin(&mut self, velocities: &[[f64; D]]) {
+    /// Reports what accelerates from which velocities (m/s) it begins at a time (s).
+    pub fn begin(&mut self, velocities: &[[f64; D]], curves: &Curves, time: f64) {
         for &(index, node) in &self.driven {
             for speed in &mut self.held[index as usize].speeds {
-                speed.begin(velocities[node as usize]);
+                speed.begin(velocities[node as usize], curves, time);
             }
         }
+    }
+
+    /// What [`Constraints::begin`] has found, in a kept state.
+    pub(crate) fn persist_begun(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        for &(index, _) in &self.driven {
+            self.held[index as usize].speeds.iter_mut().try_for_each(|speed| speed.persist_begun(archive))?;
+        }
+        Ok(())
     }
 }
 

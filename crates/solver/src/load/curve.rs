@@ -5,12 +5,14 @@
 //! its curve. Means and moments of what has no closed form are taken by four Gauss points between the
 //! corners: exact for lines and smooth steps, of eighth order in the step for formulas.
 
+pub mod factor;
 pub mod sine;
 pub mod steered;
 pub mod table;
 
-use crate::archive::{Archive, ArchiveResult, Persist};
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::expression::Expression;
+use crate::load::window::Window;
 use crate::model::in_3d;
 use crate::model::{self, CurveShape, Drive, Model, Sine};
 use crate::vector::{dot, plus, times};
@@ -107,6 +109,11 @@ pub struct Curves {
     integrals: Vec<f64>,
     /// A time that is short in the run, s: over it slopes at time zero are taken.
     short: f64,
+    /// Stage from whose beginning the times of each curve count, and that time, s: infinite until then.
+    /// Empty where there are no stages.
+    begins: Vec<(usize, f64)>,
+    /// When loads act that do so in some stages alone, with their places in the model.
+    windows: Vec<(usize, Window)>,
 }
 
 /// What a curve or a number prescribes.
@@ -142,7 +149,8 @@ struct Term {
 
 impl Persist for Curves {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { list, names: _, integrals, short: _ } = self;
+        // Stages say when they began.
+        let Self { list, names: _, integrals, short: _, begins: _, windows: _ } = self;
         integrals[..].persist(archive)?;
         for curve in list {
             let mut steered = if let Curve::Steered(steered) = curve { Some(*steered) } else { None };
@@ -161,7 +169,43 @@ impl Curves {
     pub fn new(model: &Model) -> Self {
         let list: Vec<Curve> = model.curves.values().map(Curve::new).collect();
         let integrals = vec![0.0; list.len()];
-        Self { list, names: model.curves.keys().cloned().collect(), integrals, short: 1e-6 * model.run.end }
+        let begin = |curve: &model::Curve| {
+            let stage = curve.stage.as_ref().and_then(|name| model.stages.iter().position(|stage| stage.name == *name)).unwrap_or(0);
+            (stage, if stage == 0 { 0.0 } else { f64::INFINITY })
+        };
+        let begins = if model.stages.is_empty() { Vec::new() } else { model.curves.values().map(begin).collect() };
+        let windows = factor::windows(model);
+        Self { list, names: model.curves.keys().cloned().collect(), integrals, short: 1e-6 * model.run.end, begins, windows }
+    }
+
+    /// Notes that a stage begins at `now`, s.
+    pub fn enter(&mut self, stage: usize, now: f64) {
+        for ((_, begin), integral) in self.begins.iter_mut().zip(&mut self.integrals).filter(|((own, _), _)| *own == stage) {
+            (*begin, *integral) = (now, 0.0);
+        }
+        self.windows.iter_mut().for_each(|(_, window)| window.enter(stage, now));
+    }
+
+    /// Time of a curve, s.
+    fn time_of(&self, number: usize, time: f64) -> f64 {
+        self.begins.get(number).map_or(time, |(_, begin)| f64::max(time - begin, 0.0))
+    }
+
+    /// Value of a curve at a time of the run, s.
+    #[must_use]
+    pub fn value(&self, number: usize, time: f64) -> f64 {
+        self.list[number].value(self.time_of(number, time))
+    }
+
+    /// Mean value of a curve between two times of the run, s; the value itself where they are one.
+    #[must_use]
+    pub fn mean_of(&self, number: usize, from: f64, to: f64) -> f64 {
+        let (curve, [begin, end]) = (&self.list[number], [from, to].map(|time| self.time_of(number, time)));
+        let stage = self.begins.get(number).map_or(0.0, |(_, begin)| *begin);
+        if from < stage && stage < to {
+            return ((stage - from) * curve.value(0.0) + end * curve.mean(0.0, end)) / (to - from);
+        }
+        curve.mean(begin, end)
     }
 
     /// Number of the curve called so.
@@ -180,15 +224,9 @@ impl Curves {
     /// at `end`, at once where that is not later, and keeps. Loads look back over `half`, half of a step; all
     /// times in s.
     pub fn steer(&mut self, number: usize, [from, half, end]: [f64; 3], value: f64) {
-        let curve = &mut self.list[number];
-        let past = [from - half, from].map(|time| [time, curve.value(time)]);
-        *curve = Curve::Steered(Steered::new(past, [end.max(from), value]));
-    }
-
-    /// A curve by its number.
-    #[must_use]
-    pub fn curve(&self, number: usize) -> &Curve {
-        &self.list[number]
+        let past = [from - half, from].map(|time| [self.time_of(number, time), self.value(number, time)]);
+        let end = self.time_of(number, end.max(from));
+        self.list[number] = Curve::Steered(Steered::new(past, [end, value]));
     }
 
     /// The velocity that a drive means; `None` where there is no such curve.
@@ -216,25 +254,27 @@ impl Curves {
     #[must_use]
     pub fn mean(&self, speed: &Speed, from: f64, to: f64) -> f64 {
         let grown = if speed.growth == 0.0 { speed.constant } else { speed.constant + speed.growth * 0.5 * (from + to) };
-        speed.terms.iter().fold(grown, |sum, term| sum + term.factor * self.mean_of(term, from, to))
+        speed.terms.iter().fold(grown, |sum, term| sum + term.factor * self.mean_of_term(term, from, to))
     }
 
-    fn mean_of(&self, term: &Term, from: f64, to: f64) -> f64 {
-        let curve = &self.list[term.curve];
+    fn mean_of_term(&self, term: &Term, from: f64, to: f64) -> f64 {
         match term.meaning {
-            Meaning::Velocity => curve.mean(from, to),
+            Meaning::Velocity => self.mean_of(term.curve, from, to),
             Meaning::Displacement => {
                 let to = if to > from { to } else { from + self.short };
-                (curve.value(to) - curve.value(from)) / (to - from)
+                (self.value(term.curve, to) - self.value(term.curve, from)) / (to - from)
             }
-            Meaning::Acceleration => self.integrals[term.curve] + curve.moment(from, to),
+            Meaning::Acceleration => {
+                let [from, to] = [from, to].map(|time| self.time_of(term.curve, time));
+                self.integrals[term.curve] + self.list[term.curve].moment(from, to)
+            }
         }
     }
 
     /// Notes that the time continues.
     pub fn pass(&mut self, from: f64, to: f64) {
-        for (integral, curve) in self.integrals.iter_mut().zip(&self.list) {
-            *integral += (to - from) * curve.mean(from, to);
+        for number in 0..self.list.len() {
+            self.integrals[number] += (to - from) * self.mean_of(number, from, to);
         }
     }
 }
@@ -259,10 +299,21 @@ impl Speed {
         self
     }
 
-    /// Takes the node's initial velocity, m/s.
-    pub fn begin<const D: usize>(&mut self, velocity: [f64; D]) {
+    /// Takes the node's initial velocity, m/s, from which it accelerates at a time (s).
+    pub fn begin<const D: usize>(&mut self, velocity: [f64; D], curves: &Curves, time: f64) {
         self.constant += dot(self.initial, in_3d(velocity));
         self.initial = [0.0; 3];
+        if time > 0.0 {
+            // What would have been gained before.
+            let gained = |term: &Term| if term.meaning == Meaning::Acceleration { term.factor * curves.integrals[term.curve] } else { 0.0 };
+            self.constant -= self.growth * time + self.terms.iter().map(gained).sum::<f64>();
+        }
+    }
+
+    /// What [`Speed::begin`] has found, in a kept state.
+    pub(crate) fn persist_begun(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        persist_each!(archive; &mut self.constant, &mut self.initial);
+        Ok(())
     }
 
     /// This velocity plus `factor` times another.
@@ -375,7 +426,13 @@ mod tests {
 
     #[test]
     fn displacements_and_accelerations_lead_to_where_their_curves_say() {
-        let curves = |list: Vec<Curve>| Curves { integrals: vec![0.0; list.len()], names: vec!["c".into(); list.len()], list, short: 1e-6 };
+        let curves = |list: Vec<Curve>| Curves {
+            integrals: vec![0.0; list.len()],
+            names: vec!["c".into(); list.len()],
+            list,
+            short: 1e-6,
+            ..Curves::default()
+        };
         let walk = |curve: &Curve, meaning: Meaning, steps: u32| {
             let mut curves = curves(vec![curve.clone()]);
             let speed = Speed { terms: vec![Term { factor: 1.0, curve: 0, meaning }], ..Speed::default() };

@@ -8,6 +8,7 @@
 //! so it only takes energy, whatever the rate and the step. A node then yields to a force like one of mass
 //! m (1 + a), which contact must know.
 
+use super::window::Window;
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
 use crate::model::{Load, Model};
@@ -32,6 +33,8 @@ pub struct Damping {
 #[derive(Clone, Debug, PartialEq)]
 struct Acting {
     active: [f64; 2],
+    /// In which stages it acts; `None`: between these times.
+    window: Option<Window>,
     now: bool,
     rate: f64,
     /// Whether it acts on all parts, and so on free obstacles too.
@@ -48,8 +51,9 @@ impl Damping {
     where
         Dim<D>: CellGeometry<D> + Rotate<D>,
     {
-        let load = |load: &Load| {
+        let load = |(index, load): (usize, &Load)| {
             let Load::Damping { parts, rate, active } = load else { return None };
+            let window = model.load_terms.get(index).and_then(|terms| Window::of(model, &terms.stages));
             let mut shares = vec![0.0; mass.len()];
             for (part, masses) in mesh.parts.iter().zip(part_mass) {
                 if parts.is_empty() || parts.contains(&part.name) {
@@ -58,9 +62,21 @@ impl Damping {
                     }
                 }
             }
-            Some(Acting { active: *active, now: false, rate: *rate, everywhere: parts.is_empty(), shares })
+            let active = window.map_or(*active, |window| window.times);
+            Some(Acting { active, window, now: false, rate: *rate, everywhere: parts.is_empty(), shares })
         };
-        Self { loads: model.loads.iter().filter_map(load).collect(), ..Self::default() }
+        Self { loads: model.loads.iter().enumerate().filter_map(load).collect(), ..Self::default() }
+    }
+
+    /// Notes that a stage begins at `now`, s; whether it is relaxed.
+    pub fn enter(&mut self, stage: usize, now: f64, relaxes: bool) {
+        for load in &mut self.loads {
+            if let Some(window) = &mut load.window {
+                window.enter(stage, now);
+                load.active = window.times;
+            }
+        }
+        self.relaxation = relaxes.then_some(0.0);
     }
 
     /// Whether the model has no such load.

@@ -7,6 +7,7 @@
 //! with a factor c(t) of a curve. Works are external. A closed surface under pressure feels no resultant.
 
 use super::curve::Curves;
+use super::curve::factor::{Factor, curve_of};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::error::Fault;
 use crate::mesh::geometry::CellGeometry;
@@ -40,7 +41,7 @@ where
     Dim<D>: Meshed<D>,
 {
     what: What<D>,
-    curve: Option<usize>,
+    factor: Factor,
     /// Place in the model.
     index: usize,
     /// Mean of the nodes at the start, m.
@@ -110,10 +111,10 @@ where
     pub fn new(model: &Model, mesh: &Mesh<D>, curves: &Curves, is_mirror: impl Fn(Facet<D>) -> bool) -> Result<Self, Vec<Fault>> {
         let (mut loads, mut faults, depth) = (Vec::new(), Vec::new(), Depth::of(model));
         for (i, load) in model.loads.iter().enumerate() {
-            let (what, curve) = match load {
-                Load::Force { on, force, curve } => (given(mesh, on, first(*force), depth, &is_mirror), curve),
-                Load::Pressure { on, pressure, curve } => {
-                    (mesh.surface(on, &is_mirror).map(|surface| What::Pressure(surface.facets().to_vec(), *pressure)), curve)
+            let what = match load {
+                Load::Force { on, force, .. } => given(mesh, on, first(*force), depth, &is_mirror),
+                Load::Pressure { on, pressure, .. } => {
+                    mesh.surface(on, &is_mirror).map(|surface| What::Pressure(surface.facets().to_vec(), *pressure))
                 }
                 Load::Gravity { .. }
                 | Load::Centrifugal { .. }
@@ -123,7 +124,7 @@ where
             };
             match what {
                 Ok(what) => loads.push(Acting {
-                    curve: curve.as_ref().and_then(|name| curves.find(name)),
+                    factor: curves.factor_on(i, curve_of(load)),
                     index: i,
                     point: mesh.mean_place(&what.nodes()),
                     resultant: Resultant::default(),
@@ -142,7 +143,7 @@ where
     }
 
     /// Takes their means between two times (s) at these positions (m).
-    pub fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], positions: &[[f64; D]]) {
+    pub fn prepare(&mut self, curves: &Curves, update: [f64; 2], positions: &[[f64; D]]) {
         if self.loads.is_empty() && self.pushes.is_empty() {
             // The last push may have ended.
             self.now.clear();
@@ -150,8 +151,8 @@ where
         }
         self.now.clear();
         self.now.resize(positions.len(), [0.0; D]);
-        for Acting { what, curve, point, resultant, .. } in &mut self.loads {
-            let factor = curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
+        for Acting { what, factor, point, resultant, .. } in &mut self.loads {
+            let factor = curves.factor(*factor, update);
             *resultant = Resultant::default();
             let mut add = |node: u32, force: [f64; D], factor: f64| {
                 let (sum, force) = (&mut self.now[node as usize], times(factor, force));

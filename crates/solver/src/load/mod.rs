@@ -14,3 +14,4 @@ pub mod force;
 pub mod join;
 pub(crate) mod messages;
 pub mod non_reflecting;
+pub mod window;

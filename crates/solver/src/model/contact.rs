@@ -5,6 +5,7 @@
 //! [`crate::build`].
 
 use super::load::window;
+use super::stage::STAGES;
 use super::values::LeftOut;
 use super::{Values, section};
 use crate::quantity::Dimension;
@@ -150,6 +151,8 @@ pub struct Interface {
     pub thickness: f64,
     /// Times between which it acts, s.
     pub active: [f64; 2],
+    /// Stages in which it acts; empty: all.
+    pub stages: Vec<String>,
 }
 
 /// What happens between surfaces, of any body.
@@ -223,8 +226,11 @@ pub(crate) static INTERFACE: Group = Group {
         key("thickness", Quantity(Dimension::LENGTH, NotNegative), Written("0"), "Distance that the surfaces keep."),
         key("birth", Quantity(Dimension::TIME, NotNegative), Written("0"), "Time from which it acts."),
         key("death", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time until which it acts."),
+        STAGES,
     ],
     rules: &[
+        Rule::NotBoth("stages", "birth"),
+        Rule::NotBoth("stages", "death"),
         Rule::NotBoth("penalty", "penalty_scale"),
         Rule::NotBoth("penalty", "penalty_from"),
         Rule::Only { keys: &["penalty", "penalty_scale", "penalty_from"], by: "law", value: "penalty" },
@@ -254,6 +260,7 @@ impl Interface {
             },
             thickness: values.get("thickness"),
             active: window(values, ["birth", "death"]),
+            stages: values.get("stages"),
         }
     }
 }

@@ -3,6 +3,7 @@
 //!
 //! Part of the [`Model`](super::Model); curves and rigid motion are in `motion.rs`.
 
+use super::stage::STAGES;
 use super::values::Course;
 use super::{Drive, Motion, Values, in_3d, section};
 use crate::quantity::Dimension;
@@ -45,6 +46,7 @@ section! {
     };
     name: String = Name, Optional("the name of the set"), "Unique name, by which the history has its reaction.";
     on: String = Reference, Required, "The set.";
+    stages: Vec<String> = References(None), Optional("all stages"), "Stages in which it acts, one after the other.";
     "fixed" = Kind::Choices(Choices::Words(&["x", "y", "z", "rotation"])), Optional("none"),
         "Components that don't move; `rotation`: nodes of shells and beams don't rotate either, so that they are clamped.";
     velocity: [Option<Drive>; 3] = Kind::Components(Dimension::VELOCITY), Optional("none"),
@@ -290,6 +292,7 @@ pub(crate) static LOAD: Section = Section {
         ),
         key("from", Quantity(Dimension::TIME, NotNegative), Optional("the start"), "Time at which the damping begins."),
         key("until", Quantity(Dimension::TIME, Positive), Optional("the end"), "Time at which it ends."),
+        STAGES,
     ],
     rules: &[
         Rule::OneOf(&["gravity", "centrifugal", "force", "moment", "pressure", "damping", "damping_stiffness"]),
@@ -307,11 +310,31 @@ pub(crate) static LOAD: Section = Section {
         Rule::NotBoth("parts", "pressure"),
         Rule::NotBoth("curve", "damping"),
         Rule::NotBoth("curve", "damping_stiffness"),
+        Rule::NotBoth("stages", "damping_stiffness"),
+        Rule::NotBoth("stages", "from"),
+        Rule::NotBoth("stages", "until"),
         Rule::Needs("from", "damping"),
         Rule::Needs("until", "damping"),
     ],
     ..Section::EMPTY
 };
+
+/// What a load is called, and when it acts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoadTerms {
+    /// Unique name, by which the history has its resultant; empty: its number.
+    pub name: String,
+    /// Stages in which it acts; empty: all.
+    pub stages: Vec<String>,
+}
+
+impl LoadTerms {
+    /// From the load's table in the model file.
+    #[must_use]
+    pub fn read(values: &dyn Values) -> Self {
+        Self { name: values.get("name"), stages: values.get("stages") }
+    }
+}
 
 impl Load {
     /// From its table in the model file.

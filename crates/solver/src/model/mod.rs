@@ -24,6 +24,7 @@ pub mod reference;
 mod run;
 mod sharing;
 mod shell;
+mod stage;
 mod triangles;
 
 pub use cavity::{Cavity, Inflow, Vent};
@@ -31,7 +32,7 @@ pub use connection::{EXPONENT, Joint, KINDS, Weld};
 pub use contact::{Contact, ContactLaw, Formulation, Friction, InitialPenetration, Interface, Partners, Penalty, PenaltySource};
 pub use discrete::{PointMass, Spring};
 pub use initial::{InitialStress, RadialVelocity};
-pub use load::{Axis, Constraint, Image, Join, Load, NonReflecting, Rotation, Symmetry};
+pub use load::{Axis, Constraint, Image, Join, Load, LoadTerms, NonReflecting, Rotation, Symmetry};
 pub use motion::{Curve, CurveShape, Drive, Motion, Sine};
 pub use obstacle::{Obstacle, ObstacleShape};
 pub use output::{Cadence, Camera, Channel, Cut, Extreme, Filter, Forces, Output, PictureView, Position, Probe, ProbeAt};
@@ -42,6 +43,8 @@ pub(crate) use profile::{PROFILE, beam_axes};
 pub use run::{MassScaling, Relaxation, Run, StableStep};
 pub(crate) use shell::SHELL_SECTION;
 pub use shell::{GAUSS, LOBATTO, LOWER, MIDDLE, ShellLayer, ShellSection, UPPER};
+pub(crate) use stage::STAGE;
+pub use stage::Stage;
 pub use triangles::TriangleSurface;
 pub use values::Values;
 
@@ -80,8 +83,10 @@ pub struct Model {
     pub name: String,
     /// Title for pictures and reports; the name when empty.
     pub title: String,
-    /// `[run]`.
+    /// `[run]`; with stages its end is the sum of their durations.
     pub run: Run,
+    /// `[[stage]]`.
+    pub stages: Vec<Stage>,
     /// `[material.NAME]`.
     pub materials: BTreeMap<String, Material>,
     /// `[[part]]`.
@@ -100,8 +105,8 @@ pub struct Model {
     pub constraints: Vec<Constraint>,
     /// `[[load]]`.
     pub loads: Vec<Load>,
-    /// Names of the loads, by which the history has their resultants; what is left out is numbered.
-    pub load_names: Vec<String>,
+    /// Names and stages of the loads; what is left out has none.
+    pub load_terms: Vec<LoadTerms>,
     /// `[[cavity]]`.
     pub cavities: Vec<Cavity>,
     /// `[[non_reflecting]]`.

@@ -6,7 +6,7 @@ use super::values::{Course, Datum, Field};
 use super::{Values, section};
 use crate::quantity::Dimension;
 use crate::quantity::Range::{Finite, Positive};
-use crate::vocabulary::Kind::{self, Angle, Choice, Quantity, Table, Text};
+use crate::vocabulary::Kind::{self, Angle, Choice, Quantity, Reference, Table, Text};
 use crate::vocabulary::Need::{Default as Written, Optional};
 use crate::vocabulary::{Choices, Form, Rule, Section, key};
 
@@ -80,13 +80,22 @@ pub struct Curve {
     pub shape: CurveShape,
     /// Dimension of the values as they were written; `None`: bare numbers, SI of whatever uses them.
     pub dimension: Option<Dimension>,
+    /// Stage from whose beginning its times count; `None`: the beginning of the run.
+    pub stage: Option<String>,
+}
+
+impl From<CurveShape> for Curve {
+    /// Of bare numbers, from the beginning of the run on.
+    fn from(shape: CurveShape) -> Self {
+        Self { shape, ..Self::default() }
+    }
 }
 
 impl Curve {
     /// Straight lines between points, of bare numbers.
     #[must_use]
     pub fn table(times: Vec<f64>, values: Vec<f64>) -> Self {
-        Self { shape: CurveShape::Table { times, values, smooth: false }, dimension: None }
+        CurveShape::Table { times, values, smooth: false }.into()
     }
 }
 
@@ -118,6 +127,12 @@ pub(crate) static CURVE: Section = Section {
                 curve: numbers, `+ - * / ^`, parentheses, `pi`, `sin`, `cos`, `exp`, `ln`, `sqrt`, `abs`, `min`, \
                 `max`, and `step(x)`, which is 0 for x < 0, else 1.",
         ),
+        key(
+            "stage",
+            Reference,
+            Optional("the beginning of the run"),
+            "Stage from whose beginning its times count; until then it has its value at zero.",
+        ),
     ],
     rules: &[
         Rule::OneOf(&["value", "sine", "expression"]),
@@ -134,16 +149,17 @@ impl Curve {
     /// From its table in the model file.
     #[must_use]
     pub fn read(values: &dyn Values) -> Self {
+        let stage = values.get("stage");
         if let Some(sine) = values.table("sine") {
             let dimension = |key| values_of(sine, key).1;
-            return Self { shape: CurveShape::Sine(Sine::read(sine)), dimension: dimension("amplitude").or(dimension("offset")) };
+            return Self { shape: CurveShape::Sine(Sine::read(sine)), dimension: dimension("amplitude").or(dimension("offset")), stage };
         }
         if values.has("expression") {
-            return Self { shape: CurveShape::Expression(values.get("expression")), dimension: None };
+            return Self { shape: CurveShape::Expression(values.get("expression")), dimension: None, stage };
         }
         let (ordinates, dimension) = values_of(values, "value");
         let smooth = values.get::<String>("between") == "smooth_steps";
-        Self { shape: CurveShape::Table { times: values.get("time"), values: ordinates, smooth }, dimension }
+        Self { shape: CurveShape::Table { times: values.get("time"), values: ordinates, smooth }, dimension, stage }
     }
 }
 

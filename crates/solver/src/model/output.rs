@@ -9,10 +9,21 @@ use crate::vocabulary::{Choices, Form, Kind, Rule, Section};
 /// How often something is recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cadence {
-    /// So many equal intervals over the run; of fields 0: none.
+    /// So many equal intervals over the run, or over each of its stages; of fields 0: none.
     Count(u64),
     /// Every so many seconds.
     Interval(f64),
+}
+
+impl Cadence {
+    /// Time between two outputs of what lasts `duration`, both in s.
+    #[must_use]
+    pub fn interval(self, duration: f64) -> f64 {
+        match self {
+            Self::Count(count) => duration / count.max(1) as f64,
+            Self::Interval(interval) => interval,
+        }
+    }
 }
 
 section! {
@@ -25,9 +36,9 @@ section! {
         ..Section::EMPTY
     };
     fields: Cadence = Kind::Cadence, Default("100"),
-        "How often the fields are written: a count, or an interval such as `\"0.1 ms\"`; 0: not at all, and no pictures of bodies.";
+        "How often the fields are written: a count (of each stage), or an interval such as `\"0.1 ms\"`; 0: not at all, and no pictures of bodies.";
     history: Cadence = Kind::Cadence, Default("1000"),
-        "How often a row of the history is written: a count or an interval.";
+        "How often a row of the history is written: a count (of each stage) or an interval.";
     forces: Forces = Choice(Choices::Words(&["mean", "sample"])), Default("\"mean\""),
         "What rows of the history have of forces, moments and accelerations: the mean over the interval since the row before, \
             of which nothing is missed, or the value at the row's time.",

@@ -28,7 +28,8 @@ section! {
         required: true,
         ..Section::EMPTY
     };
-    end: f64 = Quantity(Dimension::TIME, Positive), Required, "End time.";
+    end: f64 = Quantity(Dimension::TIME, Positive), Optional("only with stages: their durations together"), "End time.",
+        read |values| values.get::<Option<f64>>("end").unwrap_or_default();
     safety: f64 = Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("0.9"),
         "Fraction of the stable time step that is used.";
     stable_step: StableStep = Choice(Choices::Words(&["elements", "nodes", "assembled"])), Default("\"elements\""),
@@ -86,7 +87,7 @@ section! {
         "Kinetic energy over internal energy at which the state counts as at rest; it must stay below for half a \
             period of the slowest motion.";
     from: f64 = Quantity(Dimension::TIME, NotNegative), Default("0"),
-        "Time from which rest ends the run: when loads that grow are complete.";
+        "Time from which rest ends the run, or the stage: when loads that grow are complete.";
 }
 
 section! {

@@ -2,23 +2,22 @@
 
 use crate::model::Cadence;
 
-/// Output times k × interval.
+/// Output times begin + k × interval.
 pub(super) struct Clock {
+    begin: f64,
     interval: f64,
     next: u64,
 }
 
 impl Clock {
-    pub(super) fn new(cadence: Cadence, end: f64) -> Self {
-        let interval = match cadence {
-            Cadence::Count(count) => end / count.max(1) as f64,
-            Cadence::Interval(interval) => interval,
-        };
-        Self { interval, next: 0 }
+    /// Of what begins and ends at these times, s; intervals that are given count from zero.
+    pub(super) fn new(cadence: Cadence, [begin, end]: [f64; 2]) -> Self {
+        let begin = if matches!(cadence, Cadence::Count(_)) { begin } else { 0.0 };
+        Self { begin, interval: cadence.interval(end - begin), next: 0 }
     }
 
     pub(super) fn next(&self) -> f64 {
-        self.next as f64 * self.interval
+        self.begin + self.next as f64 * self.interval
     }
 
     /// Whether an output time has been reached; moves on to the one after `time`.
@@ -33,6 +32,6 @@ impl Clock {
 
     /// Moves on to the output time after `time`.
     pub(super) fn pass(&mut self, time: f64) {
-        self.next = ((time * (1.0 + 1e-12)) / self.interval).floor() as u64 + 1;
+        self.next = ((time * (1.0 + 1e-12) - self.begin) / self.interval).floor() as u64 + 1;
     }
 }

@@ -240,12 +240,13 @@ where
     /// # Errors
     /// Those of a step.
     pub(crate) fn advance(&mut self, time: f64, steps: u64) -> Result<(), Error> {
-        let result = self.continue_run(time, steps);
+        let result = self.continue_run(time, steps, false);
         self.note_momentum();
         result
     }
 
-    fn continue_run(&mut self, time: f64, steps: u64) -> Result<(), Error> {
+    /// Steps as [`Run::advance`] does; `pauses`: at most to the end of the stage.
+    fn continue_run(&mut self, time: f64, steps: u64, pauses: bool) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps).min(self.max_steps);
         let Self { shortest, tracer, recorded, hashing, .. } = self;
         let mut tracer = tracer.as_mut();
@@ -261,6 +262,9 @@ where
                 stepped?;
                 shortest.note(system);
                 hashing.note(system);
+                if pauses && system.is_stage_over() {
+                    break;
+                }
             }
             Ok(())
         })
@@ -279,8 +283,8 @@ where
     /// Any [`Error`]; the last state has been given to the observer before.
     pub(crate) fn run(&mut self, pause: f64, steps: u64, observer: &mut dyn Observer) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps);
-        let end = self.system.limits.end;
-        let (mut rows, mut frames) = (Clock::new(self.history, end), Clock::new(self.fields, end));
+        let (mut rows, mut frames) = self.clocks();
+        let mut stage = self.system.stage();
         let state_steps = self.state_steps.filter(|_| observer.keeps_states());
         let mut output_cursor = self.output_cursor.take().unwrap_or_else(|| OutputCursor::new(self.system.step));
         if output_cursor.is_resumed {
@@ -297,23 +301,28 @@ where
         loop {
             // Whatever follows, a state too, is of the present cells.
             self.report_cells(observer)?;
+            if std::mem::replace(&mut stage, self.system.stage()) != self.system.stage() {
+                (rows, frames) = self.clocks();
+            }
             let time = self.system.time;
             let over = self.is_over();
+            // The last state of a stage is shown as that of the run.
+            let ends = over || self.system.is_stage_over();
             if over {
                 self.hashing.take(&self.system);
             }
             self.report_hashes(observer)?;
-            if (rows.due(time) || over) && time > output_cursor.last_row {
+            if (rows.due(time) || ends) && time > output_cursor.last_row {
                 self.note_momentum();
                 self.report_row(observer)?;
                 output_cursor.last_row = time;
             }
-            if self.shows() && (frames.due(time) || over) && output_cursor.last_frame != Some(self.system.step) {
+            if self.shows() && (frames.due(time) || ends) && output_cursor.last_frame != Some(self.system.step) {
                 self.show(observer)?;
                 output_cursor.last_frame = Some(self.system.step);
             }
             // A stop for the state alone sees nothing.
-            let notices = if over || output_cursor.stage == self.system.step {
+            let notices = if ends || output_cursor.stretch == self.system.step {
                 self.monitor.look(&self.system, &self.shortest, &self.recorded.pushing(&self.system), over)
             } else {
                 Vec::new()
@@ -322,7 +331,7 @@ where
                 self.pause(output_cursor);
                 return Ok(());
             }
-            if output_cursor.stage == self.system.step && self.memory.is_due(self.system.step) {
+            if output_cursor.stretch == self.system.step && self.memory.is_due(self.system.step) {
                 self.output_cursor = Some(output_cursor);
                 let state = self.state()?;
                 self.memory.take(state);
@@ -330,7 +339,7 @@ where
             if observer.wants_glance() {
                 observer.glance(&self.recorded.snapshot(&self.system));
             }
-            let control = observer.progress(&self.progress(end, &self.system.governor_in_words(), &notices));
+            let control = observer.progress(&self.progress(self.system.limits.end, &self.system.governor_in_words(), &notices));
             if matches!(control, Control::Keep | Control::KeepAndStop) || output_cursor.is_state_due(self.system.step, state_steps) {
                 output_cursor.last_state = Some(self.system.step);
                 self.output_cursor = Some(output_cursor);
@@ -349,12 +358,17 @@ where
                 return Ok(());
             }
             let until = if self.shows() { rows.next().min(frames.next()) } else { rows.next() };
-            let stage = output_cursor.steps(self.system.step, state_steps).min(last - self.system.step).min(observer.stride().max(1));
-            let result = self.continue_run(until.min(pause), stage);
+            let stretch = output_cursor.steps(self.system.step, state_steps).min(last - self.system.step).min(observer.stride().max(1));
+            let result = self.continue_run(until.min(pause), stretch, true);
             // A stop for the state alone leaves no trace.
-            if result.is_err() || self.system.time >= until || self.is_over() || output_cursor.is_stage(self.system.step) {
+            if result.is_err()
+                || self.system.time >= until
+                || self.is_over()
+                || self.system.is_stage_over()
+                || output_cursor.is_stretch(self.system.step)
+            {
                 self.note_momentum();
-                output_cursor.stage = self.system.step;
+                output_cursor.stretch = self.system.step;
             }
             if let Err(error) = result {
                 self.report_hashes(observer)?;
@@ -371,6 +385,12 @@ where
                 return Err(error);
             }
         }
+    }
+
+    /// When rows and frames of the present stage are due.
+    fn clocks(&self) -> (Clock, Clock) {
+        let span = self.system.stage_span();
+        (Clock::new(self.history, span), Clock::new(self.fields, span))
     }
 
     /// Whether fields are wanted.
@@ -396,7 +416,7 @@ where
     /// # Errors
     /// As [`Simulation::run`].
     pub(crate) fn run_window(&mut self, [from, to]: [f64; 2], every: f64, observer: &mut dyn Observer) -> Result<(), Error> {
-        let mut outputs = Clock::new(Cadence::Interval(every), to);
+        let mut outputs = Clock::new(Cadence::Interval(every), [0.0, to]);
         loop {
             let time = self.system.time;
             let over = self.is_over() || time >= to * (1.0 - 1e-12);

@@ -117,7 +117,7 @@ where
     /// Value of a curve from the end of the coming step on; `None`: the model has no such curve.
     pub(crate) fn curve(&self, name: &str) -> Option<f64> {
         let curves = &self.system.curves;
-        curves.find(name).map(|number| curves.curve(number).value((self.system.time + self.system.time_step).next_up()))
+        curves.find(name).map(|number| curves.value(number, (self.system.time + self.system.time_step).next_up()))
     }
 
     /// The system's nodes with their vectors.

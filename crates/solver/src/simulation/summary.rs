@@ -8,7 +8,7 @@ use crate::contact::messages::{MISSED, NO_FORCE, TIES_BROKE, UNSOLVED};
 use crate::contact::tracker::Certificate;
 use crate::error::{ERODED, MASS_ADDED, Notice, OPENED, RELAXED, STEERED};
 use crate::mesh::PartMesh;
-use crate::output::{Eroded, Erosion, MassInRun, Summary};
+use crate::output::{Eroded, Erosion, MassInRun, StageRun, Summary};
 use crate::record::Momentum;
 use crate::step::mass_scaling::MassScaling;
 use crate::tensor::Dim;
@@ -65,7 +65,7 @@ where
                 format!("the surface of cavity \"{}\" opened at {time:.6e} s: from then on its gas has the pressure outside", cavity.name),
             );
         }
-        if let Some(relaxation) = &self.system.relaxation {
+        if let Some(relaxation) = self.system.relaxation.as_ref().filter(|_| self.system.stages.is_none()) {
             report(
                 &RELAXED,
                 match relaxation.rest {
@@ -76,6 +76,11 @@ where
                     None => format!("relaxation: not at rest; kinetic over internal energy {:.3e}", relaxation.ratio),
                 },
             );
+        }
+        for StageRun { name, end, is_at_rest, ratio, .. } in self.system.stages_run() {
+            let (Some(rests), Some(ratio)) = (is_at_rest, ratio) else { continue };
+            let found = if rests { format!("at rest at {end:.6e} s") } else { format!("not at rest at {end:.6e} s") };
+            report(&RELAXED, format!("stage \"{name}\": {found}; kinetic over internal energy {ratio:.3e}"));
         }
         let of_mass = self.system.mass_scaling.as_ref().map(|own| (brought(own), own));
         if let Some((brought, own)) = of_mass.filter(|(brought, own)| brought.mass > 0.0 || own.exhausted.is_some()) {
@@ -162,7 +167,9 @@ where
             nodes: system.mesh.positions.len(),
             steps: system.step,
             time_end: system.time,
-            rest: self.system.relaxation.as_ref().and_then(|relaxation| relaxation.rest),
+            end: system.limits.end,
+            rest: self.system.rest(),
+            stages: self.system.stages_run(),
             stable_time_step_min: self.shortest.time_step,
             stable_time_step_governor: self.shortest.governor.clone(),
             energy_drift: system.ledger.drift(),

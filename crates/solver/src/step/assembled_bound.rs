@@ -251,7 +251,7 @@ where
         if self.limits.largest <= step {
             return f64::INFINITY;
         }
-        let left = (self.limits.end - self.time) / step;
+        let left = (self.stage_end() - self.time) / step;
         let pays = if left > cost { left / (left - cost) } else { f64::INFINITY };
         (f64::max(WORTH.max(pays) * step, grows) / self.limits.safety).powi(2)
     }

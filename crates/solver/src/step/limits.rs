@@ -119,7 +119,7 @@ where
             };
         }
         // The end is met exactly, by so many equal steps that none jumps, and at the end of a cycle.
-        let left = self.limits.end - self.time;
+        let left = self.stage_end() - self.time;
         let cycle = f64::from(cycle);
         let mut steps = (left / time_step * (1.0 - 1e-9)).ceil();
         let cycles = steps / cycle;

@@ -1,7 +1,7 @@
 //! The system in a kept state: what it knows at the end of a step. It is made of its model first, as for time
 //! zero; then the state is filled in.
 
-use super::{Governor, Limits, System};
+use super::{Governor, System};
 use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, persist_each};
 use crate::dimension::Dimension;
 use crate::tensor::Dim;
@@ -44,6 +44,7 @@ where
         }
         (archive.nodes, archive.places) = (self.positions.len(), self.positions.len() + self.bodies.len());
         archive.section("system")?;
+        self.persist_stages(archive)?;
         self.persist_system(archive)?;
         archive.section("nodes")?;
         self.persist_nodes(archive)?;
@@ -80,8 +81,8 @@ where
             mesh: _, assembly: _, mass: _, body_parts: _, rigid: _, has_springs: _, shares: _, outlines: _, constraints: _, damping: _, body_forces: _,
             boundary: _, joins: _, level: _, team: _, of_revolution: _, sums: _, groups: _, of_bodies: _, initial_penetrations: _,
             mass_added: _, mass_scaling: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
-            springs: _, erosion: _, rotations: _, skins: _, bound_by: _,
-            limits: Limits { end, safety: _, energy: _, step: _, largest: _, velocity: _, penetration: _, is_local: _ },
+            springs: _, erosion: _, rotations: _, skins: _, bound_by: _, stages: _,
+            limits: _,
             bodies, curves, forces, cavities, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
             subcycling, slots,
         } = self;
@@ -107,8 +108,8 @@ where
         archive.check(has_relaxation == relaxation.is_some(), "there is no relaxation")?;
         if let Some(relaxation) = relaxation {
             relaxation.persist(archive)?;
-            *end = relaxation.rest.unwrap_or(*end);
         }
+        self.limits.end = self.rest().unwrap_or(self.limits.end);
         Ok(())
     }
 

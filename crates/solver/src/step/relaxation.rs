@@ -37,6 +37,13 @@ impl<const D: usize> Relaxation<D> {
     }
 }
 
+impl<const D: usize> Relaxation<D> {
+    /// With these internal forces (N/m) before its first step.
+    pub(super) fn with_forces(self, forces: impl Fn(usize) -> [f64; D]) -> Self {
+        Self { forces: (0..self.forces.len()).map(forces).collect(), ..self }
+    }
+}
+
 impl<const D: usize> Persist for Relaxation<D> {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { tolerance: _, from: _, forces, frequency, quiet, ratio, rest } = self;
@@ -84,7 +91,9 @@ where
         let since = *relaxation.quiet.get_or_insert(self.time);
         if relaxation.frequency > 0.0 && (self.time - since) * relaxation.frequency >= std::f64::consts::PI {
             relaxation.rest = Some(self.time);
-            self.limits.end = self.time;
+            if self.stages.as_ref().is_none_or(|stages| stages.is_last()) {
+                self.limits.end = self.time;
+            }
         }
     }
 }

@@ -19,6 +19,7 @@ use crate::dimension::Dimension;
 use crate::energy::Sums;
 use crate::load::constraint::{Constraints, NodeConstraint};
 use crate::load::curve::Curves;
+use crate::load::curve::factor::{Factor, curve_of};
 use crate::load::damping::Damping;
 use crate::load::join::{Joins, back, turned};
 use crate::model::{Load, Model, in_3d};
@@ -71,9 +72,9 @@ struct MomentLoad {
     places: Vec<usize>,
     /// On each of them, N (N m).
     moment: [f64; 3],
-    curve: Option<usize>,
+    factor: Factor,
     /// Its value now.
-    factor: f64,
+    factor_now: f64,
     /// Place of the load in the model.
     index: usize,
 }
@@ -169,7 +170,28 @@ impl NodalRotations {
         for (&body, &inertia) in of_bodies.iter().zip(&inertia).filter(|(body, _)| **body != u32::MAX) {
             bodies.add_inertia(body as usize, inertia);
         }
-        let alone = now.nodes.iter().zip(&of_bodies).filter(|&(&node, &body)| body == u32::MAX && joins.of_node(node).is_none());
+        let mut rotations = Self {
+            next: vec![[0.0; 4]; count],
+            spins_old: now.spins.clone(),
+            slots: vec![[0.0; 3]; assembly.count],
+            now,
+            inertia,
+            assembly,
+            bodies: of_bodies,
+            ..Self::default()
+        };
+        rotations.hold(constraints, joins);
+        rotations
+    }
+
+    /// Finds what is held, by symmetry planes and prescribed spins, and what is joined.
+    pub(super) fn hold<const D: usize>(&mut self, constraints: &Constraints<D>, joins: &Joins<D>)
+    where
+        Dim<D>: Dimension<D>,
+    {
+        let Self { now, inertia, bodies, .. } = &*self;
+        let count = now.nodes.len();
+        let alone = now.nodes.iter().zip(bodies).filter(|&(&node, &body)| body == u32::MAX && joins.of_node(node).is_none());
         let alone = alone.map(|(&node, _)| vec![(node, unit_matrix())]);
         let joined = joins.groups().iter().map(|group| group.members.iter().map(|member| (member.node, square(&member.turn))).collect());
         let group = |members: Vec<(u32, Square<3>)>| {
@@ -194,37 +216,24 @@ impl NodalRotations {
         };
         let groups: Vec<Group> =
             alone.chain(joined).filter_map(group).filter(|group| group.held.is_some() || group.members.len() > 1).collect();
-        let mut group_of: Vec<u32> = of_bodies.iter().map(|&body| if body == u32::MAX { ALONE } else { u32::MAX }).collect();
+        let mut group_of: Vec<u32> = bodies.iter().map(|&body| if body == u32::MAX { ALONE } else { u32::MAX }).collect();
         for (number, group) in (0..).zip(&groups) {
             group.members.iter().for_each(|&(place, _)| group_of[place] = number);
         }
         let is_alone = |place: usize| group_of[place] == ALONE;
         let free = Eights::new(count, is_alone, |_| false).free;
-        Self {
-            lone: (0..count).filter(|&place| is_alone(place) && free.get(place / BATCH) != Some(&true)).map(|place| place as u32).collect(),
-            free,
-            next: vec![[0.0; 4]; count],
-            spins_old: now.spins.clone(),
-            slots: vec![[0.0; 3]; assembly.count],
-            now,
-            inertia,
-            assembly,
-            bodies: of_bodies,
-            groups,
-            loads: Vec::new(),
-            now_loads: Vec::new(),
-            contact: Vec::new(),
-            group_of,
-        }
+        let lone =
+            (0..count).filter(|&place| is_alone(place) && free.get(place / BATCH) != Some(&true)).map(|place| place as u32).collect();
+        (self.groups, self.group_of, self.free, self.lone) = (groups, group_of, free, lone);
     }
 
     /// Lets the moments of a model's loads act: of each its place in the model, its nodes, the whole of it
-    /// (N, N m) and its curve.
-    pub(super) fn load<'a>(&mut self, loads: impl Iterator<Item = (usize, Vec<u32>, [f64; 3], Option<usize>)> + 'a) {
-        for (index, nodes, moment, curve) in loads {
+    /// (N, N m) and its factor.
+    pub(super) fn load<'a>(&mut self, loads: impl Iterator<Item = (usize, Vec<u32>, [f64; 3], Factor)> + 'a) {
+        for (index, nodes, moment, factor) in loads {
             let places: Vec<usize> = nodes.iter().filter_map(|&node| self.now.place(node)).collect();
             let moment = times(1.0 / places.len().max(1) as f64, moment);
-            self.loads.push(MomentLoad { places, moment, curve, factor: 1.0, index });
+            self.loads.push(MomentLoad { places, moment, factor, factor_now: 1.0, index });
         }
         self.now_loads = vec![[0.0; 3]; if self.loads.is_empty() { 0 } else { self.inertia.len() }];
     }
@@ -306,13 +315,13 @@ impl NodalRotations {
     }
 
     /// Takes what acts in the coming update, between two times (s), and what prescribes spins between `step`.
-    pub(super) fn prepare(&mut self, curves: &Curves, [from, to]: [f64; 2], step: [f64; 2]) {
+    pub(super) fn prepare(&mut self, curves: &Curves, update: [f64; 2], step: [f64; 2]) {
         self.groups.iter_mut().filter_map(|group| group.held.as_mut()).for_each(|held| held.drive(curves, step));
         self.now_loads.fill([0.0; 3]);
         for load in &mut self.loads {
-            load.factor = load.curve.map_or(1.0, |curve| curves.curve(curve).mean(from, to));
+            load.factor_now = curves.factor(load.factor, update);
             for &place in &load.places {
-                self.now_loads[place] = plus(self.now_loads[place], times(load.factor, load.moment));
+                self.now_loads[place] = plus(self.now_loads[place], times(load.factor_now, load.moment));
             }
         }
     }
@@ -330,7 +339,7 @@ impl NodalRotations {
 
     /// Moments of loads now, each with the load's place in the model, N (N m).
     pub(crate) fn load_moments(&self) -> impl Iterator<Item = (usize, [f64; 3])> {
-        self.loads.iter().map(|load| (load.index, times(load.factor * load.places.len() as f64, load.moment)))
+        self.loads.iter().map(|load| (load.index, times(load.factor_now * load.places.len() as f64, load.moment)))
     }
 
     /// Moment of the elements on a node; `None`: it has no rotation.
@@ -356,8 +365,26 @@ impl NodalRotations {
         }
         self.follow(bodies);
         self.spins_old.clone_from(&self.now.spins);
+        self.kinetic()
+    }
+
+    /// ½ Σ I|ω|² of those that no body leads, J/m.
+    pub(super) fn kinetic(&self) -> f64 {
         let energy = |place: usize| 0.5 * self.inertia[place] * dot(self.now.spins[place], self.now.spins[place]);
         reductions::sum((0..self.inertia.len()).filter(|&place| self.bodies[place] == u32::MAX).map(energy))
+    }
+
+    /// Takes the spins away, for [`NodalRotations::launch`].
+    pub(super) fn hold_back(&mut self) -> Vec<[f64; 3]> {
+        let spins = std::mem::take(&mut self.now.spins);
+        self.now.spins = vec![[0.0; 3]; spins.len()];
+        self.spins_old.clone_from(&self.now.spins);
+        spins
+    }
+
+    /// Adds these spins between two steps, rad/s.
+    pub(super) fn launch(&mut self, spins: &[[f64; 3]]) {
+        self.now.spins.iter_mut().zip(spins).for_each(|(spin, own)| *spin = plus(*spin, *own));
     }
 
     /// R^{n+1}.
@@ -457,9 +484,7 @@ where
     /// Lets the moments of the model act on the nodes that rotate.
     pub(crate) fn load_rotations(&mut self, model: &Model) {
         let of = |(index, load): (usize, &Load)| match load {
-            Load::Moment { on, moment, curve } => {
-                Some((index, self.mesh.nodes(on)?, *moment, curve.as_ref().and_then(|name| self.curves.find(name))))
-            }
+            Load::Moment { on, moment, .. } => Some((index, self.mesh.nodes(on)?, *moment, self.curves.factor_on(index, curve_of(load)))),
             _ => None,
         };
         self.rotations.load(model.loads.iter().enumerate().filter_map(of));

@@ -307,7 +307,7 @@ fn cantilever(length: f64, elements: usize, profile: Profile, material: Material
     beams(&mut model, "arm", vec![[0.0; 3], [length, 0.0, 0.0]], elements, profile);
     clamp(&mut model, "arm.point0");
     let shape = CurveShape::Table { times: vec![0.0, 0.5 * end], values: vec![0.0, 1.0], smooth: true };
-    model.curves.insert("slowly".into(), Curve { shape, dimension: None });
+    model.curves.insert("slowly".into(), Curve::from(shape));
     model.loads.push(Load::Damping { parts: vec![], rate: damping, active: [0.0, f64::INFINITY] });
     model.probes.push(Probe { name: "tip".into(), at: ProbeAt::Set { set: "arm.point1".into() }, ..Probe::default() });
     (model, Some("slowly".into()))

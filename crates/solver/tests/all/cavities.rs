@@ -241,7 +241,7 @@ fn runs_with_gas_continue_and_have_equal_bits() {
     model.materials.insert("soft".into(), elastic(50e6, 1e3));
     shells(&mut model, "tube", CircularArc { radius: 0.1, elements: 24, ..CircularArc::default() }, 0.004, "plane_strain");
     let shape = CurveShape::Table { times: vec![0.0, 1e-3], values: vec![0.0, 1.0], smooth: true };
-    model.curves.insert("burn".into(), Curve { shape, dimension: None });
+    model.curves.insert("burn".into(), Curve::from(shape));
     let inflow = vec![Inflow { rate: 40.0, curve: Some("burn".into()), temperature: Drive::Constant(600.0) }];
     let vents =
         vec![Vent { orifice: 0.02, discharge: 0.7, opens_at: Some(1.05e5) }, Vent { orifice: 0.01, discharge: 1.0, opens_at: None }];

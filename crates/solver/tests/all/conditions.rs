@@ -161,7 +161,7 @@ fn a_node_that_is_led_around_a_point_is_moved_by_nothing_else() {
 }
 
 fn curve(model: &mut Model, name: &str, shape: CurveShape) -> Option<Drive> {
-    model.curves.insert(name.into(), Curve { shape, dimension: None });
+    model.curves.insert(name.into(), Curve::from(shape));
     Some(Drive::Curve(name.into()))
 }
 

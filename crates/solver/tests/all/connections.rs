@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 fn ramp(model: &mut Model, end: f64) -> Option<String> {
     let shape = CurveShape::Table { times: vec![0.0, end], values: vec![0.0, 1.0], smooth: true };
-    model.curves.insert("ramp".into(), Curve { shape, dimension: None });
+    model.curves.insert("ramp".into(), Curve::from(shape));
     Some("ramp".into())
 }
 

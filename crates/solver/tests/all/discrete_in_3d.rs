@@ -216,7 +216,7 @@ fn a_tripod_of_bars_has_the_energy_of_the_closed_form_through_its_snap() {
     (1..4).for_each(|k| hold(&mut model, &format!("point{k}")));
     model.run.time_step = Some(2e-5);
     let shape = CurveShape::Table { times: vec![0.0, 1e-2], values: vec![0.0, -0.25], smooth: true };
-    model.curves.insert("down".into(), Curve { shape, dimension: None });
+    model.curves.insert("down".into(), Curve::from(shape));
     let displacement = [None, None, Some(Drive::Curve("down".into()))];
     model.constraints.push(Constraint { on: "point0".into(), displacement, ..Constraint::default() });
     model.probes.push(Probe { name: "apex".into(), at: ProbeAt::Set { set: "point0".into() }, ..Probe::default() });
@@ -275,7 +275,7 @@ fn rod(element: &str, angle: f64, poisson: f64, shear: bool) -> (f64, f64) {
     model.run.end = 0.16 / speed;
     let values = vec![0.0, 1.0, 0.0];
     let curve = CurveShape::Table { times: vec![0.0, 0.5 * duration, duration], values, smooth: true };
-    model.curves.insert("pulse".into(), Curve { shape: curve, dimension: None });
+    model.curves.insert("pulse".into(), Curve::from(curve));
     let curve = Some("pulse".to_string());
     if shear {
         // Only what moves along y moves.
@@ -360,7 +360,7 @@ fn pulse(along: Vector) -> (Vec<[f64; 2]>, Vec<f64>, Simulation) {
             values: vec![0.0, velocity * direction[axis], 0.0],
             smooth: true,
         };
-        model.curves.insert(["px", "py", "pz"][axis].into(), Curve { shape: own, dimension: None });
+        model.curves.insert(["px", "py", "pz"][axis].into(), Curve::from(own));
     }
     let velocity = ["px", "py", "pz"].map(|name| Some(Drive::Curve(name.into())));
     model.constraints.push(Constraint { on: "bars.point0".into(), velocity, ..Constraint::default() });

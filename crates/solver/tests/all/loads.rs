@@ -9,14 +9,14 @@ use embate_solver::simulation::Simulation;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn curve(model: &mut Model, name: &str, text: &str) -> Option<String> {
-    model.curves.insert(name.into(), Curve { shape: CurveShape::Expression(text.into()), dimension: None });
+    model.curves.insert(name.into(), Curve::from(CurveShape::Expression(text.into())));
     Some(name.into())
 }
 
 /// A smooth pulse of height one between 0 and `end`.
 fn pulse(model: &mut Model, end: f64) -> Option<String> {
     let shape = CurveShape::Table { times: vec![0.0, 0.5 * end, end], values: vec![0.0, 1.0, 0.0], smooth: true };
-    model.curves.insert("pulse".into(), Curve { shape, dimension: None });
+    model.curves.insert("pulse".into(), Curve::from(shape));
     Some("pulse".into())
 }
 
@@ -60,7 +60,7 @@ fn the_impulse_of_a_force_is_the_integral_of_its_curve_whatever_the_steps() {
         model.run.safety = safety;
         add(&mut model, "block", rectangle([0.0, 0.0], [0.1, 0.05], [8, steps]), [0.0, 0.0]);
         let shape = CurveShape::Table { times: vec![1e-5, 1.3e-5, 2e-5, 6.1e-5], values: vec![0.0, 2.0, 1.0, 0.0], smooth: false };
-        model.curves.insert("hit".into(), Curve { shape, dimension: None });
+        model.curves.insert("hit".into(), Curve::from(shape));
         model.loads.push(Load::Force { on: "block.top".into(), force: [3e3, -8e3, 0.0], curve: Some("hit".into()) });
         let (simulation, history) = run(&model);
         let impulse = 0.3e-5 + 0.5 * 3.0 * 0.7e-5 + 0.5 * 4.1e-5;
@@ -150,7 +150,7 @@ fn a_rod_in_a_turning_frame_grows_as_the_closed_form_says() {
         ..Constraint::default()
     });
     let shape = CurveShape::Table { times: vec![0.0, 2e-3], values: vec![0.0, 1.0], smooth: true };
-    model.curves.insert("up".into(), Curve { shape, dimension: None });
+    model.curves.insert("up".into(), Curve::from(shape));
     model.loads.push(Load::Centrifugal { parts: vec![], about: Axis::through([0.3, 0.005]), speed, curve: Some("up".into()) });
     model.loads.push(Load::Damping { parts: vec![], rate: 3e3, active: [0.0, f64::INFINITY] });
     probe(&mut model, "tip", "rod", [0.5, 0.0]);
@@ -180,7 +180,7 @@ fn bodies_of_revolution_feel_pressure_and_spin_all_around() {
     add(&mut ring, "ring", rectangle([0.099, 0.0], [0.002, 0.002], [2, 2]), [0.0; 2]);
     axisymmetric(&mut ring);
     let shape = CurveShape::Table { times: vec![0.0, 1e-3], values: vec![0.0, 1.0], smooth: true };
-    ring.curves.insert("up".into(), Curve { shape, dimension: None });
+    ring.curves.insert("up".into(), Curve::from(shape));
     ring.loads.push(Load::Centrifugal { parts: vec![], about: Axis::default(), speed: 500.0, curve: Some("up".into()) });
     ring.loads.push(Load::Damping { parts: vec![], rate: 1e4, active: [0.0, f64::INFINITY] });
     let (simulation, history) = run(&ring);

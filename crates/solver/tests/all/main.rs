@@ -85,6 +85,7 @@ mod shocks;
 mod slips;
 mod softening;
 mod space;
+mod stages;
 mod steering;
 mod stress_states;
 mod subcycling;

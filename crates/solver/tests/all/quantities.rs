@@ -3,8 +3,8 @@
 
 use crate::bodies::*;
 use embate_solver::model::{
-    Axis, Cadence, Constraint, Contact, Cuboid, Curve, CurveShape, Cut, Drive, Extreme, Forces, Load, Model, Obstacle, Partners, Probe,
-    ProbeAt, Relaxation, Rotation, Shape, Symmetry,
+    Axis, Cadence, Constraint, Contact, Cuboid, Curve, CurveShape, Cut, Drive, Extreme, Forces, Load, LoadTerms, Model, Obstacle, Partners,
+    Probe, ProbeAt, Relaxation, Rotation, Shape, Symmetry,
 };
 
 fn close(found: f64, wanted: f64, scale: f64, what: &str) {
@@ -26,7 +26,7 @@ fn scene(forces: Forces) -> Model {
     model.loads.push(Load::Pressure { on: "block.top".into(), pressure: 4e6, curve: None });
     model.loads.push(Load::Force { on: "block.bottom".into(), force: [2e4, 1e4, 0.0], curve: None });
     model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -9.81, 0.0], curve: None });
-    model.load_names = ["press", "push", "weight"].map(String::from).to_vec();
+    model.load_terms = ["press", "push", "weight"].map(|name| LoadTerms { name: name.into(), stages: vec![] }).to_vec();
     model.obstacles.push(Obstacle::wall("floor", [0.0, -0.0005], [0.0, 1.0]));
     model.output.forces = forces;
     model
@@ -176,10 +176,7 @@ fn cuts_transmit_force_and_moment_of_a_cantilever_at_rest() {
             velocity: [fixed(), fixed(), if is_solid { fixed() } else { None }],
             ..Constraint::default()
         });
-        model.curves.insert(
-            "ramp".into(),
-            Curve { shape: CurveShape::Table { times: vec![0.0, 2.0], values: vec![0.0, 1.0], smooth: true }, dimension: None },
-        );
+        model.curves.insert("ramp".into(), Curve::from(CurveShape::Table { times: vec![0.0, 2.0], values: vec![0.0, 1.0], smooth: true }));
         model.loads.push(Load::Force { on: "arm.right".into(), force, curve: Some("ramp".into()) });
         model.run.relaxation = Some(Relaxation { tolerance: 1e-15, from: 2.0 });
         for (name, x, normal) in [("near", 0.26, [1.0, 0.0, 0.0]), ("far", 0.71, [1.0, 0.0, 0.0]), ("back", 0.26, [-3.0, 0.0, 0.0])] {
@@ -271,7 +268,7 @@ fn a_driven_rotation_has_the_torque_that_turns_the_body() {
     // the lumped masses.
     let mut model = model(4e-4);
     add(&mut model, "block", rectangle([-0.05, -0.05], [0.1, 0.1], [6, 6]), [0.0, 0.0]);
-    model.curves.insert("up".into(), Curve { shape: CurveShape::Expression("1e6*t".into()), dimension: None });
+    model.curves.insert("up".into(), Curve::from(CurveShape::Expression("1e6*t".into())));
     model.constraints.push(Constraint {
         on: "block".into(),
         name: "turn".into(),

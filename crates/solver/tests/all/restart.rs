@@ -434,7 +434,7 @@ fn runs_with_loads_rigid_parts_joins_and_relaxation_continue() {
     all(&mut model);
     model.contacts[0].interface.friction = rough(0.3).friction;
     model.joins.push(Join { between: ["block.top".into(), "rider.bottom".into()], ..Join::default() });
-    model.curves.insert("wave".into(), Curve { shape: CurveShape::Expression("sin(3000*t)".into()), dimension: None });
+    model.curves.insert("wave".into(), Curve::from(CurveShape::Expression("sin(3000*t)".into())));
     let wave = || Some("wave".to_string());
     model.loads.push(Load::Gravity { parts: vec![], acceleration: [0.0, -200.0, 0.0], curve: wave() });
     model.loads.push(Load::Damping { parts: vec!["rider".into()], rate: 300.0, active: [2e-4, 6e-4] });

@@ -37,7 +37,7 @@ fn set(model: &mut Model, name: &str, of: &str) {
 /// Loads that grow smoothly until half of the run.
 fn slowly(model: &mut Model, end: f64) -> Option<String> {
     let shape = CurveShape::Table { times: vec![0.0, 0.5 * end], values: vec![0.0, 1.0], smooth: true };
-    model.curves.insert("slowly".into(), Curve { shape, dimension: None });
+    model.curves.insert("slowly".into(), Curve::from(shape));
     Some("slowly".into())
 }
 

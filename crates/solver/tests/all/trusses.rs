@@ -212,7 +212,7 @@ fn a_von_mises_truss_has_the_energy_of_the_closed_form_through_its_snap() {
     let mut model = von_mises_truss(1e-2);
     model.run.time_step = Some(2e-5);
     let shape = CurveShape::Table { times: vec![0.0, 1e-2], values: vec![0.0, -0.25], smooth: true };
-    model.curves.insert("down".into(), Curve { shape, dimension: None });
+    model.curves.insert("down".into(), Curve::from(shape));
     let displacement = [None, Some(Drive::Curve("down".into()))];
     model.constraints.push(Constraint {
         on: "truss.point1".into(),
@@ -244,7 +244,7 @@ fn a_von_mises_truss_snaps_at_its_limit_load() {
     for (share, snaps) in [(0.98, false), (1.02, true)] {
         let mut model = von_mises_truss(1.5);
         let shape = CurveShape::Table { times: vec![0.0, 0.3], values: vec![0.0, 1.0], smooth: true };
-        model.curves.insert("slowly".into(), Curve { shape, dimension: None });
+        model.curves.insert("slowly".into(), Curve::from(shape));
         let force = [0.0, -share * limit];
         model.loads.push(Load::Force {
             on: "truss.point1".into(),

@@ -2,8 +2,9 @@
 //! contradictions that a model no longer shows.
 
 use crate::model_file::diagnostics::Faults;
-use crate::model_file::messages::UNIT;
-use crate::model_file::reader::Record;
+use crate::model_file::messages::{MISSING_KEY, UNIT};
+use crate::model_file::reader::{self, Document, Record};
+use embate_solver::input::sections;
 use embate_solver::model::messages::CLASH;
 use embate_solver::model::values::Course;
 use embate_solver::quantity::Dimension;
@@ -47,6 +48,20 @@ pub(super) fn constraint(record: &Record, faults: &mut Faults) {
             let message = format!("component `{axis}` is both fixed and given {article} {other}");
             faults.value(&CLASH, &record.key("fixed"), place, (message, "leave it out of one of the two".to_string()));
         }
+    }
+}
+
+/// A run without an end, or with two.
+pub(super) fn end(document: &Document, faults: &mut Faults) {
+    let (Some(run), Some(key)) = (document.section("run").first(), sections::find("run.end")) else { return };
+    let path = run.key("end");
+    match (run.written("end"), document.section("stage").is_empty()) {
+        (None, true) => faults.value(&MISSING_KEY, &path, run.place, reader::lacking("[run]", key)),
+        (Some(place), false) => {
+            let message = "the model has stages, and their durations say when it ends".to_string();
+            faults.value(&CLASH, &path, place, (message, "leave `end` out".to_string()));
+        }
+        _ => {}
     }
 }
 

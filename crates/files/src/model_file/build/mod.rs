@@ -20,8 +20,8 @@ use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
 use embate_solver::model::{
-    Cavity, Channel, Constraint, Curve, Cut, Drive, ImportedMesh, Join, Joint, Load, Material, Model, NonReflecting, Obstacle,
-    ObstacleShape, Output, Part, Partners, Placement, PointMass, Probe, Run, Shape, Spring, Symmetry, TriangleSurface, Values, Weld,
+    Cavity, Channel, Constraint, Curve, Cut, Drive, ImportedMesh, Join, Joint, Load, LoadTerms, Material, Model, NonReflecting, Obstacle,
+    ObstacleShape, Output, Part, Partners, Placement, PointMass, Probe, Run, Shape, Spring, Stage, Symmetry, TriangleSurface, Values, Weld,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -30,6 +30,7 @@ use std::sync::Arc;
 /// The model of a file; `meshes` are its mesh files.
 pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Model {
     document.records().for_each(|record| follow::cover(record, faults));
+    follow::end(document, faults);
     meshes.sheets = files_of(document, Part::is_of_sheets);
     meshes.frames = files_of(document, Part::is_of_beams);
     document.section("curve").iter().filter_map(|record| record.table("sine")).for_each(|sine| follow::sine(sine, faults));
@@ -39,6 +40,7 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         name: name.to_string(),
         title: document.top.text("title"),
         run: all(document, "run", Run::read).pop().unwrap_or_default(),
+        stages: all(document, "stage", Stage::read),
         materials: named(document, "material", Material::read),
         parts,
         meshes: meshes.loaded.clone(),
@@ -48,7 +50,7 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         symmetries: all(document, "symmetry", Symmetry::read),
         constraints: document.section("constraint").iter().map(|record| constraint(record, faults)).collect(),
         loads: all(document, "load", Load::read),
-        load_names: all(document, "load", |values| values.get("name")),
+        load_terms: all(document, "load", LoadTerms::read),
         cavities: all(document, "cavity", Cavity::read),
         non_reflecting: all(document, "non_reflecting", NonReflecting::read),
         joins: all(document, "join", Join::read),
@@ -62,6 +64,9 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         output: all(document, "output", Output::read).pop().unwrap_or_default(),
     };
     name_the_nameless(&mut model);
+    if !model.stages.is_empty() && model.run.end == 0.0 {
+        model.run.end = model.stages.iter().map(|stage| stage.duration).sum();
+    }
     model
 }
 
@@ -99,7 +104,7 @@ fn part(record: &Record, meshes: &mut Meshes<'_>, faults: &mut Faults) -> Part {
 fn constraint(record: &Record, faults: &mut Faults) -> Constraint {
     follow::constraint(record, faults);
     let mut constraint = Constraint::read(record);
-    let given = [&constraint.velocity, &constraint.displacement, &constraint.acceleration];
+    let given = [&constraint.velocity, &constraint.displacement, &constraint.acceleration, &constraint.spin];
     if constraint.rotation.is_none() && given.iter().all(|drives| drives.iter().all(Option::is_none)) {
         // Nothing sound was given: the reader has said so.
         constraint.velocity[0] = Some(Drive::Constant(0.0));
@@ -240,6 +245,7 @@ fn name_the_nameless(model: &mut Model) {
         contact.name = free(&joined, &taken);
         taken.insert(contact.name.clone());
     }
+    name_in_turn("stage", model.stages.iter_mut().map(|stage| &mut stage.name).collect());
     name_in_turn("weld", model.welds.iter_mut().map(|weld| &mut weld.name).collect());
     name_in_turn("joint", model.joints.iter_mut().map(|joint| &mut joint.name).collect());
     name_in_turn("obstacle", model.obstacles.iter_mut().map(|obstacle| &mut obstacle.name).collect());
@@ -247,7 +253,7 @@ fn name_the_nameless(model: &mut Model) {
     let words: Vec<String> = model.constraints.iter().map(|constraint| plain(&constraint.on)).collect();
     name_each(&words, model.constraints.iter_mut().map(|constraint| &mut constraint.name).collect());
     let words: Vec<String> = model.loads.iter().map(|load| plain(load.usual_name())).collect();
-    name_each(&words, model.load_names.iter_mut().collect());
+    name_each(&words, model.load_terms.iter_mut().map(|terms| &mut terms.name).collect());
 }
 
 /// Names those that have none: `word`, `word2`, ...

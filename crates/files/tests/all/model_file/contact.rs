@@ -156,11 +156,11 @@ fn curves_have_shapes() {
     let curve = |text: &str| sound(&and(&format!("[curve.c]\n{text}"))).curves["c"].clone();
     let steps = curve("time = [0, \"1 ms\"]\nvalue = [0, \"3 mm\"]\nbetween = \"smooth_steps\"");
     let shape = CurveShape::Table { times: vec![0.0, 0.001], values: vec![0.0, 0.003], smooth: true };
-    assert_eq!(steps, Curve { shape, dimension: Some(Dimension::LENGTH) });
+    assert_eq!(steps, Curve { dimension: Some(Dimension::LENGTH), ..Curve::from(shape) });
     let wave = curve("sine = { amplitude = \"2 mm\", frequency = \"1 kHz\", phase = \"90 deg\" }");
     let sine = Sine { amplitude: 0.002, frequency: 1000.0, phase: std::f64::consts::FRAC_PI_2, offset: 0.0 };
-    assert_eq!(wave, Curve { shape: CurveShape::Sine(sine), dimension: Some(Dimension::LENGTH) });
-    assert_eq!(curve("expression = \"2*t\""), Curve { shape: CurveShape::Expression("2*t".into()), dimension: None });
+    assert_eq!(wave, Curve { dimension: Some(Dimension::LENGTH), ..CurveShape::Sine(sine).into() });
+    assert_eq!(curve("expression = \"2*t\""), Curve::from(CurveShape::Expression("2*t".into())));
     each_has(&[
         (and("[curve.c]\nbetween = \"lines\""), "curve.c", "needs one of `value`, `sine` and `expression`"),
         (and("[curve.c]\ntime = [0]"), "curve.c", "needs one of `value`, `sine` and `expression`"),
@@ -251,6 +251,30 @@ fn loads_boundaries_and_joins_are_read() {
             "join[1]",
             "`translation` and `rotation`",
         ),
+    ]);
+}
+
+#[test]
+fn what_is_turned_alone_is_not_held() {
+    let strip = "run.end = 1\n[material.steel]\nlaw = \"elastic\"\ndensity = 7800\nyoung = \"200 GPa\"\npoisson = 0.3\n\
+        [[part]]\nname = \"strip\"\nmaterial = \"steel\"\nelement = \"shell2\"\nsection = { thickness = \"1 mm\" }\n\
+        line = { points = [[0, 0], [1, 0]], elements = 4 }\n";
+    let turned = sound(&format!("{strip}[[constraint]]\non = \"strip.end\"\nspin = {{ z = \"2 rad/s\" }}\n")).constraints.pop().unwrap();
+    assert_eq!((turned.velocity, turned.spin), ([None, None, None], [None, None, Some(Drive::Constant(2.0))]));
+    // With a stage, which says when it acts.
+    let stages = "[[stage]]\nname = \"turn\"\nduration = \"1 ms\"\n[[stage]]\nduration = \"2 ms\"\nrelaxation = {}\n";
+    let text = format!("{stages}{}", strip.replace("run.end = 1", "run.safety = 0.8"));
+    let model = sound(&format!("{text}[[constraint]]\non = \"strip.end\"\nspin = {{ z = 1 }}\nstages = \"turn\"\n"));
+    let names: Vec<&str> = model.stages.iter().map(|stage| stage.name.as_str()).collect();
+    assert_eq!((model.constraints[0].stages.as_slice(), names.as_slice()), (&["turn".to_string()][..], &["turn", "stage"][..]));
+    assert!((model.run.end - 3e-3).abs() < 1e-18 && model.stages[1].relaxation.is_some() && model.stages[0].relaxation.is_none());
+    each_has(&[
+        (
+            text.replace("run.safety = 0.8", "run.end = 1"),
+            "run.end",
+            "the model has stages, and their durations say when it ends | leave `end` out",
+        ),
+        (strip.replace("run.end = 1", "run.safety = 0.8"), "run.end", "[run] has no `end` | add `end = "),
     ]);
 }
 

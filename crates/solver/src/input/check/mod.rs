@@ -18,6 +18,7 @@ mod plane;
 mod plausible;
 mod shells;
 mod space;
+mod stages;
 mod triangles;
 mod warnings;
 
@@ -56,6 +57,7 @@ impl Model {
     pub fn check(&self) -> Vec<Fault> {
         let mut check = Check { model: self, faults: Vec::new() };
         check.run();
+        check.stages();
         check.materials();
         check.curves();
         check.parts();
@@ -203,10 +205,10 @@ impl Check<'_> {
             self.number("run.time_step", largest);
         }
         if let Some(relaxation) = run.relaxation {
-            self.number("run.relaxation.tolerance", relaxation.tolerance);
-            self.number("run.relaxation.from", relaxation.from);
+            self.relaxation("run", relaxation);
         }
-        if run.subcycling && run.relaxation.is_some() {
+        let relaxes = run.relaxation.is_some() || self.model.stages.iter().any(|stage| stage.relaxation.is_some());
+        if run.subcycling && relaxes {
             self.fault(
                 &CLASH,
                 "run.subcycling",
@@ -485,7 +487,7 @@ impl Check<'_> {
         let all: [(&str, Vec<&str>); 3] = [
             ("symmetry", model.symmetries.iter().map(|it| it.name.as_str()).collect()),
             ("constraint", model.constraints.iter().map(|it| it.name.as_str()).collect()),
-            ("load", model.load_names.iter().map(String::as_str).collect()),
+            ("load", model.load_terms.iter().map(|terms| terms.name.as_str()).collect()),
         ];
         for (section, names) in all {
             if names.iter().all(|name| !name.is_empty()) {

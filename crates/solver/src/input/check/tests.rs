@@ -203,7 +203,7 @@ fn faults_that_only_code_can_make_are_found() {
     assert_eq!(paths(|model| friction(model).dynamic = Some(0.1)), ["contact[0].friction_dynamic"]);
     let empty = |model: &mut Model| drop(model.curves.insert("empty".into(), Curve::default()));
     assert_eq!(paths(empty), ["curve.empty.time"]);
-    let shaped = |shape: CurveShape| paths(|model| drop(model.curves.insert("c".into(), Curve { shape, dimension: None })));
+    let shaped = |shape: CurveShape| paths(|model| drop(model.curves.insert("c".into(), Curve::from(shape))));
     let sine = Sine { amplitude: 1.0, frequency: 2.0, phase: 0.0, offset: 0.0 };
     assert_eq!(shaped(CurveShape::Sine(sine)), Vec::<String>::new());
     assert_eq!(

@@ -168,7 +168,7 @@ impl Gas {
 
     /// What flows in on average between two times: Σ ṁ and Σ ṁ T.
     fn inflow(&self, curves: &Curves, [from, to]: [f64; 2]) -> [f64; 2] {
-        let mean = |curve: &Option<usize>, left_out: f64| curve.map_or(left_out, |curve| curves.curve(curve).mean(from, to));
+        let mean = |curve: &Option<usize>, left_out: f64| curve.map_or(left_out, |curve| curves.mean_of(curve, from, to));
         self.inflows.iter().fold([0.0; 2], |[mass, heat], inflow| {
             let rate = inflow.rate * mean(&inflow.curve, 1.0);
             let temperature = mean(&inflow.temperature.1, inflow.temperature.0);

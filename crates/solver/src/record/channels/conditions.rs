@@ -7,6 +7,7 @@
 use super::{Channel, Column, forces, means, moment};
 use crate::body_columns::BodyColumns;
 use crate::dimension::Dimension;
+use crate::load::constraint::NodeConstraint;
 use crate::model::{Load, Model};
 use crate::rotation::Rotate;
 use crate::step::System;
@@ -41,10 +42,31 @@ struct Held<const D: usize> {
     names: Vec<(&'static str, String)>,
     /// Mean of the nodes at the start, m.
     points: Vec<[f64; D]>,
+    /// What is held in each stage of the run.
+    stages: Vec<InStage<D>>,
+}
+
+/// What is held in a stage.
+struct InStage<const D: usize> {
     /// Nodes that are held along directions across each other: node, condition, direction; by node.
     simple: Vec<(u32, u32, [f64; D])>,
     /// Whether there are other held nodes.
     has_oblique: bool,
+}
+
+impl<const D: usize> InStage<D> {
+    fn new<'a>(held: impl Iterator<Item = (u32, &'a NodeConstraint<D>)>, conditions: usize) -> Self {
+        let (mut simple, mut has_oblique) = (Vec::new(), false);
+        for (node, held) in held {
+            match held.directions() {
+                // What closes a join around its axis is no condition of the model.
+                Some(own) => simple.extend(own.filter(|(source, _)| (*source as usize) < conditions).map(|(source, n)| (node, source, n))),
+                None => has_oblique = true,
+            }
+        }
+        simple.sort_by_key(|&(node, source, _)| (node, source));
+        Self { simple, has_oblique }
+    }
 }
 
 impl<const D: usize> Held<D>
@@ -59,18 +81,9 @@ where
         let nodes = model.symmetries.iter().map(|it| mesh.on_symmetry(it));
         let nodes = nodes.chain(model.constraints.iter().map(|it| mesh.nodes(&it.on).unwrap_or_default()));
         let points: Vec<[f64; D]> = nodes.map(|nodes| mesh.mean_place(&nodes)).collect();
-        let (mut simple, mut has_oblique) = (Vec::new(), false);
-        for (node, held) in system.held() {
-            match held.directions() {
-                // What closes a join around its axis is no condition of the model.
-                Some(own) => {
-                    simple.extend(own.filter(|(source, _)| (*source as usize) < points.len()).map(|(source, n)| (node, source, n)))
-                }
-                None => has_oblique = true,
-            }
-        }
-        simple.sort_by_key(|&(node, source, _)| (node, source));
-        Self { names, points, simple, has_oblique }
+        let later = system.stages.iter().flat_map(|stages| stages.later_constraints());
+        let stages = std::iter::once(&system.constraints).chain(later).map(|own| InStage::new(system.held_by(own), points.len())).collect();
+        Self { names, points, stages }
     }
 }
 
@@ -96,11 +109,12 @@ where
             let about = <Dim<D>>::moment_vector(minus(system.positions[node as usize], self.points[source as usize]), force);
             add(source, &mut force.into_iter().chain(moment::<D>(about)), 0);
         };
-        for &(node, source, direction) in &self.simple {
+        let Some(InStage { simple, has_oblique }) = self.stages.get(system.stage()) else { return };
+        for &(node, source, direction) in simple {
             let along = dot(system.reaction(node), direction);
             push(node, source, times(along, direction));
         }
-        if self.has_oblique {
+        if *has_oblique {
             for (node, held) in system.held().filter(|(_, held)| held.directions().is_none()) {
                 held.share_out(system.reaction(node), |source, force| {
                     if (source as usize) < self.points.len() {
@@ -138,7 +152,7 @@ impl Loads {
             Load::Gravity { .. } | Load::Centrifugal { .. } => Some(Resultant::OfMass),
             Load::Damping { .. } | Load::StiffnessDamping { .. } => None,
         };
-        let name = |place: usize| name_of(model.load_names.get(place).map_or("", String::as_str), place);
+        let name = |place: usize| name_of(model.load_terms.get(place).map_or("", |terms| &terms.name), place);
         Self { names: model.loads.iter().enumerate().filter_map(|(k, load)| Some((k, name(k), kind(load)?))).collect() }
     }
 }

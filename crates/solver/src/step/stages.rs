@@ -1,0 +1,274 @@
+//! Stages of a run: what acts, what holds nodes and whether all is brought to rest changes from one to the
+//! next, between two steps.
+//!
+//! A stage is over when its time is, or at rest where it is relaxed. The state of that step is its last; the
+//! next stage begins at the same time. What holds nodes then leads them from there on: where it leads them
+//! otherwise than they move, and where bodies get their initial velocities, v^{n+½} changes at once. With
+//! that half of the step that follows has another way than forces have done work on: the ledger gets ΔK − ½
+//! dt^n Σ f · Δv as work from outside, f of elements and contacts.
+
+use super::System;
+use super::relaxation::Relaxation;
+use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
+use crate::contact::ContactKind;
+use crate::dimension::Dimension;
+use crate::load::constraint::Constraints;
+use crate::model::{self, Model};
+use crate::output::StageRun;
+use crate::reductions::{self, SumInOrder};
+use crate::rigid::RigidMotion;
+use crate::tensor::Dim;
+use crate::vector::{dot, minus, plus, times};
+
+/// The stages of a run.
+pub(crate) struct Stages<const D: usize>
+where
+    Dim<D>: Dimension<D>,
+{
+    list: Vec<model::Stage>,
+    /// When each stage so far began, s.
+    begins: Vec<f64>,
+    /// Those that are over.
+    over: Vec<StageRun>,
+    /// What holds nodes in the stages after the first; of the present one that of the one before.
+    later: Vec<Constraints<D>>,
+    /// The stage that gives bodies their initial velocities, and these.
+    launch: Option<(usize, Launch<D>)>,
+}
+
+/// Initial velocities that wait for a stage.
+struct Launch<const D: usize>
+where
+    Dim<D>: Dimension<D>,
+{
+    /// Of nodes, m/s.
+    velocities: Vec<[f64; D]>,
+    /// Of nodes that rotate, rad/s.
+    spins: Vec<[f64; 3]>,
+    /// Of rigid bodies.
+    bodies: Vec<<Dim<D> as RigidMotion<D>>::Generalized<f64>>,
+}
+
+impl<const D: usize> Stages<D>
+where
+    Dim<D>: Dimension<D>,
+{
+    /// Of a model; `None`: it has none. `later` is what holds nodes in those after the first.
+    pub(crate) fn of(model: &Model, later: Vec<Constraints<D>>) -> Option<Box<Self>> {
+        let list = model.stages.clone();
+        (!list.is_empty()).then(|| Box::new(Self { list, begins: vec![0.0], over: Vec::new(), later, launch: None }))
+    }
+
+    /// Number of the present stage.
+    pub(crate) fn now(&self) -> usize {
+        self.begins.len() - 1
+    }
+
+    /// Its name.
+    pub(crate) fn name(&self) -> &str {
+        &self.list[self.now()].name
+    }
+
+    /// Whether none follows.
+    pub(crate) fn is_last(&self) -> bool {
+        self.begins.len() == self.list.len()
+    }
+
+    /// When the present stage began, and when it ends at the latest, s.
+    pub(crate) fn span(&self) -> [f64; 2] {
+        let begin = self.begins[self.now()];
+        [begin, begin + self.list[self.now()].duration]
+    }
+
+    /// What holds nodes in each stage after the first, as long as that is the present one.
+    pub(crate) fn later_constraints(&self) -> &[Constraints<D>] {
+        &self.later
+    }
+
+    /// The latest end of the run, s.
+    fn end(&self) -> f64 {
+        let [_, end] = self.span();
+        self.list[self.now() + 1..].iter().fold(end, |end, stage| end + stage.duration)
+    }
+
+    /// The present stage until `time`, s.
+    fn run_until(&self, time: f64, relaxation: Option<&Relaxation<D>>) -> StageRun {
+        let rests = relaxation.is_some_and(|own| own.rest.is_some());
+        StageRun {
+            name: self.name().into(),
+            begin: self.span()[0],
+            end: time,
+            is_at_rest: relaxation.map(|_| rests),
+            ratio: relaxation.map(|own| own.ratio),
+        }
+    }
+}
+
+impl<const D: usize> System<D>
+where
+    Dim<D>: Dimension<D>,
+{
+    /// Number of the present stage; 0 without any.
+    pub(crate) fn stage(&self) -> usize {
+        self.stages.as_ref().map_or(0, |stages| stages.now())
+    }
+
+    /// When the present stage began and when it ends at the latest, of a run without stages the whole, s.
+    pub(crate) fn stage_span(&self) -> [f64; 2] {
+        self.stages.as_ref().map_or([0.0, self.limits.end], |stages| stages.span())
+    }
+
+    /// See [`System::stage_span`].
+    pub(super) fn stage_end(&self) -> f64 {
+        self.stage_span()[1]
+    }
+
+    /// When all was at rest, which ended the run, s.
+    pub(crate) fn rest(&self) -> Option<f64> {
+        let is_end = self.stages.as_ref().is_none_or(|stages| stages.is_last());
+        self.relaxation.as_ref().filter(|_| is_end).and_then(|own| own.rest)
+    }
+
+    /// Whether the present stage is over and another one follows.
+    pub(crate) fn is_stage_over(&self) -> bool {
+        let Some(stages) = self.stages.as_ref().filter(|stages| !stages.is_last()) else { return false };
+        self.time >= stages.span()[1] || self.relaxation.as_ref().is_some_and(|own| own.rest.is_some())
+    }
+
+    /// The stages so far, with the present one until now.
+    pub(crate) fn stages_run(&self) -> Vec<StageRun> {
+        let Some(stages) = &self.stages else { return Vec::new() };
+        stages.over.iter().cloned().chain([stages.run_until(self.time, self.relaxation.as_ref())]).collect()
+    }
+
+    /// Keeps initial velocities for the stage that they belong to; without such a stage there are none.
+    pub(crate) fn hold_velocities_back(&mut self) {
+        let Some(stages) = &mut self.stages else { return };
+        if stages.list[0].relaxation.is_none() {
+            return;
+        }
+        let of = stages.list.iter().position(|stage| stage.relaxation.is_none());
+        let nodes = self.velocities.len();
+        let velocities = std::mem::replace(&mut self.velocities, vec![[0.0; D]; nodes]);
+        self.velocities_old.clone_from(&self.velocities);
+        let launch = Launch { velocities, spins: self.rotations.hold_back(), bodies: self.bodies.hold_back() };
+        let fastest = reductions::max(launch.velocities.iter().map(|&v| dot(v, v))).sqrt();
+        if self.limits.velocity <= 0.0 {
+            self.limits.velocity -= fastest;
+        }
+        stages.launch = of.map(|stage| (stage, launch));
+    }
+
+    /// Lets the next stage begin.
+    pub(super) fn enter_next_stage(&mut self) {
+        let Some(mut stages) = self.stages.take() else { return };
+        stages.over.push(stages.run_until(self.time, self.relaxation.as_ref()));
+        self.take_stage(&mut stages, self.time);
+        let launch = stages.launch.take_if(|(stage, _)| *stage == stages.begins.len() - 1);
+        self.stages = Some(stages);
+        self.change_velocities(launch.map(|(_, launch)| launch));
+        if let Some(subcycling) = &mut self.subcycling {
+            subcycling.wake();
+        }
+    }
+
+    /// What acts from the time `now` (s) on, when the next stage begins.
+    fn take_stage(&mut self, stages: &mut Stages<D>, now: f64) {
+        stages.begins.push(now);
+        let number = stages.now();
+        self.curves.enter(number, now);
+        let freed = self.contacts.iter_mut().map(|contact| contact.enter(number, now, &self.springs)).sum();
+        self.ledger.free(freed);
+        for outline in &mut self.outlines {
+            let is_own =
+                |contact: &&crate::contact::Contact<D>| matches!(contact.kind, ContactKind::Obstacle(_)) && contact.name == outline.name;
+            outline.death = self.contacts.iter().find(is_own).map_or(outline.death, |contact| contact.active[1]);
+        }
+        std::mem::swap(&mut self.constraints, &mut stages.later[number - 1]);
+        self.rotations.hold(&self.constraints, &self.joins);
+        self.find_free_nodes();
+        let (assembly, slots, nodes) = (&self.assembly, &self.slots, self.positions.len());
+        self.relaxation = stages.list[number].relaxation.map(|own| {
+            let relaxation = Relaxation::new(model::Relaxation { from: now + own.from, ..own }, nodes);
+            relaxation.with_forces(|node| assembly.force(node, slots))
+        });
+        self.damping.enter(number, now, self.relaxation.is_some());
+        self.damping.prepare(now, 0.0, nodes);
+        self.bodies.damp(&self.damping, &self.mass);
+        self.limits.end = stages.end();
+    }
+
+    /// Adds initial velocities, and lets what holds nodes now lead them.
+    fn change_velocities(&mut self, launch: Option<Launch<D>>) {
+        let kinetic = self.kinetic_half();
+        let old = self.velocities.clone();
+        if let Some(Launch { velocities, spins, bodies }) = &launch {
+            self.velocities.iter_mut().zip(velocities).for_each(|(v, own)| *v = plus(*v, *own));
+            self.rotations.launch(spins);
+            self.bodies.launch(bodies, self.time_step, &self.positions, &mut self.velocities);
+            self.joins.begin(&self.mass, &mut self.velocities);
+        }
+        let (now, dt) = (self.time, self.time_step);
+        self.constraints.begin(&self.velocities, &self.curves, now);
+        self.constraints.drive(&self.curves, [now, now + dt], &self.positions);
+        self.rotations.prepare(&self.curves, [now; 2], [now, now + dt]);
+        for (node, held) in self.constraints.held() {
+            if self.bodies.of_node(node).is_none() {
+                self.velocities[node as usize] = held.apply(self.velocities[node as usize]);
+            }
+        }
+        for group in self.joins.groups() {
+            group.lead(self.velocities[group.members[0].node as usize], &mut self.velocities);
+        }
+        self.rotations.start(&self.bodies);
+        self.rotations.foresee(dt, self.level);
+        // The velocity update leads them so; reactions of what was held are known.
+        for (next, (x, v)) in self.positions_old.iter_mut().zip(self.positions.iter().zip(&self.velocities)) {
+            *next = plus(*x, times(dt, *v));
+        }
+        let of_faces =
+            self.skins.lead(self.rotations.next(), dt, &self.positions, &mut self.velocities, &mut self.positions_old, self.level);
+        let mut ahead = SumInOrder::default();
+        for (node, (new, old)) in self.velocities.iter().zip(&old).enumerate().filter(|(_, (new, old))| new != old) {
+            let contact = if self.contacts.is_empty() { [0.0; D] } else { self.contact_forces.of(node) };
+            let force = plus(self.assembly.force(node, &self.slots), contact);
+            ahead.add(dot(force, minus(*new, *old)));
+        }
+        self.ledger.launch(self.kinetic_half() - kinetic, -0.5 * dt * ahead.value());
+        let fastest = reductions::max(self.velocities.iter().map(|&v| dot(v, v)).chain([of_faces]));
+        self.speed = self.speed.max(fastest.sqrt());
+    }
+
+    /// ½ Σ m|v^{n+½}|² of what has mass in the ledger, J/m.
+    fn kinetic_half(&self) -> f64 {
+        let is_own = |node: &u32| self.bodies.of_node(*node).is_none() && self.skins.carrier(*node as usize).is_none();
+        let of = |(_, (m, v)): (u32, (&f64, &[f64; D]))| 0.5 * m * dot(*v, *v);
+        let nodes = (0..).zip(self.mass.iter().zip(&self.velocities)).filter(|(node, _)| is_own(node)).map(of);
+        reductions::sum(nodes) + self.bodies.kinetic() + self.rotations.kinetic()
+    }
+
+    /// The stages so far in a kept state; what they have changed is changed again.
+    pub(super) fn persist_stages(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Some(mut stages) = self.stages.take() else { return Ok(()) };
+        let mut count = stages.begins.len();
+        count.persist(archive)?;
+        archive.check((1..=stages.list.len()).contains(&count), "it is in a stage that there is not")?;
+        for number in 1..count {
+            let mut begin = stages.begins.get(number).copied().unwrap_or_default();
+            begin.persist(archive)?;
+            let mut over = stages.over.get(number - 1).cloned().unwrap_or_default();
+            let StageRun { name, begin: first, end, is_at_rest, ratio } = &mut over;
+            persist_each!(archive; first, end, is_at_rest, ratio);
+            name.clone_from(&stages.list[number - 1].name);
+            if archive.reads() {
+                stages.over.push(over);
+                self.take_stage(&mut stages, begin);
+            }
+        }
+        if stages.launch.as_ref().is_some_and(|(stage, _)| *stage < count) {
+            stages.launch = None;
+        }
+        self.stages = Some(stages);
+        if count > 1 { self.constraints.persist_begun(archive) } else { Ok(()) }
+    }
+}

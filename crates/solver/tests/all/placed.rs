@@ -5,8 +5,8 @@ use crate::beams::rectangle as bar;
 use crate::bodies::*;
 use crate::shells::section;
 use embate_solver::model::{
-    Constraint, Contact, Copies, Cuboid, Drive, Extrude, FieldValues, ImportedMesh, Interface, Line, Load, MeshField, MeshGroup, Mirror,
-    Model, Obstacle, Part, Partners, Placement, Probe, ProbeAt, Rectangle, Shape, ShellLayer, ShellSection, Sweep,
+    Constraint, Contact, Copies, Cuboid, Drive, Extrude, FieldValues, ImportedMesh, Interface, Line, Load, LoadTerms, MeshField, MeshGroup,
+    Mirror, Model, Obstacle, Part, Partners, Placement, Probe, ProbeAt, Rectangle, Shape, ShellLayer, ShellSection, Sweep,
 };
 use embate_solver::simulation::Simulation;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -148,7 +148,7 @@ fn loaded(mesh: ImportedMesh, part: Part, has_face: bool) -> Model {
         model.loads.push(Load::Pressure { on: "face".into(), pressure: 1e6, curve: None });
     }
     model.loads.push(Load::Force { on: "part.far".into(), force: [2e4, 1e4, 0.0], curve: None });
-    model.load_names = vec![String::new(); model.loads.len()];
+    model.load_terms = vec![LoadTerms::default(); model.loads.len()];
     model
 }
 
@@ -228,7 +228,7 @@ fn a_placed_mesh_runs_bit_for_bit_as_the_built_in_shape_placed_so() {
                 2 => Load::Pressure { on: on.into(), pressure: 1e6, curve: None },
                 _ => Load::Force { on: on.into(), force: [1e4, 2e4, 3e4], curve: None },
             });
-            model.load_names = vec![String::new()];
+            model.load_terms = vec![LoadTerms::default()];
             to_end(&model).summary().state_hash
         };
         let group = Shape::Group { mesh: 0, group: "body".into() };

@@ -126,8 +126,9 @@ fn what_has_failed_counts_at_no_node_that_has_other_elements() {
         close(most[row], weak[row], 1e-6, "of the only one");
     }
     for row in failed..most.len() {
-        close(seam[row], strong[row], 0.0, "of the other one");
-        close(end[row], weak[row], 0.0, "as it was at the end");
+        // The weights of the nodes sum to one but for round-off.
+        close(seam[row], strong[row], 1e-15 * strong[row].abs(), "of the other one");
+        close(end[row], weak[row], 1e-15 * weak[row].abs(), "as it was at the end");
         assert!(most[row].is_nan(), "row {row}");
     }
 }
@@ -158,7 +159,7 @@ fn an_extreme_has_the_place_of_its_node_or_of_the_middle_of_its_element() {
 #[test]
 fn the_place_of_an_extreme_goes_with_it_and_is_none_where_nothing_is_left() {
     let mut model = two_squares();
-    probe(&mut model, "both", set("seam"), &["von_mises"], Position::Element, Some(Extreme::Max));
+    probe(&mut model, "both", set("seam"), &["von_mises"], Position::Element, Some(Extreme::Min));
     probe(&mut model, "first", set("weak"), &["von_mises"], Position::Element, Some(Extreme::Max));
     model.probes.iter_mut().for_each(|probe| probe.place = probe.extreme.is_some());
     for name in ["end", "seam", "rim"] {
@@ -173,7 +174,7 @@ fn the_place_of_an_extreme_goes_with_it_and_is_none_where_nothing_is_left() {
     let failed = weak.iter().position(|x| x.is_nan()).expect("the weak one fails");
     let mut seen = [false; 2];
     for row in 0..both.len() {
-        let is_other = row >= failed || other[row] > one[row];
+        let is_other = row >= failed || other[row] < one[row];
         assert_eq!(both[row], if is_other { other[row] } else { one[row] }, "row {row}");
         if one[row] != other[row] || row >= failed {
             let middle = 0.5 * (seam[row] + if is_other { rim[row] } else { end[row] });
@@ -181,6 +182,6 @@ fn the_place_of_an_extreme_goes_with_it_and_is_none_where_nothing_is_left() {
             seen[usize::from(is_other)] = true;
         }
     }
-    assert_eq!(seen, [true, true], "each is the largest at some time");
+    assert_eq!(seen, [true, true], "each is the least at some time");
     assert!(weak[failed..].iter().all(|x| x.is_nan()) && weak[..failed].iter().all(|x| x.is_finite()));
 }

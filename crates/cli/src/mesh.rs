@@ -26,8 +26,8 @@ pub(crate) struct Arguments {
     /// Unit of the lengths in the mesh file
     #[arg(long, value_name = "UNIT", default_value = UNITS[0].name, value_parser = units())]
     unit: Unit,
-    /// The program Gmsh, a name that is looked for on PATH, or a path [default: EMBATE_GMSH of the environment, or
-    /// gmsh]
+    /// The program Gmsh, a name that is looked for on PATH, or a path [default: EMBATE_GMSH of the
+    /// environment, or gmsh]
     #[arg(long, value_name = "PROGRAM")]
     gmsh: Option<OsString>,
     /// Longest time that Gmsh may take

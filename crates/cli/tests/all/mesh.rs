@@ -1,5 +1,5 @@
-//! `embate mesh`: with a program that stands in for Gmsh, how it is called and what becomes of its failures; with
-//! Gmsh itself, where it is there, a box with a hole from a STEP file to a model.
+//! `embate mesh`: with a program that stands in for Gmsh, how it is called and what becomes of its failures;
+//! with Gmsh itself, where it is there, a box with a hole from a STEP file to a model.
 #![cfg(unix)]
 
 use crate::{Answer, fresh};

@@ -3,7 +3,7 @@
 use super::{Meshed, Unit};
 use crate::abaqus::import::quoted;
 use crate::numbers::{grouped, significant};
-use embate_solver::mesh::cell::Cell;
+use embate_solver::mesh::cell::{Cell, CellKind};
 use embate_solver::mesh::geometry::CellGeometry;
 use embate_solver::mesh::surface::{self, Corners, Facet};
 use embate_solver::model::MeshGroup;
@@ -25,8 +25,8 @@ type Outside = BTreeMap<Facet<3>, Facet<3>>;
 type Rows = Vec<Vec<String>>;
 
 impl Meshed {
-    /// Nodes, elements by kind, box and the shape of the worst element, a line each: the smallest Jacobian
-    /// determinant at a corner over the third power of the longest side, 0.71 of the best tetrahedron.
+    /// Nodes and elements by kind, box, and the shape of the worst element, a line each: of tetrahedra six
+    /// times the volume over the third power of the longest edge, which is 0.71 for the best.
     #[must_use]
     pub fn summary(&self) -> String {
         let positions = &self.mesh.positions;
@@ -39,7 +39,7 @@ impl Meshed {
                 Some((_, count)) => *count += 1,
                 None => kinds.push((name, 1)),
             }
-            let shape = Dim::<3>::shape_quality(cell, positions);
+            let shape = self.shape(cell);
             if worst.is_none_or(|(least, _)| shape < least) {
                 worst = Some((shape, self.middle(cell)));
             }
@@ -143,6 +143,18 @@ impl Meshed {
         let Some(&first) = normals.first() else { return String::new() };
         let is_flat = normals.iter().all(|normal| (0..3).all(|d| (normal[d] - first[d]).abs() < FLAT));
         if is_flat { format!("({})", first.map(|n| significant(three(n + 0.0))).join(", ")) } else { "curved".to_string() }
+    }
+
+    /// Shape of a tetrahedron, whatever the order of its nodes: six times its volume over the third power of
+    /// its longest edge; of other cells that of [`CellGeometry::shape_quality`].
+    fn shape(&self, cell: Cell<'_>) -> f64 {
+        let positions = &self.mesh.positions;
+        if cell.kind != CellKind::Tetrahedron {
+            return Dim::<3>::shape_quality(cell, positions);
+        }
+        let square = |[a, b]: [u32; 2]| (0..3).map(|d| (positions[b as usize][d] - positions[a as usize][d]).powi(2)).sum::<f64>();
+        let longest = cell.edges().map(square).fold(0.0, f64::max);
+        6.0 * Dim::<3>::size(cell, positions) / (longest * longest.sqrt())
     }
 
     fn middle(&self, cell: Cell<'_>) -> Vector {

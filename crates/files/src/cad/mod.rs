@@ -3,8 +3,8 @@
 //!
 //! `script.rs` writes what Gmsh is to do and reads which volumes and faces it found; `program.rs` runs the
 //! program, in a folder of its own and with a time limit; `names.rs` names the groups, in the file too;
-//! `describe.rs` says what was made. Nothing of the user's is text of the script: the CAD file is copied under
-//! a name that is always the same, so that no path or name of a body can be taken for a command.
+//! `describe.rs` says what was made. Nothing of the user's is text of the script: the CAD file is copied
+//! under a name that is always the same, so that no path or name of a body can be taken for a command.
 
 mod describe;
 pub(crate) mod messages;

@@ -53,7 +53,8 @@ fn take(name: &str, taken: &mut BTreeSet<String>) -> String {
     free
 }
 
-/// A mesh file of Gmsh with the names of bodies and faces in place of its own; `None`: it has no list of names.
+/// A mesh file of Gmsh with the names of bodies and faces in place of its own; `None`: it has no list of
+/// names.
 pub(super) fn named(bytes: &[u8], bodies: &[Body]) -> Option<Vec<u8>> {
     let at = |mark: &[u8], from: usize| bytes[from..].windows(mark.len()).position(|it| it == mark).map(|found| from + found);
     let begin = at(b"$PhysicalNames\n", 0)?;

@@ -7,8 +7,8 @@ pub(super) const NAME: &str = "job.geo";
 pub(super) const MESH: &str = "made.msh";
 pub(super) const FOUND: &str = "found.txt";
 
-/// The script: each volume and each face is a physical group with the number that it has in Gmsh. `size` is in
-/// the unit of the mesh. Labels of a CAD file are printed, as they are, on a line of their own.
+/// The script: each volume and each face is a physical group with the number that it has in Gmsh. `size` is
+/// in the unit of the mesh. Labels of a CAD file are printed, as they are, on a line of their own.
 pub(super) fn text(geometry: &str, unit: Unit, size: f64) -> String {
     format!(
         r#"SetFactory("OpenCASCADE");

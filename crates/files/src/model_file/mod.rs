@@ -98,13 +98,7 @@ pub fn load_despite(kind: &Message, path: &Path, set: &[String], reach: PathPoli
 /// # Errors
 /// What is wrong with it, and how it is written.
 pub fn time(text: &str) -> Result<f64, String> {
-    let seconds = match text.trim().parse::<f64>() {
-        Ok(seconds) => seconds,
-        Err(_) => {
-            let wanted = units::Wanted { name: "time", dimensions: &[Dimension::TIME], angle: false };
-            units::read(text, wanted).map_err(|(message, help)| format!("{message}; {help}"))?.0
-        }
-    };
+    let seconds = in_si(text, units::Wanted { name: "time", dimensions: &[Dimension::TIME], angle: false })?;
     if seconds.is_finite() && seconds >= 0.0 { Ok(seconds) } else { Err(format!("{text} is no time from the start on")) }
 }
 
@@ -113,14 +107,16 @@ pub fn time(text: &str) -> Result<f64, String> {
 /// # Errors
 /// What is wrong with it, and how it is written.
 pub fn length(text: &str) -> Result<f64, String> {
-    let metres = match text.trim().parse::<f64>() {
-        Ok(metres) => metres,
-        Err(_) => {
-            let wanted = units::Wanted { name: "length", dimensions: &[Dimension::LENGTH], angle: false };
-            units::read(text, wanted).map_err(|(message, help)| format!("{message}; {help}"))?.0
-        }
-    };
+    let metres = in_si(text, units::Wanted { name: "length", dimensions: &[Dimension::LENGTH], angle: false })?;
     if metres.is_finite() && metres > 0.0 { Ok(metres) } else { Err(format!("{text} is no length greater than 0")) }
+}
+
+/// A quantity with its unit, or a number, in SI units.
+fn in_si(text: &str, wanted: units::Wanted<'_>) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(number) => Ok(number),
+        Err(_) => units::read(text, wanted).map(|(value, _)| value).map_err(|(message, help)| format!("{message}; {help}")),
+    }
 }
 
 /// A model as it was read, with the texts that it came from.

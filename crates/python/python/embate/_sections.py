@@ -253,7 +253,8 @@ class Motion(TypedDict, total=False):
 
 
 class Mirror(TypedDict, total=False):
-    """The shape is mirrored on a line, in 3D on a plane."""
+    """The shape or mesh is mirrored on a line, in 3D on a plane. Its sides keep their names; what was
+    above a shell, or on its left, still is."""
 
     normal: Required[Quantities]
     """Normal of the line or plane; any length but zero."""
@@ -262,7 +263,7 @@ class Mirror(TypedDict, total=False):
 
 
 class Rotation(TypedDict, total=False):
-    """The shape is turned about a point, in 3D about an axis."""
+    """The shape or mesh is turned about a point, in 3D about an axis."""
 
     angle: Required[Quantity]
     """Angle, counter-clockwise; about an axis by the right-hand rule."""
@@ -310,8 +311,8 @@ class Revolve(TypedDict, total=False):
 
 
 class Copies(TypedDict, total=False):
-    """The part consists of several bodies of one shape, each turned and moved from the one before.
-    Sides are those of all of them."""
+    """The part consists of several bodies of one shape or mesh, each turned and moved from the one
+    before. Sides and groups are those of all of them."""
 
     count: Required[Integer]
     """Number of bodies in all."""
@@ -608,7 +609,8 @@ class PartMesh(TypedDict, total=False):
     """A group of a mesh file (Gmsh `.msh` 2.2 or 4.1, 3D if it has a group of volumes, or a part is
     made of its surfaces as a shell with `shell4`; Abaqus or CalculiX `.inp`; STL `.stl` for a shell
     of triangles, `shell3`), triangles, wedges and tetrahedra too. Its other groups can be named in
-    contacts, constraints and probes."""
+    contacts, constraints and probes, as `group` or `part.group`. Parts of one file that are
+    mirrored, turned, moved and copied alike share its nodes; those of different places do not."""
 
     file: Required[Text]
     """Path of the file, from the model file's folder."""
@@ -616,7 +618,7 @@ class PartMesh(TypedDict, total=False):
     """Name of a physical group of surfaces (of solids of volumes, of bars, beams and of shells in 2D
     of lines), or of an element set; of an STL file `all`, and its open edges are the group `rim`."""
     scale: Quantity
-    """Length of one unit of the file."""
+    """Length of one unit of the file, such as `"1 mm"`: its unit, or a scale."""
     tolerance: Quantity
     """Distance within which corners of the triangles of an STL file are one node."""
 
@@ -1198,18 +1200,18 @@ class Sections:
             Factor on the mass of the part where mass resists motion: 100 makes steps ten times as
             long. What gravity pulls at stays the true mass.
         mirror
-            A line, in 3D a plane, that the shape is mirrored on, before it is turned.
+            A line, in 3D a plane, that the shape or mesh is mirrored on, before it is turned.
         rotation
-            An angle by which the shape is turned, before it is moved.
+            An angle by which the shape or mesh is turned, before it is moved.
         extrude
             Extrudes a 2D shape along z: the part becomes a solid, lines become a shell (`shell4`).
         revolve
             Revolves a 2D shape about a line: the part becomes a solid, lines become a shell
             (`shell4`).
         translation
-            How far the shape is moved.
+            How far the shape or mesh is moved.
         copies
-            More bodies of the same shape, in a row or around a point.
+            More bodies of the same shape or mesh, in a row or around a point.
         rectangle
             An axis-parallel rectangle.
         ring

@@ -338,7 +338,12 @@ where
 
     /// The same of several bodies, each element with the body that it is in, from 0. Those that are mirrored
     /// are turned over.
-    fn add_elements_of_bodies<'c>(&mut self, cells: impl Iterator<Item = (usize, Cell<'c>)>, is_mirrored: bool, number: impl Fn(u32, usize) -> u32) {
+    fn add_elements_of_bodies<'c>(
+        &mut self,
+        cells: impl Iterator<Item = (usize, Cell<'c>)>,
+        is_mirrored: bool,
+        number: impl Fn(u32, usize) -> u32,
+    ) {
         let part = self.parts.len();
         let mut groups: Vec<ElementGroup> = Vec::new();
         for (user, (copy, cell)) in (0..).zip(cells) {

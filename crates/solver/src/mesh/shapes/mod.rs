@@ -441,7 +441,12 @@ static MESH_SECTION: Section = Section {
             "Name of a physical group of surfaces (of solids of volumes, of bars, beams and of shells in 2D of lines), or of an element set; of an STL file `all`, \
             and its open edges are the group `rim`.",
         ),
-        key("scale", Kind::Quantity(Dimension::LENGTH, Positive), Need::Default("\"1 m\""), "Length of one unit of the file, such as `\"1 mm\"`: its unit, or a scale."),
+        key(
+            "scale",
+            Kind::Quantity(Dimension::LENGTH, Positive),
+            Need::Default("\"1 m\""),
+            "Length of one unit of the file, such as `\"1 mm\"`: its unit, or a scale.",
+        ),
         key(
             "tolerance",
             Kind::Quantity(Dimension::LENGTH, Positive),

@@ -1,4 +1,5 @@
-//! Parts of a run that follow each other, such as a preload that is brought to rest and an impact: `[[stage]]`.
+//! Parts of a run that follow each other, such as a preload that is brought to rest and an impact:
+//! `[[stage]]`.
 
 use super::run::{RELAXATION, Relaxation};
 use super::{Model, section};

@@ -3,8 +3,8 @@
 //!
 //! Both are followed in their order: the value of each place is taken where the run passes it at or after the
 //! place before. So loading is compared with loading, and unloading with unloading. Going back by less than
-//! [`STILL`] of the measured range is standing still, in both: noise turns no curve. `embate fit` and Python's
-//! `embate.calibrate` ask here.
+//! [`STILL`] of the measured range is standing still, in both: noise turns no curve. `embate fit` and
+//! Python's `embate.calibrate` ask here.
 
 use std::fmt;
 
@@ -60,8 +60,8 @@ pub fn followed(x: &[f64], y: &[f64], places: &[f64]) -> Result<Vec<f64>, Missed
 /// How far one has come on a curve.
 struct Way<'a> {
     x: &'a [f64],
-    /// 1 at points where it begins, turns or ends and that are larger than those beside them, -1 where they are
-    /// smaller, 0 at all others.
+    /// 1 at points where it begins, turns or ends and that are larger than those beside them, -1 where they
+    /// are smaller, 0 at all others.
     ends: Vec<f64>,
     segment: usize,
     /// Part of the segment.

@@ -1,4 +1,4 @@
-//! When something acts that acts in some stages of the run alone: times that become known as the run goes on.
+//! When something acts that acts in some stages of the run alone: times that become known during the run.
 
 use crate::model::Model;
 

@@ -8,6 +8,7 @@ pub use crate::field::kind::{FIELDS, FIELDS_IN_SPACE, FieldKind, Location, Needs
 pub use crate::mesh::cell::CellKind;
 pub use crate::outline::Outline;
 pub use crate::step::erosion::Eroded;
+pub use crate::step::stages::StageRun;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -227,21 +228,6 @@ impl Summary {
     pub fn is_early(&self) -> bool {
         self.time_end < self.end * (1.0 - 1e-9)
     }
-}
-
-/// A stage of a run, over or until now.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StageRun {
-    /// Its name.
-    pub name: String,
-    /// When it began, s.
-    pub begin: f64,
-    /// When it was over, or the present time, s.
-    pub end: f64,
-    /// Whether all was at rest at its end; `None`: it is not relaxed.
-    pub is_at_rest: Option<bool>,
-    /// Kinetic over internal energy at its end, of one that is relaxed.
-    pub ratio: Option<f64>,
 }
 
 /// Result figures of a run, in the order in which they are written; see `docs/output.md` for the meaning of

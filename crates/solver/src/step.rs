@@ -376,6 +376,7 @@ where
         self.forces.prepare(&self.curves, update, &self.positions);
         self.press_cavities();
         self.rotations.prepare(&self.curves, update, [from, to]);
+        self.let_go(update);
         if !self.skins.is_empty() {
             let Self { forces, skins, positions, rotations, .. } = self;
             forces.hand_on(|force, push| skins.hand_on(positions, force, push, rotations.loads_now()));

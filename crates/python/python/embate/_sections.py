@@ -49,7 +49,7 @@ Relaxation = TypedDict(
         #: Kinetic energy over internal energy at which the state counts as at rest; it must stay
         #: below for half a period of the slowest motion.
         "tolerance": "Quantity",
-        #: Time from which rest ends the run: when loads that grow are complete.
+        #: Time from which rest ends the run, or the stage: when loads that grow are complete.
         "from": "Quantity",
     },
     total=False,
@@ -857,6 +857,32 @@ class Sections:
         raise NotImplementedError
 
     @section
+    def stage(
+        self,
+        *,
+        duration: Quantity,
+        name: str | None = None,
+        relaxation: Relaxation | None = None,
+    ) -> Self:
+        """A part of the run; stages follow each other in the order of the file, and `run.end` is left
+        out. Loads, constraints, contacts and obstacles that name `stages` act in these alone, and
+        times of a curve that names a `stage` count from the beginning of that. A stage with
+        `relaxation` is a static one: it ends when all is at rest. Initial velocities of parts and
+        obstacles are those at the beginning of the first stage without it.
+
+        Parameters
+        ----------
+        duration
+            How long it lasts; with `relaxation` the longest that it may.
+        name
+            Unique name, by which others refer to it.
+        relaxation
+            Damping that brings everything to rest, and the end of the stage when it is; `from`
+            counts from its beginning.
+        """
+        raise NotImplementedError
+
+    @section
     def material(
         self,
         name: str,
@@ -1280,6 +1306,7 @@ class Sections:
         thickness: Quantity | None = None,
         birth: Quantity | None = None,
         death: Quantity | None = None,
+        stages: Names | None = None,
     ) -> Self:
         """Bodies that can't go through each other: two surfaces, or several bodies, each of which
         meets each other and itself. A surface is a part (its whole outside), a side such as
@@ -1349,6 +1376,8 @@ class Sections:
             Time from which it acts.
         death
             Time until which it acts.
+        stages
+            Stages in which it acts, one after the other.
         """
         raise NotImplementedError
 
@@ -1386,6 +1415,7 @@ class Sections:
         thickness: Quantity | None = None,
         birth: Quantity | None = None,
         death: Quantity | None = None,
+        stages: Names | None = None,
     ) -> Self:
         """A rigid body without elements that parts can't go through: fixed, moved, or free with a
         mass. Exactly one of `plane`, `circle` and `polyline`, in 3D of `plane`, `sphere`,
@@ -1460,6 +1490,8 @@ class Sections:
             Time from which it acts.
         death
             Time until which it acts.
+        stages
+            Stages in which it acts, one after the other.
         """
         raise NotImplementedError
 
@@ -1493,6 +1525,7 @@ class Sections:
         *,
         on: str,
         name: str | None = None,
+        stages: Names | None = None,
         fixed: Literal["x", "y", "z", "rotation"] | Sequence[Literal["x", "y", "z", "rotation"]] | None = None,
         velocity: Components | None = None,
         displacement: Components | None = None,
@@ -1509,6 +1542,8 @@ class Sections:
             The set.
         name
             Unique name, by which the history has its reaction.
+        stages
+            Stages in which it acts, one after the other.
         fixed
             Components that don't move; `rotation`: nodes of shells and beams don't rotate either,
             so that they are clamped.
@@ -1664,6 +1699,7 @@ class Sections:
         curve: str | None = None,
         from_: Quantity | None = None,
         until: Quantity | None = None,
+        stages: Names | None = None,
     ) -> Self:
         """What acts on parts, sets of nodes or surfaces from outside. With `curve` a load is
         multiplied by the curve's values, which must be pure numbers.
@@ -1711,6 +1747,8 @@ class Sections:
             Time at which the damping begins.
         until
             Time at which it ends.
+        stages
+            Stages in which it acts, one after the other.
         """
         raise NotImplementedError
 
@@ -1842,6 +1880,7 @@ class Sections:
         between: Literal["lines", "smooth_steps"] | None = None,
         sine: Sine | None = None,
         expression: Text | None = None,
+        stage: str | None = None,
     ) -> Self:
         """A function of time, named where something follows it: by points (`time` and `value`;
         constant before the first and after the last), a `sine`, or a formula (`expression`). The
@@ -1863,6 +1902,8 @@ class Sections:
             A formula of the time `t` in s, such as `"2*sin(3*t) + exp(-t)"`, in the SI unit of what
             uses the curve: numbers, `+ - * / ^`, parentheses, `pi`, `sin`, `cos`, `exp`, `ln`,
             `sqrt`, `abs`, `min`, `max`, and `step(x)`, which is 0 for x < 0, else 1.
+        stage
+            Stage from whose beginning its times count; until then it has its value at zero.
         """
         raise NotImplementedError
 
@@ -1878,6 +1919,8 @@ class Sections:
         set: str | None = None,
         fields: Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "principal_stress", "principal_direction", "triaxiality", "lode_angle", "strain_log", "strain_green", "velocity_gradient", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"] | Sequence[Literal["displacement", "velocity", "contact_force", "contact_pressure", "contact_shear", "contact_gap", "contact_slip", "contact_status", "friction_heat", "stress", "von_mises", "pressure", "principal_stress", "principal_direction", "triaxiality", "lode_angle", "strain_log", "strain_green", "velocity_gradient", "plastic_strain", "temperature", "damage", "alive", "membrane_force", "bending_moment", "transverse_force", "thickness", "stress_bottom", "stress_middle", "stress_top", "von_mises_bottom", "von_mises_middle", "von_mises_top", "plastic_strain_bottom", "plastic_strain_middle", "plastic_strain_top", "thinning", "director", "beam_force", "beam_moment", "density", "energy_density"]] | None = None,
         extreme: Literal["max", "min"] | None = None,
+        place: Flag | None = None,
+        position: Literal["element", "node"] | None = None,
     ) -> Self:
         """A place whose position, velocity and acceleration are written to the history as `NAME.x`,
         `NAME.vx`, `NAME.ax` and so on: the node of `part` nearest to `point`, node number `node` of
@@ -1904,6 +1947,12 @@ class Sections:
         extreme
             Whether the largest or the smallest value of each field in the set is written, of
             elements that are there.
+        place
+            Whether the history also has the place of each extreme, as `NAME.FIELD_at_x` and so on:
+            of its node, or of the middle of its element.
+        position
+            What the values of fields of elements are of: elements, or nodes, each with the mean
+            over the elements at it by their volumes.
         """
         raise NotImplementedError
 
@@ -1914,11 +1963,13 @@ class Sections:
         name: str,
         point: Quantities,
         normal: Quantities,
+        radius: Quantity | None = None,
         parts: Names | None = None,
     ) -> Self:
-        """A plane (in 2D a line) through deformable parts at the start, which moves with the elements
-        that it cuts: the history has the force and the moment that the side to which the normal
-        points exerts on the other one. Springs across it, contacts and loads do not count.
+        """A plane (in 2D a line) through deformable parts at the start, or with `radius` a disc (a
+        piece of the line), which moves with the elements that it cuts: the history has the force
+        and the moment that the side to which the normal points exerts on the other one, by elements
+        and by springs, welds, joints and ties. Contacts and loads do not count.
 
         Parameters
         ----------
@@ -1928,8 +1979,11 @@ class Sections:
             A point of the plane.
         normal
             Its normal; any length but zero. Tension is a force along it.
+        radius
+            Elements are cut only where the middle of what the plane cuts of them is so near
+            `point`: one wall of a ring or a frame.
         parts
-            Parts that it cuts, from end to end.
+            Parts that it cuts, and whose connections count.
         """
         raise NotImplementedError
 
@@ -1982,10 +2036,10 @@ class Sections:
         Parameters
         ----------
         fields
-            How often the fields are written: a count, or an interval such as `"0.1 ms"`; 0: not at
-            all, and no pictures of bodies.
+            How often the fields are written: a count (of each stage), or an interval such as `"0.1
+            ms"`; 0: not at all, and no pictures of bodies.
         history
-            How often a row of the history is written: a count or an interval.
+            How often a row of the history is written: a count (of each stage) or an interval.
         forces
             What rows of the history have of forces, moments and accelerations: the mean over the
             interval since the row before, of which nothing is missed, or the value at the row's

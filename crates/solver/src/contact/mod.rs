@@ -39,9 +39,9 @@ pub(crate) mod rebuild;
 use crate::archive::{Archive, ArchiveResult, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::contact_forces::ContactForces;
-use crate::load::window::Window;
 use crate::mesh::surface::tributary::{self, Depth};
 use crate::mesh::surface::{Corners, Facet, Sided};
+use crate::model::Window;
 use crate::rigid::{Bodies, RigidMotion};
 use crate::tensor::Dim;
 use crate::vector::{self, minus};
@@ -293,10 +293,20 @@ where
         let Some(window) = &mut self.window else { return 0.0 };
         window.enter(stage, now);
         self.active = window.times;
-        if self.active[1] != now {
+        if !self.ends_at(now) {
             return 0.0;
         }
         springs.answers(self.found.clone()).flat_map(|answer| answer.books().stored).sum()
+    }
+
+    /// Whether it acts no more from a stage on that begins now, s.
+    pub(crate) fn ends_at(&self, now: f64) -> bool {
+        self.window.is_some() && self.active[1] == now
+    }
+
+    /// Adds the forces of its springs to `forces`, and to `bodies` those on what has no nodes.
+    pub(crate) fn push(&self, springs: &Springs<D>, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>) {
+        springs.answers(self.found.clone()).for_each(|answer| answer.push(forces, bodies, &mut Totals::default()));
     }
 
     /// Adds the springs of the step to `springs`.
@@ -453,10 +463,13 @@ where
     /// the end, and the force (N/m) on what is at the first one. Ends are nodes, or the number of nodes +
     /// rigid body.
     pub(crate) fn each_end(&self, springs: &Springs<D>, mut see: impl FnMut(u32, u32, [f64; D])) {
-        self.each_spring(springs, |ends| {
-            let Some(((first, _), ends)) = ends.split_first() else { return };
-            ends.iter().for_each(|(end, force)| see(*first, *end, force.map(|force| 0.0 - force)));
-        });
+        for answer in springs.answers(self.found.clone()) {
+            let mut ends = answer.ends();
+            let Some(first) = ends.next() else { continue };
+            for end in ends {
+                see(first.at, end.at, answer.force_on(&end).map(|force| 0.0 - force));
+            }
+        }
     }
 
     /// Hands over each spring of the last step: its ends, numbered as in [`Contact::each_end`], with the

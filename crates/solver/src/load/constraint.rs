@@ -4,13 +4,13 @@
 
 use super::curve::{Curves, Meaning, Speed};
 use super::join::{Joins, back};
-use super::window::Window;
 use crate::archive::{Archive, ArchiveResult};
 use crate::error::Fault;
 use crate::load::messages::{HELD_TWICE, OFF_SYMMETRY};
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::Corners;
+use crate::model::Window;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Constraint, Model, Symmetry};
 use crate::rotation::{Rotate, Square, applied, axis, unit_matrix};

@@ -12,9 +12,8 @@ pub mod table;
 
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::expression::Expression;
-use crate::load::window::Window;
 use crate::model::in_3d;
-use crate::model::{self, CurveShape, Drive, Model, Sine};
+use crate::model::{self, CurveShape, Drive, Model, Sine, Window};
 use crate::vector::{dot, plus, times};
 use steered::Steered;
 use table::Table;

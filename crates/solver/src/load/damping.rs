@@ -8,9 +8,9 @@
 //! so it only takes energy, whatever the rate and the step. A node then yields to a force like one of mass
 //! m (1 + a), which contact must know.
 
-use super::window::Window;
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
+use crate::model::Window;
 use crate::model::{Load, Model};
 use crate::rotation::Rotate;
 use crate::tensor::Dim;

@@ -14,4 +14,3 @@ pub mod force;
 pub mod join;
 pub(crate) mod messages;
 pub mod non_reflecting;
-pub mod window;

@@ -216,7 +216,7 @@ pub(crate) static CUT_LEAVES_OUT: Message = Message {
     example: Example::Model(
         "[run]\nend = \"2 us\"\n\n[[part]]\nname = \"sheet\"\nmaterial = \"steel\"\n\
          rectangle = { corner = [0, 0], size = [\"10 mm\", \"2 mm\"], elements = [5, 2] }\n\n\
-         [[part]]\nname = \"die\"\nmaterial = \"steel\"\nrigid = {}\nvelocity = [0, \"-20 m/s\"]\n\
+         [[part]]\nname = \"die\"\nmaterial = \"steel\"\nrigid = true\nvelocity = [0, \"-20 m/s\"]\n\
          rectangle = { corner = [0, \"2.01 mm\"], size = [\"10 mm\", \"2 mm\"], elements = [5, 1] }\n\n\
          [[cut]]\nname = \"middle\"\npoint = [\"5 mm\", 0]\nnormal = [1, 0]\n\n[[contact]]\nname = \"hit\"\nbodies = \"all\"\n",
     ),

@@ -26,6 +26,7 @@ mod sharing;
 mod shell;
 mod stage;
 mod triangles;
+mod window;
 
 pub use cavity::{Cavity, Inflow, Vent};
 pub use connection::{EXPONENT, Joint, KINDS, Weld};
@@ -47,6 +48,7 @@ pub(crate) use stage::STAGE;
 pub use stage::Stage;
 pub use triangles::TriangleSurface;
 pub use values::Values;
+pub use window::Window;
 
 pub(crate) use crate::mesh::shapes::SHAPES;
 pub(crate) use crate::mesh::shapes::sweep::{EXTRUDE, REVOLVE};

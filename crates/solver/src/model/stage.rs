@@ -2,8 +2,7 @@
 //! `[[stage]]`.
 
 use super::run::{RELAXATION, Relaxation};
-use super::{Model, section};
-use crate::load::window::Window;
+use super::{Model, Window, section};
 use crate::quantity::Dimension;
 use crate::quantity::Range::Positive;
 use crate::vocabulary::Kind::{Name, Quantity, References, Table};
@@ -27,6 +26,9 @@ section! {
         "How long it lasts; with `relaxation` the longest that it may.";
     relaxation: Option<Relaxation> = Table(&RELAXATION), Optional("none"),
         "Damping that brings everything to rest, and the end of the stage when it is; `from` counts from its beginning.";
+    release: Option<f64> = Quantity(Dimension::TIME, Positive), Optional("at once"),
+        "Time over which what held bodies in the stage before, and does so no more, lets go: reactions of constraints and \
+            forces of contacts and obstacles that end decrease smoothly to zero. Rest does not count until then.";
 }
 
 /// The key of what acts in some stages only.

@@ -359,6 +359,8 @@ where
             }
             let until = if self.shows() { rows.next().min(frames.next()) } else { rows.next() };
             let stretch = output_cursor.steps(self.system.step, state_steps).min(last - self.system.step).min(observer.stride().max(1));
+            // Rows of the next stage are due at other times.
+            let stretch = if ends { 1 } else { stretch };
             let result = self.continue_run(until.min(pause), stretch, true);
             // A stop for the state alone leaves no trace.
             if result.is_err()

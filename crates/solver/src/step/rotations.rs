@@ -374,6 +374,12 @@ impl NodalRotations {
         reductions::sum((0..self.inertia.len()).filter(|&place| self.bodies[place] == u32::MAX).map(energy))
     }
 
+    /// The part of a moment on a node about which it is free to rotate.
+    pub(super) fn free_part(&self, node: u32, moment: [f64; 3]) -> [f64; 3] {
+        let group = self.now.place(node).and_then(|place| self.groups.get(self.group_of[place] as usize));
+        group.and_then(|group| group.held.as_ref()).map_or(moment, |held| held.free_part(moment))
+    }
+
     /// Takes the spins away, for [`NodalRotations::launch`].
     pub(super) fn hold_back(&mut self) -> Vec<[f64; 3]> {
         let spins = std::mem::take(&mut self.now.spins);

@@ -11,14 +11,29 @@ use super::System;
 use super::relaxation::Relaxation;
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::contact::ContactKind;
+use crate::contact_forces::ContactForces;
 use crate::dimension::Dimension;
 use crate::load::constraint::Constraints;
 use crate::model::{self, Model};
-use crate::output::StageRun;
 use crate::reductions::{self, SumInOrder};
 use crate::rigid::RigidMotion;
 use crate::tensor::Dim;
 use crate::vector::{dot, minus, plus, times};
+
+/// A stage of a run, over or until now.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StageRun {
+    /// Its name.
+    pub name: String,
+    /// When it began, s.
+    pub begin: f64,
+    /// When it was over, or the present time, s.
+    pub end: f64,
+    /// Whether all was at rest at its end; `None`: it is not relaxed.
+    pub is_at_rest: Option<bool>,
+    /// Kinetic over internal energy at its end, of one that is relaxed.
+    pub ratio: Option<f64>,
+}
 
 /// The stages of a run.
 pub(crate) struct Stages<const D: usize>
@@ -34,6 +49,17 @@ where
     later: Vec<Constraints<D>>,
     /// The stage that gives bodies their initial velocities, and these.
     launch: Option<(usize, Launch<D>)>,
+    /// What lets go in the present stage.
+    release: Release<D>,
+}
+
+/// Forces that held bodies in the stage before, and decrease to zero.
+#[derive(Clone, Debug, Default)]
+struct Release<const D: usize> {
+    /// Node and force, N/m (N).
+    forces: Vec<(u32, [f64; D])>,
+    /// Node and moment, N (N m).
+    moments: Vec<(u32, [f64; 3])>,
 }
 
 /// Initial velocities that wait for a stage.
@@ -49,6 +75,31 @@ where
     bodies: Vec<<Dim<D> as RigidMotion<D>>::Generalized<f64>>,
 }
 
+impl<const D: usize> Release<D> {
+    fn is_empty(&self) -> bool {
+        self.forces.is_empty() && self.moments.is_empty()
+    }
+}
+
+impl<const D: usize> Persist for Release<D> {
+    fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let Self { forces, moments } = self;
+        let mut counts = [forces.len(), moments.len()];
+        counts.persist(archive)?;
+        archive.check(counts.iter().all(|count| *count <= 2 * archive.nodes), "more is let go than there are nodes")?;
+        forces.resize(counts[0], (0, [0.0; D]));
+        moments.resize(counts[1], (0, [0.0; 3]));
+        for (node, force) in forces {
+            persist_each!(archive; node, force);
+            archive.check((*node as usize) < archive.nodes, "a force acts on a node that is not there")?;
+        }
+        moments.iter_mut().try_for_each(|(node, moment)| {
+            persist_each!(archive; node, moment);
+            Ok(())
+        })
+    }
+}
+
 impl<const D: usize> Stages<D>
 where
     Dim<D>: Dimension<D>,
@@ -56,7 +107,8 @@ where
     /// Of a model; `None`: it has none. `later` is what holds nodes in those after the first.
     pub(crate) fn of(model: &Model, later: Vec<Constraints<D>>) -> Option<Box<Self>> {
         let list = model.stages.clone();
-        (!list.is_empty()).then(|| Box::new(Self { list, begins: vec![0.0], over: Vec::new(), later, launch: None }))
+        (!list.is_empty())
+            .then(|| Box::new(Self { list, begins: vec![0.0], over: Vec::new(), later, launch: None, release: Release::default() }))
     }
 
     /// Number of the present stage.
@@ -163,12 +215,57 @@ where
     pub(super) fn enter_next_stage(&mut self) {
         let Some(mut stages) = self.stages.take() else { return };
         stages.over.push(stages.run_until(self.time, self.relaxation.as_ref()));
+        let held = stages.list[stages.now() + 1].release.map(|_| self.what_holds());
         self.take_stage(&mut stages, self.time);
+        stages.release = held.map(|held| self.what_lets_go(held)).unwrap_or_default();
         let launch = stages.launch.take_if(|(stage, _)| *stage == stages.begins.len() - 1);
         self.stages = Some(stages);
         self.change_velocities(launch.map(|(_, launch)| launch));
         if let Some(subcycling) = &mut self.subcycling {
             subcycling.wake();
+        }
+    }
+
+    /// Reactions of what holds nodes, and rotations.
+    fn what_holds(&self) -> Release<D> {
+        let mut moments = Vec::new();
+        self.moment_reactions(|node, _, moment| moments.push((node, moment)));
+        Release { forces: self.held().map(|(node, _)| (node, self.reaction(node))).collect(), moments }
+    }
+
+    /// What of these reactions nothing takes in the new stage, with the forces of contacts that have ended.
+    fn what_lets_go(&self, held: Release<D>) -> Release<D> {
+        let is_force = |(_, force): &(u32, [f64; D])| *force != [0.0; D];
+        let free = |(node, force): (u32, [f64; D])| (node, self.constraints.of(node as usize).map_or(force, |own| own.free_part(force)));
+        let mut forces: Vec<(u32, [f64; D])> = held.forces.into_iter().map(free).filter(is_force).collect();
+        let mut contact = ContactForces::new(if self.contacts.is_empty() { 0 } else { self.positions.len() });
+        let mut bodies = self.bodies.clone();
+        for own in self.contacts.iter().filter(|own| own.ends_at(self.time)) {
+            own.push(&self.springs, &mut contact, &mut bodies);
+        }
+        if !self.contacts.is_empty() {
+            forces.extend((0..self.positions.len()).map(|node| (node as u32, contact.of(node))).filter(is_force));
+        }
+        let moments = held.moments.into_iter().map(|(node, moment)| (node, self.rotations.free_part(node, moment)));
+        Release { forces, moments: moments.filter(|(_, moment)| *moment != [0.0; 3]).collect() }
+    }
+
+    /// Adds what still holds of the stage before to the loads, as the mean over an update, s.
+    pub(super) fn let_go(&mut self, [from, to]: [f64; 2]) {
+        let Some(stages) = &self.stages else { return };
+        let Some(duration) = stages.list[stages.now()].release.filter(|_| !stages.release.is_empty()) else { return };
+        let s = (0.5 * (from + to) - stages.span()[0]) / duration;
+        if s >= 1.0 {
+            return;
+        }
+        let share = 1.0 - s.max(0.0).powi(3) * (10.0 + s * (6.0 * s - 15.0));
+        self.forces.add(stages.release.forces.iter().map(|&(node, force)| (node, times(share, force))), self.positions.len());
+        let places =
+            stages.release.moments.iter().filter_map(|&(node, moment)| Some((self.rotations.now.place(node)?, times(share, moment))));
+        let places: Vec<_> = places.collect();
+        if !places.is_empty() {
+            let loads = self.rotations.loads_now();
+            places.into_iter().for_each(|(place, moment)| loads[place] = plus(loads[place], moment));
         }
     }
 
@@ -189,7 +286,8 @@ where
         self.find_free_nodes();
         let (assembly, slots, nodes) = (&self.assembly, &self.slots, self.positions.len());
         self.relaxation = stages.list[number].relaxation.map(|own| {
-            let relaxation = Relaxation::new(model::Relaxation { from: now + own.from, ..own }, nodes);
+            let from = now + own.from.max(stages.list[number].release.unwrap_or(0.0));
+            let relaxation = Relaxation::new(model::Relaxation { from, ..own }, nodes);
             relaxation.with_forces(|node| assembly.force(node, slots))
         });
         self.damping.enter(number, now, self.relaxation.is_some());
@@ -268,6 +366,7 @@ where
         if stages.launch.as_ref().is_some_and(|(stage, _)| *stage < count) {
             stages.launch = None;
         }
+        stages.release.persist(archive)?;
         self.stages = Some(stages);
         if count > 1 { self.constraints.persist_begun(archive) } else { Ok(()) }
     }

@@ -10,11 +10,11 @@ fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
 }
 
 fn at_rest(name: &str, duration: f64, from: f64) -> Stage {
-    Stage { name: name.into(), duration, relaxation: Some(Relaxation { tolerance: 1e-12, from }) }
+    Stage { name: name.into(), duration, relaxation: Some(Relaxation { tolerance: 1e-12, from }), release: None }
 }
 
 fn moving(name: &str, duration: f64) -> Stage {
-    Stage { name: name.into(), duration, relaxation: None }
+    Stage { name: name.into(), duration, relaxation: None, release: None }
 }
 
 fn set_stages(model: &mut Model, stages: &[Stage]) {
@@ -191,9 +191,50 @@ fn a_wall_that_is_taken_away_pushes_no_more_and_its_energy_is_booked() {
     assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 2e-3, "{} {}", summary.ledger_residual, summary.energy_drift);
 }
 
+/// A bar that is held apart at both ends, and pressed on by a wall from the side, and then let go slowly.
+fn let_go_slowly(release: Option<f64>) -> Model {
+    let mut model = slender(1.0, 1e9, 1e3);
+    add(&mut model, "bar", rectangle([0.0, 0.0], [0.1, 0.01], [40, 4]), [0.0; 2]);
+    probe(&mut model, "tip", "bar", [0.1, 0.0]);
+    model.constraints.push(held("bar.left", &[]));
+    let shape = CurveShape::Table { times: vec![0.0, 1e-3], values: vec![0.0, 1e-4], smooth: true };
+    model.curves.insert("pull".into(), shape.into());
+    let displacement = [Some(Drive::Curve("pull".into())), None, None];
+    model.constraints.push(Constraint { on: "bar.right".into(), displacement, stages: vec!["pull".into()], ..Constraint::default() });
+    let mut floor = Obstacle::wall("floor", [0.0, 0.0], [0.0, 1.0]);
+    floor.interface.stages = vec!["pull".into()];
+    model.obstacles.push(floor);
+    let down = vec![0.0, 5e-4];
+    let shape = CurveShape::Table { times: down, values: vec![1.0, 0.0], smooth: true };
+    model.curves.insert("less".into(), Curve { stage: Some("let go".into()), ..Curve::from(shape) });
+    model.loads.push(Load::Pressure { on: "bar.top".into(), pressure: 1e5, curve: Some("less".into()) });
+    set_stages(&mut model, &[at_rest("pull", 0.1, 1e-3), Stage { release, ..moving("let go", 1e-3) }]);
+    model.stages[1].name = "let go".into();
+    model
+}
+
+#[test]
+fn what_holds_lets_go_slowly_where_that_is_wanted() {
+    let swing = |release: Option<f64>| {
+        let (simulation, history) = run(&let_go_slowly(release));
+        let summary = simulation.summary();
+        assert_eq!(summary.stages[0].is_at_rest, Some(true));
+        assert!(summary.ledger_residual < 1e-12 && summary.energy_drift < 1e-3, "{} {}", summary.ledger_residual, summary.energy_drift);
+        let begin = summary.stages[1].begin + 5.5e-4;
+        let late = history.column("time").into_iter().zip(history.column("tip.x")).filter(|(time, _)| *time > begin);
+        late.map(|(_, x)| (x - 0.1).abs()).fold(0.0, f64::max)
+    };
+    // At once the bar swings about its length as far as it was stretched; let go over its period and a quarter it
+    // hardly does.
+    let (sudden, slow) = (swing(None), swing(Some(5e-4)));
+    assert!(sudden > 0.9e-4 && slow < 0.1 * sudden, "{sudden} {slow}");
+}
+
 #[test]
 fn every_stage_has_the_same_bits_on_all_threads_and_continues_from_its_state() {
-    for (case, model) in [("bar", stretched_bar()), ("preload", preloaded()), ("wall", released_from_a_wall())] {
+    for (case, model) in
+        [("bar", stretched_bar()), ("preload", preloaded()), ("wall", released_from_a_wall()), ("slow", let_go_slowly(Some(5e-4)))]
+    {
         let hash = hash_of_equal_bits(&model, &[2, 3], case);
         let mut run = simulation(&model);
         let first = to_end(&model).summary().stages[1].begin;
@@ -209,6 +250,7 @@ fn stages_that_cannot_be_are_reported() {
     let mut model = stretched_bar();
     model.stages.push(moving("swing", 1e-3));
     model.stages.push(Stage { relaxation: Some(Relaxation { from: 2.0, ..Relaxation::default() }), ..moving("end", 1.0) });
+    model.stages[0].release = Some(1.0);
     model.run.relaxation = Some(Relaxation::default());
     model.load_terms[0].stages = vec!["pull".into(), "end".into(), "pul".into()];
     model.constraints[0].stages = vec!["pull".into(), "pull".into()];
@@ -217,6 +259,8 @@ fn stages_that_cannot_be_are_reported() {
     for expected in [
         "stage[2].name: the name `swing` is taken by stage[1]",
         "stage[3].relaxation.from: rest counts from 2 s on, and the stage is over after 1 s",
+        "stage[0].release: it takes 1 s to let go, and the stage is over after 0.1 s",
+        "stage[0].release: nothing ends before the first stage",
         "run.end: the run ends at 0.1008 s, and its stages last",
         "run.relaxation: the model has stages",
         "load[0].stages: there is no stage `pul`",

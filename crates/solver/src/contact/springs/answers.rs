@@ -135,7 +135,7 @@ where
     }
 
     /// Adds its force to what is at the ends, and to the resultant.
-    fn push(&self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, totals: &mut Totals<D>) {
+    pub(crate) fn push(&self, forces: &mut ContactForces<D>, bodies: &mut Bodies<D>, totals: &mut Totals<D>) {
         let (spring, solved, slid) = (self.spring, self.solved, self.slid());
         if solved.force == 0.0 && slid.friction == Default::default() {
             return;

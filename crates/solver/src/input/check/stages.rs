@@ -13,6 +13,21 @@ impl Check<'_> {
         for (index, stage) in model.stages.iter().enumerate() {
             let path = format!("stage[{index}]");
             self.number(&format!("{path}.duration"), stage.duration);
+            if let Some(release) = stage.release {
+                self.number(&format!("{path}.release"), release);
+                if release >= stage.duration {
+                    let message = format!("it takes {release} s to let go, and the stage is over after {} s", stage.duration);
+                    self.fault(&PERIOD, format!("{path}.release"), message, "give a longer `duration` or a shorter `release`");
+                }
+                if index == 0 {
+                    self.fault(
+                        &CLASH,
+                        format!("{path}.release"),
+                        "nothing ends before the first stage",
+                        "leave it out, or give it to a later stage",
+                    );
+                }
+            }
             let Some(relaxation) = stage.relaxation else { continue };
             self.relaxation(&path, relaxation);
             if relaxation.from >= stage.duration {

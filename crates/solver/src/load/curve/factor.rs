@@ -1,8 +1,7 @@
 //! What a load is multiplied by: the value of its curve, in its stages, and nothing elsewhere.
 
 use super::Curves;
-use crate::load::window::Window;
-use crate::model::{Load, Model};
+use crate::model::{Load, LoadTerms, Model, Window};
 
 /// The factor on one load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,7 +22,7 @@ impl Factor {
 
 /// Windows of the loads that have one, with their places in the model.
 pub(super) fn windows(model: &Model) -> Vec<(usize, Window)> {
-    let window = |(index, terms): (usize, &crate::model::LoadTerms)| Some((index, Window::of(model, &terms.stages)?));
+    let window = |(index, terms): (usize, &LoadTerms)| Some((index, Window::of(model, &terms.stages)?));
     model.load_terms.iter().enumerate().filter_map(window).collect()
 }
 

@@ -1,6 +1,6 @@
 //! When something acts that acts in some stages of the run alone: times that become known during the run.
 
-use crate::model::Model;
+use super::Model;
 
 /// The times between which it acts, s: both infinite until it begins.
 #[derive(Clone, Copy, Debug, PartialEq)]

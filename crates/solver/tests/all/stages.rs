@@ -224,8 +224,8 @@ fn what_holds_lets_go_slowly_where_that_is_wanted() {
         let late = history.column("time").into_iter().zip(history.column("tip.x")).filter(|(time, _)| *time > begin);
         late.map(|(_, x)| (x - 0.1).abs()).fold(0.0, f64::max)
     };
-    // At once the bar swings about its length as far as it was stretched; let go over its period and a quarter it
-    // hardly does.
+    // At once the bar swings about its length as far as it was stretched; let go over its period and a
+    // quarter it hardly does.
     let (sudden, slow) = (swing(None), swing(Some(5e-4)));
     assert!(sudden > 0.9e-4 && slow < 0.1 * sudden, "{sudden} {slow}");
 }

@@ -863,6 +863,7 @@ class Sections:
         duration: Quantity,
         name: str | None = None,
         relaxation: Relaxation | None = None,
+        release: Quantity | None = None,
     ) -> Self:
         """A part of the run; stages follow each other in the order of the file, and `run.end` is left
         out. Loads, constraints, contacts and obstacles that name `stages` act in these alone, and
@@ -879,6 +880,10 @@ class Sections:
         relaxation
             Damping that brings everything to rest, and the end of the stage when it is; `from`
             counts from its beginning.
+        release
+            Time over which what held bodies in the stage before, and does so no more, lets go:
+            reactions of constraints and forces of contacts and obstacles that end decrease smoothly
+            to zero. Rest does not count until then.
         """
         raise NotImplementedError
 

@@ -66,7 +66,8 @@ fn a_bar_that_is_released_swings_as_a_triangular_wave() {
     assert!(summary.energy_drift < 1e-3 && summary.ledger_residual < 1e-12, "{} {}", summary.energy_drift, summary.ledger_residual);
     // A count of outputs is one of each stage.
     let of_swing = times.iter().filter(|&&time| time > swing.begin).count();
-    assert_eq!(of_swing, 200);
+    // With the first step, in which nothing pulls any more.
+    assert_eq!(of_swing, 201);
 }
 
 /// A plate that gravity presses on a bar, at rest first; then a block flies, a rigid one besides turns.
@@ -206,10 +207,10 @@ fn let_go_slowly(release: Option<f64>) -> Model {
     model.obstacles.push(floor);
     let down = vec![0.0, 5e-4];
     let shape = CurveShape::Table { times: down, values: vec![1.0, 0.0], smooth: true };
-    model.curves.insert("less".into(), Curve { stage: Some("let go".into()), ..Curve::from(shape) });
+    model.curves.insert("less".into(), Curve { stage: Some("let_go".into()), ..Curve::from(shape) });
     model.loads.push(Load::Pressure { on: "bar.top".into(), pressure: 1e5, curve: Some("less".into()) });
-    set_stages(&mut model, &[at_rest("pull", 0.1, 1e-3), Stage { release, ..moving("let go", 1e-3) }]);
-    model.stages[1].name = "let go".into();
+    set_stages(&mut model, &[at_rest("pull", 0.1, 1e-3), Stage { release, ..moving("let_go", 1e-3) }]);
+    model.stages[1].name = "let_go".into();
     model
 }
 

@@ -145,7 +145,8 @@ fn force_at(elongation: f64, farthest: f64) -> f64 {
 fn force_over_displacement_gives_yield_and_hardening() {
     let folder = fresh("fit-tensile");
     fs::write(folder.join("flight.toml"), TENSILE).unwrap();
-    let pulled = (1..=40).map(|k| 0.05e-3 * f64::from(k)).map(|x| (x, force_at(x, x)));
+    // But for the yield point: between the rows of a run a kink is a straight line.
+    let pulled = (1..=40).filter(|k| *k != 3).map(|k| 0.05e-3 * f64::from(k)).map(|x| (x, force_at(x, x)));
     // The same elongations on the way back, at other forces.
     let back = [1.95e-3, 1.9e-3, 1.85e-3].map(|x| (x, force_at(x, 2e-3)));
     let rows: String = pulled.chain(back).map(|(x, force)| format!("{},{}\n", 1e3 * x, 1e-3 * force)).collect();

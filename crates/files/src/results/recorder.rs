@@ -40,6 +40,8 @@ pub struct Recorder<'a> {
     folder: ResultFolder,
     model: String,
     channels: Channels,
+    /// Where it ends, s: a stretch that is shown again before the run does.
+    end: f64,
     part_names: Vec<String>,
     on_progress: OnProgress<'a>,
     /// Numbers of a row.
@@ -174,6 +176,7 @@ impl<'a> Recorder<'a> {
             folder: writer.folder().clone(),
             model: model.name.clone(),
             channels: Channels::default(),
+            end: model.run.end,
             part_names,
             on_progress,
             width: writer.width(),
@@ -230,10 +233,11 @@ impl<'a> Recorder<'a> {
             Ok(figures) => report.channels = figures,
             Err(error) => report.warnings.push(Notice::new(&NO_CHANNELS, format!("channels are missing: {error}"))),
         }
+        let is_early = summary.is_early() && summary.time_end < self.end * (1.0 - 1e-9);
         report.error = error.or_else(|| closed.as_ref().err().map(ToString::to_string));
         report.status = match report.error {
             Some(_) => RunStatus::Failed,
-            None if self.is_stopped || summary.is_early() => RunStatus::Stopped,
+            None if self.is_stopped || is_early => RunStatus::Stopped,
             None => RunStatus::Done,
         };
         report.post_mortem = self.post_mortem;

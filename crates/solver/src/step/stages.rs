@@ -51,6 +51,8 @@ where
     launch: Option<(usize, Launch<D>)>,
     /// What lets go in the present stage.
     release: Release<D>,
+    /// What held at the end of the stage, of a kept state that stands there: it no longer knows by itself.
+    held: Option<Release<D>>,
 }
 
 /// Forces that held bodies in the stage before, and decrease to zero.
@@ -107,8 +109,9 @@ where
     /// Of a model; `None`: it has none. `later` is what holds nodes in those after the first.
     pub(crate) fn of(model: &Model, later: Vec<Constraints<D>>) -> Option<Box<Self>> {
         let list = model.stages.clone();
-        (!list.is_empty())
-            .then(|| Box::new(Self { list, begins: vec![0.0], over: Vec::new(), later, launch: None, release: Release::default() }))
+        (!list.is_empty()).then(|| {
+            Box::new(Self { list, begins: vec![0.0], over: Vec::new(), later, launch: None, release: Release::default(), held: None })
+        })
     }
 
     /// Number of the present stage.
@@ -215,7 +218,8 @@ where
     pub(super) fn enter_next_stage(&mut self) {
         let Some(mut stages) = self.stages.take() else { return };
         stages.over.push(stages.run_until(self.time, self.relaxation.as_ref()));
-        let held = stages.list[stages.now() + 1].release.map(|_| self.what_holds());
+        let kept = stages.held.take();
+        let held = stages.list[stages.now() + 1].release.map(|_| kept.unwrap_or_else(|| self.what_holds()));
         self.take_stage(&mut stages, self.time);
         stages.release = held.map(|held| self.what_lets_go(held)).unwrap_or_default();
         let launch = stages.launch.take_if(|(stage, _)| *stage == stages.begins.len() - 1);
@@ -347,6 +351,7 @@ where
 
     /// The stages so far in a kept state; what they have changed is changed again.
     pub(super) fn persist_stages(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
+        let mut held = if self.is_stage_over() { self.what_holds() } else { Release::default() };
         let Some(mut stages) = self.stages.take() else { return Ok(()) };
         let mut count = stages.begins.len();
         count.persist(archive)?;
@@ -367,6 +372,8 @@ where
             stages.launch = None;
         }
         stages.release.persist(archive)?;
+        held.persist(archive)?;
+        stages.held = archive.reads().then_some(held).filter(|held| !held.is_empty());
         self.stages = Some(stages);
         if count > 1 { self.constraints.persist_begun(archive) } else { Ok(()) }
     }

@@ -252,6 +252,9 @@ impl Simulation {
     }
 }
 
+/// A mesh file, the parts that have it in one place, and numbers of its nodes.
+type Placed<'py> = (String, Vec<String>, Vec<Bound<'py, PyBytes>>);
+
 #[pymethods]
 impl Simulation {
     #[new]
@@ -415,7 +418,7 @@ impl Simulation {
     /// Of each mesh from a file or from memory, where parts have it that are not swept: its name, these
     /// parts, and where its nodes are among those of the state (u32, the largest number: nowhere), one list
     /// for each body of these parts.
-    fn placed<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Vec<String>, Vec<Bound<'py, PyBytes>>)>> {
+    fn placed<'py>(&self, py: Python<'py>) -> PyResult<Vec<Placed<'py>>> {
         let model = &self.loaded.model;
         self.with(|inner| {
             let is_as_it_is = |place: &&PlacedMesh| place.parts.iter().all(|&part| model.parts[part].sweep.is_none());

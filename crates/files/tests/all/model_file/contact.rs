@@ -263,7 +263,7 @@ fn what_is_turned_alone_is_not_held() {
     assert_eq!((turned.velocity, turned.spin), ([None, None, None], [None, None, Some(Drive::Constant(2.0))]));
     // With a stage, which says when it acts.
     let stages = "[[stage]]\nname = \"turn\"\nduration = \"1 ms\"\n[[stage]]\nduration = \"2 ms\"\nrelaxation = {}\n";
-    let text = format!("{stages}{}", strip.replace("run.end = 1", "run.safety = 0.8"));
+    let text = format!("{}{stages}", strip.replace("run.end = 1", "run.safety = 0.8"));
     let model = sound(&format!("{text}[[constraint]]\non = \"strip.end\"\nspin = {{ z = 1 }}\nstages = \"turn\"\n"));
     let names: Vec<&str> = model.stages.iter().map(|stage| stage.name.as_str()).collect();
     assert_eq!((model.constraints[0].stages.as_slice(), names.as_slice()), (&["turn".to_string()][..], &["turn", "stage"][..]));

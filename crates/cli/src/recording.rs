@@ -249,11 +249,7 @@ fn closing_text(report: &Report, path: &Path) -> String {
     ]
     .map(Vec::from)
     .into();
-    let stages = report.stages.iter().map(|stage| {
-        let rest = stage.at_rest.map_or("", |rests| if rests { ", at rest" } else { ", not at rest" });
-        vec![format!("stage {}", stage.name), format!("{} to {}{rest}", with_unit(stage.begin, "s"), with_unit(stage.end, "s"))]
-    });
-    figures.splice(1..1, stages);
+    figures.splice(1..1, report.stages.iter().map(|stage| stage.row(|time| with_unit(time, "s")).into()));
     let files: Vec<Vec<String>> = FILES
         .iter()
         .filter(|(name, _)| path.join(name).exists())

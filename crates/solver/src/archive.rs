@@ -133,6 +133,23 @@ impl<'a> Archive<'a> {
     pub fn check(&self, is_possible: bool, what: &str) -> ArchiveResult {
         if is_possible { Ok(()) } else { Err(ArchiveError::new(what)) }
     }
+
+    /// Forces, or moments, on some nodes, each named once.
+    ///
+    /// # Errors
+    /// There are no such nodes.
+    pub(crate) fn on_nodes<const N: usize>(&mut self, list: &mut Vec<(u32, [f64; N])>) -> ArchiveResult {
+        let mut count = list.len();
+        count.persist(self)?;
+        self.check(count <= self.nodes, "forces act on more nodes than there are")?;
+        list.resize(count, (0, [0.0; N]));
+        for (node, force) in list {
+            node.persist(self)?;
+            force.persist(self)?;
+            self.check((*node as usize) < self.nodes, "a force acts on a node that is not there")?;
+        }
+        Ok(())
+    }
 }
 
 impl Default for Archive<'_> {

@@ -56,15 +56,3 @@ pub mod simulation;
 pub mod divergence;
 pub mod post_mortem;
 pub mod bench;
-
-/// Whether this is the long form of the tests, `EMBATE_LONG=1`.
-#[cfg(test)]
-fn is_long() -> bool {
-    std::env::var_os("EMBATE_LONG").is_some()
-}
-
-/// How many of so many random samples are tried: all in the long form, else a third.
-#[cfg(test)]
-fn samples(all: u32) -> u32 {
-    if is_long() { all } else { all.div_ceil(3) }
-}

@@ -233,17 +233,19 @@ impl RunMonitor {
             let kind = MESSAGES[number];
             let share = now.get(part).map(|[hourglass, internal]| hourglass / internal).filter(|share| share.is_finite());
             let most = if let (Some(share), true) = (share, kind == &HOURGLASS) {
-                format!("{:.1} % at most, {:.1} % in the end", 100.0 * most, 100.0 * share)
+                format!("; {:.1} % at most, {:.1} % in the end", 100.0 * most, 100.0 * share)
             } else if [&HOURGLASS, &SPRINGS].contains(&kind) {
-                format!("{:.1} % at most", 100.0 * most)
+                format!("; {:.1} % at most", 100.0 * most)
             } else if kind == &SHORT_STEP {
-                format!("it fell to 1/{most:.0}")
+                format!("; it fell to 1/{most:.0}")
+            } else if kind == &PUSHES_ACROSS {
+                String::new()
             } else if *most == 1.0 {
-                "1 element".to_string()
+                "; 1 element".to_string()
             } else {
-                format!("{most} elements at most")
+                format!("; {most} elements at most")
             };
-            Notice::new(kind, if kind == &PUSHES_ACROSS { reported.clone() } else { format!("{reported}; {most}") })
+            Notice::new(kind, format!("{reported}{most}"))
         })
     }
 

@@ -1,6 +1,10 @@
 //! Numbers that look random, the same on every machine: for Lanczos' method, and for bodies that benchmarks
 //! and tests make up.
 
+#[cfg(test)]
+#[path = "../tests/all/long.rs"]
+pub(crate) mod long;
+
 use embate_lanes::math;
 
 /// A generator by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).

@@ -257,24 +257,12 @@ where
     /// As [`System::step`].
     pub fn start(&mut self) -> Result<(), Error> {
         self.joins.begin(&self.mass, &mut self.velocities);
-        self.constraints.begin(&self.velocities, &self.curves, 0.0);
-        self.constraints.drive(&self.curves, [0.0, 0.0], &self.positions);
-        for (node, velocity) in self.velocities.iter_mut().enumerate() {
-            if let Some(held) = self.constraints.of(node) {
-                *velocity = held.apply(*velocity);
-            }
-        }
-        for group in self.joins.groups() {
-            group.lead(self.velocities[group.members[0].node as usize], &mut self.velocities);
-        }
+        self.lead_held([0.0, 0.0]);
         self.bodies.start(&self.curves, &self.positions, &mut self.velocities);
-        let free = |&(node, _): &(u32, _)| self.bodies.of_node(node).is_none();
-        let kinetic = |(_, (m, v)): (u32, (&f64, &[f64; D]))| 0.5 * m * dot(*v, *v);
-        let nodes = reductions::sum((0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic));
         self.rotations.prepare(&self.curves, [0.0; 2], [0.0; 2]);
-        let rotations = self.rotations.start(&self.bodies);
+        self.rotations.start(&self.bodies);
+        self.ledger = Ledger::new(self.kinetic_half(), self.energy_of_round_off());
         self.skins.spin(&self.rotations.now.spins, &self.positions, &mut self.velocities);
-        self.ledger = Ledger::new(nodes + self.bodies.kinetic() + rotations, self.energy_of_round_off());
         let nodes = reductions::max(self.velocities.iter().map(|&v| dot(v, v)));
         self.positions_old.clone_from(&self.positions);
         self.evaluate_rigid_parts();
@@ -288,6 +276,27 @@ where
             self.limits.velocity = RUNAWAY * (fastest.sqrt() - self.limits.velocity);
         }
         Ok(())
+    }
+
+    /// Lets what holds nodes from now on lead them in a step between two times, s.
+    fn lead_held(&mut self, step: [f64; 2]) {
+        self.constraints.begin(&self.velocities, &self.curves, step[0]);
+        self.constraints.drive(&self.curves, step, &self.positions);
+        for (node, held) in self.constraints.held() {
+            let velocity = &mut self.velocities[node as usize];
+            *velocity = held.apply(*velocity);
+        }
+        for group in self.joins.groups() {
+            group.lead(self.velocities[group.members[0].node as usize], &mut self.velocities);
+        }
+    }
+
+    /// ½ Σ m|v^{n+½}|² of what has mass in the ledger, J/m.
+    fn kinetic_half(&self) -> f64 {
+        let free = |&(node, _): &(u32, _)| self.bodies.of_node(node).is_none();
+        let kinetic = |(_, (m, v)): (u32, (&f64, &[f64; D]))| 0.5 * m * dot(*v, *v);
+        let nodes = reductions::sum((0..).zip(self.mass.iter().zip(&self.velocities)).filter(free).map(kinetic));
+        nodes + self.bodies.kinetic() + self.rotations.kinetic()
     }
 
     /// x^{n+1} = x^n + dt^n v^{n+1/2}.

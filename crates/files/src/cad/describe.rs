@@ -3,6 +3,7 @@
 use super::{Meshed, Unit};
 use crate::abaqus::import::quoted;
 use crate::numbers::{grouped, significant};
+use crate::outline::{cross, dot};
 use embate_solver::mesh::cell::{Cell, CellKind};
 use embate_solver::mesh::geometry::CellGeometry;
 use embate_solver::mesh::surface::{self, Corners, Facet};
@@ -136,8 +137,8 @@ impl Meshed {
         for facet in facets.filter_map(|facet| outside.get(&facet.undirected())) {
             let [a, b, c] = [0, 1, 2].map(|k| x(facet[k]));
             let [u, v] = [[0, 1, 2].map(|d| b[d] - a[d]), [0, 1, 2].map(|d| c[d] - a[d])];
-            let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-            let length = normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+            let normal = cross(u, v);
+            let length = dot(normal, normal).sqrt();
             normals.push(normal.map(|n| n / length));
         }
         let Some(&first) = normals.first() else { return String::new() };

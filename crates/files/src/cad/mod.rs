@@ -149,8 +149,7 @@ impl Scratch {
             }
         }
         let why = error.map_or("too many are there".to_string(), |error| error.to_string());
-        let message = format!("no folder for the work of Gmsh can be made in {}: {why}", all.display());
-        Err(Fault::new(&GMSH_FAILED, "", message, "make room there, or name another folder in TMPDIR"))
+        Err(no_room(format!("no folder for the work of Gmsh can be made in {}: {why}", all.display())))
     }
 
     /// One that is new and nobody else's.
@@ -163,19 +162,16 @@ impl Scratch {
 
     fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Fault> {
         let path = self.0.join(name);
-        std::fs::write(&path, bytes).map_err(|error| {
-            Fault::new(
-                &GMSH_FAILED,
-                "",
-                format!("can't write {}: {error}", path.display()),
-                "make room there, or name another folder in TMPDIR",
-            )
-        })
+        std::fs::write(&path, bytes).map_err(|error| no_room(format!("can't write {}: {error}", path.display())))
     }
 
     fn read(&self, name: &str) -> Option<Vec<u8>> {
         plain::read(&self.0.join(name)).ok()
     }
+}
+
+fn no_room(message: String) -> Fault {
+    Fault::new(&GMSH_FAILED, "", message, "make room there, or name another folder in TMPDIR")
 }
 
 impl Drop for Scratch {

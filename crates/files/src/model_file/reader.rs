@@ -515,12 +515,12 @@ fn join(path: &str, key: &str) -> String {
     if path.is_empty() { key.to_string() } else { format!("{path}.{key}") }
 }
 
-/// What a table is called in messages: its header, or its key for an inline one.
 /// What is said where a key is missing.
 pub(super) fn lacking(what: &str, key: &Key) -> (String, String) {
     (format!("{what} has no `{}`", key.name), format!("add `{} = {}`: {}", key.name, value::example(key), lower(key.doc)))
 }
 
+/// What a table is called in messages: its header, or its key for an inline one.
 fn called(section: &Section, path: &str) -> String {
     match section.form {
         Form::Inline => format!("`{}`", section.name),

@@ -7,8 +7,9 @@ use crate::messages;
 use crate::numbers::grouped;
 use crate::post_mortem::shown;
 use crate::program;
-use crate::results::Provenance;
+use crate::results::{Provenance, Stage};
 use embate_solver::message::Message;
+use serde::Deserialize;
 use serde_json::Value;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -122,11 +123,10 @@ pub(super) fn figures(left: &Left) -> String {
     add("time reached", si("/time_end", "s"));
     add("steps", count("/steps"));
     add("at rest", si("/rest", "s"));
-    for stage in summary.get("stages").and_then(Value::as_array).into_iter().flatten() {
-        let time = |key: &str| stage.get(key).and_then(Value::as_f64).map(|time| shown(time, "s"));
-        let rest = stage.get("at_rest").and_then(Value::as_bool).map_or("", |rests| if rests { ", at rest" } else { ", not at rest" });
-        let name = format!("stage {}", stage.get("name").and_then(Value::as_str).unwrap_or_default());
-        add(&name, time("begin").zip(time("end")).map(|(begin, end)| format!("{begin} to {end}{rest}")));
+    let stages = summary.get("stages").and_then(Value::as_array).into_iter().flatten();
+    for stage in stages.filter_map(|stage| Stage::deserialize(stage).ok()) {
+        let [name, when] = stage.row(|time| shown(time, "s"));
+        add(&name, Some(when));
     }
     add("smallest step", si("/stable_time_step_min", "s"));
     add("which asked for it", left.text("stable_time_step_governor").filter(|text| !text.is_empty()).map(ToString::to_string));

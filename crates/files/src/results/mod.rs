@@ -42,7 +42,7 @@ pub(crate) use lock::FolderLock;
 pub(crate) use provenance::read_json;
 pub use provenance::{Appearance, PartMade, Provenance, Seen};
 pub use recorder::{OnProgress, Outcome, Recorder};
-pub use report::{MomentumDrift, Report, RunStatus};
+pub use report::{MomentumDrift, Report, RunStatus, Stage};
 pub use reported::Reported;
 pub use writer::film_settings;
 

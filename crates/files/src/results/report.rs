@@ -6,7 +6,7 @@
 use crate::program;
 use embate_solver::error::Notice;
 use embate_solver::output::{Eroded, ForcePeak, StageRun, Summary};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// How a run ended.
@@ -212,7 +212,7 @@ fn erosion(erosion: &embate_solver::output::Erosion, dimension: usize) -> Erosio
 }
 
 /// A stage of a run.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stage {
     /// Its name.
     pub name: String,
@@ -233,6 +233,13 @@ impl Stage {
         // Nothing that is strained yet has a ratio.
         let kinetic_ratio = ratio.filter(|ratio| ratio.is_finite());
         Self { name: name.clone(), begin: *begin, end: *end, at_rest: *is_at_rest, kinetic_ratio }
+    }
+
+    /// What it is called in a table, and when it was, as times are shown there.
+    #[must_use]
+    pub fn row(&self, time: impl Fn(f64) -> String) -> [String; 2] {
+        let rest = self.at_rest.map_or("", |rests| if rests { ", at rest" } else { ", not at rest" });
+        [format!("stage {}", self.name), format!("{} to {}{rest}", time(self.begin), time(self.end))]
     }
 }
 

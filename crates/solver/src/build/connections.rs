@@ -11,6 +11,7 @@ use crate::contact::{Contact, ContactKind};
 use crate::error::Fault;
 use crate::load::messages::{CONNECTION, TO_ITSELF};
 use crate::mesh::surface::{Corners, Sided};
+use crate::model::Window;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{EXPONENT, Joint, Weld, in_3d};
 use crate::tensor::{Dim, cross};
@@ -64,7 +65,9 @@ where
         let mut contacts = Vec::new();
         for (path, name, kind, found) in made {
             match found {
-                Ok(connection) => contacts.push(Contact::new(name, kind, Box::new(connection), terms, [0.0, f64::INFINITY])),
+                Ok(connection) => {
+                    contacts.push(Contact::new(name, kind, Box::new(connection), terms, Window::between([0.0, f64::INFINITY])))
+                }
                 Err(fault) => self.faults.push(below(&path, fault)),
             }
         }

@@ -17,6 +17,11 @@ impl<const D: usize> Builder<'_, D>
 where
     Dim<D>: Builds<D>,
 {
+    /// When an interface acts.
+    fn window(&self, interface: &model::Interface) -> Window {
+        Window::of(self.model, &interface.stages, interface.active)
+    }
+
     /// Contacts, obstacles, welds and joints, each in the order of the model; notes faults.
     pub(super) fn contacts_and_obstacles(&mut self) -> Vec<Contact<D>> {
         let outlines = <Dim<D>>::outlines(self);
@@ -32,8 +37,8 @@ where
         for (i, contact) in self.model.contacts.iter().enumerate() {
             match self.formulation(contact, outlines) {
                 Ok((formulation, terms)) => {
-                    let made = Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, contact.interface.active)
-                        .within(Window::of(self.model, &contact.interface.stages));
+                    let window = self.window(&contact.interface);
+                    let made = Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, window);
                     if let Some(ties) = made.ties() {
                         self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
                     }
@@ -83,8 +88,7 @@ where
             match <Dim<D>>::obstacle(self, obstacle, outlines) {
                 Ok((body, formulation)) => {
                     let (kind, terms) = (ContactKind::Obstacle(body), self.add_terms(terms_of(&obstacle.interface)));
-                    let made = Contact::new(obstacle.name.clone(), kind, formulation, terms, obstacle.interface.active);
-                    contacts.push(made.within(Window::of(self.model, &obstacle.interface.stages)));
+                    contacts.push(Contact::new(obstacle.name.clone(), kind, formulation, terms, self.window(&obstacle.interface)));
                 }
                 Err(fault) => self.faults.push(below(&format!("obstacle[{i}]"), fault)),
             }

@@ -304,7 +304,7 @@ where
         system.find_rotations(|block| spins.get(block).copied().unwrap_or_default());
         system.load_rotations(model);
         system.find_skins();
-        system.hold_velocities_back();
+        system.hold_velocities_back(model.stage_of_velocities());
         system
     }
 

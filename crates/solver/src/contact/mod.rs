@@ -227,10 +227,8 @@ where
     checked: Certificate,
     /// Number of the terms that its springs follow.
     terms: usize,
-    /// Times between which it acts, s.
-    pub(crate) active: [f64; 2],
-    /// In which stages it acts; `None`: between these times.
-    window: Option<Window>,
+    /// When it acts.
+    window: Window,
     /// Time of the last detection, s.
     time: f64,
     /// Where its springs of this step lie in the list of all.
@@ -241,10 +239,10 @@ impl<const D: usize> Contact<D>
 where
     Dim<D>: TangentSpace<D>,
 {
-    /// A contact that has not acted yet. Its springs follow the terms number `terms`; it acts between the
-    /// times `active`, s.
+    /// A contact that has not acted yet. Its springs follow the terms number `terms`; it acts in a `window`
+    /// of time.
     #[must_use]
-    pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation<D>>, terms: usize, active: [f64; 2]) -> Self {
+    pub fn new(name: String, kind: ContactKind, formulation: Box<dyn Formulation<D>>, terms: usize, window: Window) -> Self {
         Self {
             name,
             kind,
@@ -255,8 +253,7 @@ where
             formulation,
             checked: Certificate::default(),
             terms,
-            active,
-            window: None,
+            window,
             time: 0.0,
             found: 0..0,
         }
@@ -269,7 +266,7 @@ where
     pub(crate) fn persist(&mut self, archive: &mut Archive<'_>, springs: usize) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            name: _, kind: _, terms: _, active: _, window: _,
+            name: _, kind: _, terms: _, window: _,
             totals, penetration, has_pressed, friction_work, formulation, checked, time, found,
         } = self;
         persist_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, &mut found.start, &mut found.end);
@@ -278,30 +275,20 @@ where
     }
 
     fn acts_at(&self, time: f64) -> bool {
-        (self.active[0]..self.active[1]).contains(&time)
-    }
-
-    /// The same in the stages of a window, if there is one.
-    #[must_use]
-    pub(crate) fn within(self, window: Option<Window>) -> Self {
-        let active = window.map_or(self.active, |window| window.times);
-        Self { active, window, ..self }
+        self.window.contains(time)
     }
 
     /// Notes that a stage begins at `now`, s. Returns the energy (J/m) of its springs where it acts no more.
     pub(crate) fn enter(&mut self, stage: usize, now: f64, springs: &Springs<D>) -> f64 {
-        let Some(window) = &mut self.window else { return 0.0 };
-        window.enter(stage, now);
-        self.active = window.times;
-        if !self.ends_at(now) {
+        if !self.window.enter(stage, now) {
             return 0.0;
         }
         springs.answers(self.found.clone()).flat_map(|answer| answer.books().stored).sum()
     }
 
-    /// Whether it acts no more from a stage on that begins now, s.
-    pub(crate) fn ends_at(&self, now: f64) -> bool {
-        self.window.is_some() && self.active[1] == now
+    /// When it begins to act and acts no more, as far as that is known, s.
+    pub(crate) fn times(&self) -> [f64; 2] {
+        self.window.times()
     }
 
     /// Adds the forces of its springs to `forces`, and to `bodies` those on what has no nodes.

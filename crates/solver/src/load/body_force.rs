@@ -9,7 +9,7 @@
 //! ω̇. Each part gives its share of a node's mass. Works are external.
 
 use super::curve::Curves;
-use super::curve::factor::{Factor, curve_of};
+use super::curve::factor::Factor;
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
@@ -99,7 +99,7 @@ where
                     }
                 }
             }
-            let factor = curves.factor_on(index, curve_of(load));
+            let factor = curves.factor_on(index, load);
             let whole = shares.iter().zip(mass).map(|(share, mass)| share * mass).sum();
             Some(Acting { field, factor, factor_now: 1.0, shares, whole, everywhere: parts.is_empty(), index })
         };

@@ -10,7 +10,6 @@ use crate::load::messages::{HELD_TWICE, OFF_SYMMETRY};
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::Corners;
-use crate::model::Window;
 use crate::model::messages::UNKNOWN_NAME;
 use crate::model::{Constraint, Model, Symmetry};
 use crate::rotation::{Rotate, Square, applied, axis, unit_matrix};
@@ -238,7 +237,7 @@ where
         }
         result.mirrors.sort_by_key(|mirror| mirror.node);
         for (i, constraint) in model.constraints.iter().enumerate() {
-            let is_of_stage = Window::of(model, &constraint.stages).is_none_or(|window| window.has(stage));
+            let is_of_stage = model.acts_in(&constraint.stages, stage);
             result.constrain(i, constraint, is_of_stage, place, curves, &mut faults);
         }
         result.fix_tips(place, &mut faults);

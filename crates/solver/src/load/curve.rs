@@ -182,7 +182,9 @@ impl Curves {
         for ((_, begin), integral) in self.begins.iter_mut().zip(&mut self.integrals).filter(|((own, _), _)| *own == stage) {
             (*begin, *integral) = (now, 0.0);
         }
-        self.windows.iter_mut().for_each(|(_, window)| window.enter(stage, now));
+        for (_, window) in &mut self.windows {
+            window.enter(stage, now);
+        }
     }
 
     /// Time of a curve, s.

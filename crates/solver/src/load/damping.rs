@@ -10,8 +10,7 @@
 
 use crate::mesh::Mesh;
 use crate::mesh::geometry::CellGeometry;
-use crate::model::Window;
-use crate::model::{Load, Model};
+use crate::model::{Load, Model, Window};
 use crate::rotation::Rotate;
 use crate::tensor::Dim;
 use embate_lanes::Batch;
@@ -32,9 +31,7 @@ pub struct Damping {
 /// One load.
 #[derive(Clone, Debug, PartialEq)]
 struct Acting {
-    active: [f64; 2],
-    /// In which stages it acts; `None`: between these times.
-    window: Option<Window>,
+    window: Window,
     now: bool,
     rate: f64,
     /// Whether it acts on all parts, and so on free obstacles too.
@@ -53,7 +50,7 @@ impl Damping {
     {
         let load = |(index, load): (usize, &Load)| {
             let Load::Damping { parts, rate, active } = load else { return None };
-            let window = model.load_terms.get(index).and_then(|terms| Window::of(model, &terms.stages));
+            let window = Window::of(model, model.stages_of_load(index), *active);
             let mut shares = vec![0.0; mass.len()];
             for (part, masses) in mesh.parts.iter().zip(part_mass) {
                 if parts.is_empty() || parts.contains(&part.name) {
@@ -62,8 +59,7 @@ impl Damping {
                     }
                 }
             }
-            let active = window.map_or(*active, |window| window.times);
-            Some(Acting { active, window, now: false, rate: *rate, everywhere: parts.is_empty(), shares })
+            Some(Acting { window, now: false, rate: *rate, everywhere: parts.is_empty(), shares })
         };
         Self { loads: model.loads.iter().enumerate().filter_map(load).collect(), ..Self::default() }
     }
@@ -71,10 +67,7 @@ impl Damping {
     /// Notes that a stage begins at `now`, s; whether it is relaxed.
     pub fn enter(&mut self, stage: usize, now: f64, relaxes: bool) {
         for load in &mut self.loads {
-            if let Some(window) = &mut load.window {
-                window.enter(stage, now);
-                load.active = window.times;
-            }
+            load.window.enter(stage, now);
         }
         self.relaxation = relaxes.then_some(0.0);
     }
@@ -96,7 +89,7 @@ impl Damping {
         // Its rate changes from step to step.
         let mut changed = self.relaxation.is_some();
         for load in &mut self.loads {
-            let now = (load.active[0]..load.active[1]).contains(&time);
+            let now = load.window.contains(time);
             changed |= now != std::mem::replace(&mut load.now, now);
         }
         if changed {

@@ -7,8 +7,8 @@
 //! with a factor c(t) of a curve. Works are external. A closed surface under pressure feels no resultant.
 
 use super::curve::Curves;
-use super::curve::factor::{Factor, curve_of};
-use crate::archive::{Archive, ArchiveResult, Persist};
+use super::curve::factor::Factor;
+use crate::archive::{Archive, ArchiveResult};
 use crate::error::Fault;
 use crate::mesh::geometry::CellGeometry;
 use crate::mesh::surface::tributary::{self, Depth, Tributary};
@@ -124,7 +124,7 @@ where
             };
             match what {
                 Ok(what) => loads.push(Acting {
-                    factor: curves.factor_on(i, curve_of(load)),
+                    factor: curves.factor_on(i, load),
                     index: i,
                     point: mesh.mean_place(&what.nodes()),
                     resultant: Resultant::default(),
@@ -215,16 +215,7 @@ where
 
     /// What was given so, in a kept state.
     pub(crate) fn persist_pushes(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let mut count = self.pushes.len();
-        count.persist(archive)?;
-        archive.check(count <= archive.nodes, "forces act on more nodes than there are")?;
-        self.pushes.resize(count, (0, [0.0; D]));
-        for (node, force) in &mut self.pushes {
-            node.persist(archive)?;
-            force.persist(archive)?;
-            archive.check((*node as usize) < archive.nodes, "a force acts on a node that is not there")?;
-        }
-        Ok(())
+        archive.on_nodes(&mut self.pushes)
     }
 
     /// Leaves nodes without elements alone, and surfaces that are outside no more.

@@ -328,6 +328,29 @@ pub struct LoadTerms {
     pub stages: Vec<String>,
 }
 
+impl Load {
+    /// The curve that it is multiplied by, if there is one.
+    #[must_use]
+    pub fn curve(&self) -> Option<&String> {
+        match self {
+            Self::Gravity { curve, .. }
+            | Self::Centrifugal { curve, .. }
+            | Self::Force { curve, .. }
+            | Self::Moment { curve, .. }
+            | Self::Pressure { curve, .. } => curve.as_ref(),
+            Self::Damping { .. } | Self::StiffnessDamping { .. } => None,
+        }
+    }
+}
+
+impl super::Model {
+    /// Names of the stages in which the load of this number acts; none: all.
+    #[must_use]
+    pub fn stages_of_load(&self, index: usize) -> &[String] {
+        self.load_terms.get(index).map_or(&[], |terms| &terms.stages)
+    }
+}
+
 impl LoadTerms {
     /// From the load's table in the model file.
     #[must_use]

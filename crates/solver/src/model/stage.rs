@@ -44,6 +44,18 @@ impl Model {
         Some([first, last])
     }
 
+    /// Whether what names these stages acts in one of them.
+    #[must_use]
+    pub fn acts_in(&self, names: &[String], stage: usize) -> bool {
+        self.stages_of(names).is_none_or(|[first, last]| (first..=last).contains(&stage))
+    }
+
+    /// How long the stages last together, at the longest, s.
+    #[must_use]
+    pub fn duration_of_stages(&self) -> f64 {
+        self.stages.iter().map(|stage| stage.duration).sum()
+    }
+
     /// The stage in which bodies get their initial velocities: the first without relaxation; `None`: there is
     /// none.
     #[must_use]
@@ -67,7 +79,7 @@ impl Model {
         let mut model = self.clone();
         let of_contacts = model.contacts.iter_mut().map(|it| &mut it.interface);
         for interface in of_contacts.chain(model.obstacles.iter_mut().map(|it| &mut it.interface)) {
-            interface.active = Window::of(self, &interface.stages).map_or(interface.active, |window| window.times);
+            interface.active = Window::of(self, &interface.stages, interface.active).times();
         }
         Some(model)
     }

@@ -45,12 +45,10 @@ where
     pub(crate) fn new(system: &System<D>) -> Option<Self> {
         let of_revolution = system.of_revolution;
         let is_free = |body: &Body<D>| if of_revolution { body.drives.as_ref()[1].is_none() } else { body.is_free() };
-        if system.stages.is_some() {
-            return None;
-        }
         let is_held = if of_revolution { system.constraints.holds_more_than(unit_matrix()[0]) } else { !system.constraints.is_empty() };
         let isolated = system.bodies.iter().all(is_free)
             && !is_held
+            && system.stages.is_none()
             && system.body_forces.is_empty()
             && system.forces.is_empty()
             && system.boundary.is_empty()

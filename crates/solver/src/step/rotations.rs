@@ -19,7 +19,7 @@ use crate::dimension::Dimension;
 use crate::energy::Sums;
 use crate::load::constraint::{Constraints, NodeConstraint};
 use crate::load::curve::Curves;
-use crate::load::curve::factor::{Factor, curve_of};
+use crate::load::curve::factor::Factor;
 use crate::load::damping::Damping;
 use crate::load::join::{Joins, back, turned};
 use crate::model::{Load, Model, in_3d};
@@ -353,9 +353,8 @@ impl NodalRotations {
         own.map(|place| times(self.inertia[place], self.now.spins[place]))
     }
 
-    /// Prescribes what is prescribed at the start. Returns the kinetic energy of what no rigid body leads,
-    /// J/m.
-    pub(super) fn start<const D: usize>(&mut self, bodies: &Bodies<D>) -> f64
+    /// Prescribes what is prescribed at the start.
+    pub(super) fn start<const D: usize>(&mut self, bodies: &Bodies<D>)
     where
         Dim<D>: Dimension<D>,
     {
@@ -365,7 +364,6 @@ impl NodalRotations {
         }
         self.follow(bodies);
         self.spins_old.clone_from(&self.now.spins);
-        self.kinetic()
     }
 
     /// ½ Σ I|ω|² of those that no body leads, J/m.
@@ -490,7 +488,7 @@ where
     /// Lets the moments of the model act on the nodes that rotate.
     pub(crate) fn load_rotations(&mut self, model: &Model) {
         let of = |(index, load): (usize, &Load)| match load {
-            Load::Moment { on, moment, .. } => Some((index, self.mesh.nodes(on)?, *moment, self.curves.factor_on(index, curve_of(load)))),
+            Load::Moment { on, moment, .. } => Some((index, self.mesh.nodes(on)?, *moment, self.curves.factor_on(index, load))),
             _ => None,
         };
         self.rotations.load(model.loads.iter().enumerate().filter_map(of));

@@ -10,10 +10,11 @@
 use super::System;
 use super::relaxation::Relaxation;
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
-use crate::contact::ContactKind;
+use crate::contact::{Contact, ContactKind};
 use crate::contact_forces::ContactForces;
 use crate::dimension::Dimension;
 use crate::load::constraint::Constraints;
+use crate::load::curve::table::smooth_step;
 use crate::model::{self, Model};
 use crate::reductions::{self, SumInOrder};
 use crate::rigid::RigidMotion;
@@ -41,9 +42,7 @@ where
     Dim<D>: Dimension<D>,
 {
     list: Vec<model::Stage>,
-    /// When each stage so far began, s.
-    begins: Vec<f64>,
-    /// Those that are over.
+    /// Those that are over: the present one follows.
     over: Vec<StageRun>,
     /// What holds nodes in the stages after the first; of the present one that of the one before.
     later: Vec<Constraints<D>>,
@@ -86,19 +85,8 @@ impl<const D: usize> Release<D> {
 impl<const D: usize> Persist for Release<D> {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let Self { forces, moments } = self;
-        let mut counts = [forces.len(), moments.len()];
-        counts.persist(archive)?;
-        archive.check(counts.iter().all(|count| *count <= 2 * archive.nodes), "more is let go than there are nodes")?;
-        forces.resize(counts[0], (0, [0.0; D]));
-        moments.resize(counts[1], (0, [0.0; 3]));
-        for (node, force) in forces {
-            persist_each!(archive; node, force);
-            archive.check((*node as usize) < archive.nodes, "a force acts on a node that is not there")?;
-        }
-        moments.iter_mut().try_for_each(|(node, moment)| {
-            persist_each!(archive; node, moment);
-            Ok(())
-        })
+        archive.on_nodes(forces)?;
+        archive.on_nodes(moments)
     }
 }
 
@@ -109,29 +97,22 @@ where
     /// Of a model; `None`: it has none. `later` is what holds nodes in those after the first.
     pub(crate) fn of(model: &Model, later: Vec<Constraints<D>>) -> Option<Box<Self>> {
         let list = model.stages.clone();
-        (!list.is_empty()).then(|| {
-            Box::new(Self { list, begins: vec![0.0], over: Vec::new(), later, launch: None, release: Release::default(), held: None })
-        })
+        (!list.is_empty()).then(|| Box::new(Self { list, over: Vec::new(), later, launch: None, release: Release::default(), held: None }))
     }
 
     /// Number of the present stage.
     pub(crate) fn now(&self) -> usize {
-        self.begins.len() - 1
-    }
-
-    /// Its name.
-    pub(crate) fn name(&self) -> &str {
-        &self.list[self.now()].name
+        self.over.len()
     }
 
     /// Whether none follows.
     pub(crate) fn is_last(&self) -> bool {
-        self.begins.len() == self.list.len()
+        self.now() + 1 == self.list.len()
     }
 
     /// When the present stage began, and when it ends at the latest, s.
     pub(crate) fn span(&self) -> [f64; 2] {
-        let begin = self.begins[self.now()];
+        let begin = self.over.last().map_or(0.0, |before| before.end);
         [begin, begin + self.list[self.now()].duration]
     }
 
@@ -150,7 +131,7 @@ where
     fn run_until(&self, time: f64, relaxation: Option<&Relaxation<D>>) -> StageRun {
         let rests = relaxation.is_some_and(|own| own.rest.is_some());
         StageRun {
-            name: self.name().into(),
+            name: self.list[self.now()].name.clone(),
             begin: self.span()[0],
             end: time,
             is_at_rest: relaxation.map(|_| rests),
@@ -196,13 +177,13 @@ where
         stages.over.iter().cloned().chain([stages.run_until(self.time, self.relaxation.as_ref())]).collect()
     }
 
-    /// Keeps initial velocities for the stage that they belong to; without such a stage there are none.
-    pub(crate) fn hold_velocities_back(&mut self) {
+    /// Keeps initial velocities for the stage `of` which they are, unless it is the first; without such a
+    /// stage there are none.
+    pub(crate) fn hold_velocities_back(&mut self, of: Option<usize>) {
         let Some(stages) = &mut self.stages else { return };
-        if stages.list[0].relaxation.is_none() {
+        if of == Some(0) {
             return;
         }
-        let of = stages.list.iter().position(|stage| stage.relaxation.is_none());
         let nodes = self.velocities.len();
         let velocities = std::mem::replace(&mut self.velocities, vec![[0.0; D]; nodes]);
         self.velocities_old.clone_from(&self.velocities);
@@ -217,12 +198,12 @@ where
     /// Lets the next stage begin.
     pub(super) fn enter_next_stage(&mut self) {
         let Some(mut stages) = self.stages.take() else { return };
-        stages.over.push(stages.run_until(self.time, self.relaxation.as_ref()));
-        let kept = stages.held.take();
-        let held = stages.list[stages.now() + 1].release.map(|_| kept.unwrap_or_else(|| self.what_holds()));
-        self.take_stage(&mut stages, self.time);
+        let (over, kept) = (stages.run_until(self.time, self.relaxation.as_ref()), stages.held.take());
+        stages.over.push(over);
+        let held = stages.list[stages.now()].release.map(|_| kept.unwrap_or_else(|| self.what_holds()));
+        self.take_stage(&mut stages);
         stages.release = held.map(|held| self.what_lets_go(held)).unwrap_or_default();
-        let launch = stages.launch.take_if(|(stage, _)| *stage == stages.begins.len() - 1);
+        let launch = stages.launch.take_if(|(stage, _)| *stage == stages.over.len());
         self.stages = Some(stages);
         self.change_velocities(launch.map(|(_, launch)| launch));
         if let Some(subcycling) = &mut self.subcycling {
@@ -239,17 +220,17 @@ where
 
     /// What of these reactions nothing takes in the new stage, with the forces of contacts that have ended.
     fn what_lets_go(&self, held: Release<D>) -> Release<D> {
-        let is_force = |(_, force): &(u32, [f64; D])| *force != [0.0; D];
-        let free = |(node, force): (u32, [f64; D])| (node, self.constraints.of(node as usize).map_or(force, |own| own.free_part(force)));
-        let mut forces: Vec<(u32, [f64; D])> = held.forces.into_iter().map(free).filter(is_force).collect();
-        let mut contact = ContactForces::new(if self.contacts.is_empty() { 0 } else { self.positions.len() });
-        let mut bodies = self.bodies.clone();
-        for own in self.contacts.iter().filter(|own| own.ends_at(self.time)) {
-            own.push(&self.springs, &mut contact, &mut bodies);
+        let mut forces = vec![[0.0; D]; self.positions.len()];
+        for (node, force) in held.forces {
+            forces[node as usize] = self.constraints.of(node as usize).map_or(force, |own| own.free_part(force));
         }
-        if !self.contacts.is_empty() {
-            forces.extend((0..self.positions.len()).map(|node| (node as u32, contact.of(node))).filter(is_force));
+        let ended: Vec<_> = self.contacts.iter().filter(|contact| contact.times()[1] == self.time).collect();
+        if !ended.is_empty() {
+            let (mut contact, mut bodies) = (ContactForces::new(forces.len()), self.bodies.clone());
+            ended.into_iter().for_each(|own| own.push(&self.springs, &mut contact, &mut bodies));
+            forces.iter_mut().enumerate().for_each(|(node, force)| *force = plus(*force, contact.of(node)));
         }
+        let forces = (0..).zip(forces).filter(|(_, force)| *force != [0.0; D]).collect();
         let moments = held.moments.into_iter().map(|(node, moment)| (node, self.rotations.free_part(node, moment)));
         Release { forces, moments: moments.filter(|(_, moment)| *moment != [0.0; 3]).collect() }
     }
@@ -262,7 +243,7 @@ where
         if s >= 1.0 {
             return;
         }
-        let share = 1.0 - s.max(0.0).powi(3) * (10.0 + s * (6.0 * s - 15.0));
+        let share = 1.0 - smooth_step(s.max(0.0));
         self.forces.add(stages.release.forces.iter().map(|&(node, force)| (node, times(share, force))), self.positions.len());
         let places =
             stages.release.moments.iter().filter_map(|&(node, moment)| Some((self.rotations.now.place(node)?, times(share, moment))));
@@ -273,17 +254,15 @@ where
         }
     }
 
-    /// What acts from the time `now` (s) on, when the next stage begins.
-    fn take_stage(&mut self, stages: &mut Stages<D>, now: f64) {
-        stages.begins.push(now);
-        let number = stages.now();
+    /// What acts from the beginning of the present stage on.
+    fn take_stage(&mut self, stages: &mut Stages<D>) {
+        let (number, [now, _]) = (stages.now(), stages.span());
         self.curves.enter(number, now);
         let freed = self.contacts.iter_mut().map(|contact| contact.enter(number, now, &self.springs)).sum();
         self.ledger.free(freed);
         for outline in &mut self.outlines {
-            let is_own =
-                |contact: &&crate::contact::Contact<D>| matches!(contact.kind, ContactKind::Obstacle(_)) && contact.name == outline.name;
-            outline.death = self.contacts.iter().find(is_own).map_or(outline.death, |contact| contact.active[1]);
+            let is_own = |contact: &&Contact<D>| matches!(contact.kind, ContactKind::Obstacle(_)) && contact.name == outline.name;
+            outline.death = self.contacts.iter().find(is_own).map_or(outline.death, |contact| contact.times()[1]);
         }
         std::mem::swap(&mut self.constraints, &mut stages.later[number - 1]);
         self.rotations.hold(&self.constraints, &self.joins);
@@ -311,17 +290,8 @@ where
             self.joins.begin(&self.mass, &mut self.velocities);
         }
         let (now, dt) = (self.time, self.time_step);
-        self.constraints.begin(&self.velocities, &self.curves, now);
-        self.constraints.drive(&self.curves, [now, now + dt], &self.positions);
+        self.lead_held([now, now + dt]);
         self.rotations.prepare(&self.curves, [now; 2], [now, now + dt]);
-        for (node, held) in self.constraints.held() {
-            if self.bodies.of_node(node).is_none() {
-                self.velocities[node as usize] = held.apply(self.velocities[node as usize]);
-            }
-        }
-        for group in self.joins.groups() {
-            group.lead(self.velocities[group.members[0].node as usize], &mut self.velocities);
-        }
         self.rotations.start(&self.bodies);
         self.rotations.foresee(dt, self.level);
         // The velocity update leads them so; reactions of what was held are known.
@@ -341,40 +311,29 @@ where
         self.speed = self.speed.max(fastest.sqrt());
     }
 
-    /// ½ Σ m|v^{n+½}|² of what has mass in the ledger, J/m.
-    fn kinetic_half(&self) -> f64 {
-        let is_own = |node: &u32| self.bodies.of_node(*node).is_none() && self.skins.carrier(*node as usize).is_none();
-        let of = |(_, (m, v)): (u32, (&f64, &[f64; D]))| 0.5 * m * dot(*v, *v);
-        let nodes = (0..).zip(self.mass.iter().zip(&self.velocities)).filter(|(node, _)| is_own(node)).map(of);
-        reductions::sum(nodes) + self.bodies.kinetic() + self.rotations.kinetic()
-    }
-
     /// The stages so far in a kept state; what they have changed is changed again.
     pub(super) fn persist_stages(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         let mut held = if self.is_stage_over() { self.what_holds() } else { Release::default() };
         let Some(mut stages) = self.stages.take() else { return Ok(()) };
-        let mut count = stages.begins.len();
+        let mut count = stages.over.len();
         count.persist(archive)?;
-        archive.check((1..=stages.list.len()).contains(&count), "it is in a stage that there is not")?;
-        for number in 1..count {
-            let mut begin = stages.begins.get(number).copied().unwrap_or_default();
-            begin.persist(archive)?;
-            let mut over = stages.over.get(number - 1).cloned().unwrap_or_default();
-            let StageRun { name, begin: first, end, is_at_rest, ratio } = &mut over;
-            persist_each!(archive; first, end, is_at_rest, ratio);
-            name.clone_from(&stages.list[number - 1].name);
-            if archive.reads() {
+        archive.check(count < stages.list.len(), "it is in a stage that there is not")?;
+        for number in 0..count {
+            let is_new = number == stages.over.len();
+            let mut over = if is_new { stages.run_until(0.0, None) } else { stages.over[number].clone() };
+            persist_each!(archive; &mut over.end, &mut over.is_at_rest, &mut over.ratio);
+            if is_new {
                 stages.over.push(over);
-                self.take_stage(&mut stages, begin);
+                self.take_stage(&mut stages);
             }
         }
-        if stages.launch.as_ref().is_some_and(|(stage, _)| *stage < count) {
+        if stages.launch.as_ref().is_some_and(|(stage, _)| *stage <= count) {
             stages.launch = None;
         }
         stages.release.persist(archive)?;
         held.persist(archive)?;
         stages.held = archive.reads().then_some(held).filter(|held| !held.is_empty());
         self.stages = Some(stages);
-        if count > 1 { self.constraints.persist_begun(archive) } else { Ok(()) }
+        if count > 0 { self.constraints.persist_begun(archive) } else { Ok(()) }
     }
 }

@@ -1,7 +1,7 @@
 //! What every registered element with every registered law promises: constant strain, rigid motion,
 //! stiffness, masses, energy, the stable step, and the same bits on every instruction set.
 
-use crate::bodies::samples;
+use crate::long::samples;
 use crate::patches::*;
 use embate_lanes::{Level, Team};
 use embate_solver::element::ELEMENTS;

@@ -10,16 +10,6 @@ use embate_solver::output::Frame;
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
 use std::sync::Arc;
 
-/// Whether this is the long form of the tests, `EMBATE_LONG=1`.
-pub(crate) fn is_long() -> bool {
-    std::env::var_os("EMBATE_LONG").is_some()
-}
-
-/// How many of so many random samples are tried: all in the long form, else a third.
-pub(crate) fn samples(all: u32) -> u32 {
-    if is_long() { all } else { all.div_ceil(3) }
-}
-
 /// Elastic with Poisson's ratio 0.3.
 pub(crate) fn elastic(young: f64, density: f64) -> Material {
     let parameters = [("young", young), ("poisson", 0.3), ("density", density)];

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
 use crate::bodies::*;
+use crate::long::samples;
 use embate_solver::contact::Sweep;
 use embate_solver::contact::projection::node_segment::{Target, Vector};
 use embate_solver::contact::search::registry;

@@ -2,7 +2,7 @@
 //! the contact is blind, and what sleeps is proven as by a look at all pairs.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
-use crate::bodies::samples;
+use crate::long::samples;
 use embate_solver::contact::law::penalty::Penalty;
 use embate_solver::contact::missed_contacts::MissedContactCheck;
 use embate_solver::contact::node_facet::NodeFacet;

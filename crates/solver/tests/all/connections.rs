@@ -2,6 +2,7 @@
 //! continued runs, and faults.
 
 use crate::bodies::*;
+use crate::long::is_long;
 use crate::restart::continues;
 use embate_solver::model::{
     Constraint, Contact, ContactLaw, Cuboid, Curve, CurveShape, Formulation, Image, Interface, Join, Joint, Line, Load, Model, Motion,

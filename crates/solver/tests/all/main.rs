@@ -5,6 +5,7 @@
 
 // What the tests share.
 mod bodies;
+mod long;
 mod patches;
 mod solids;
 mod point;

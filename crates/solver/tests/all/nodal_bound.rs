@@ -2,6 +2,7 @@
 //! forces and Jacobi's rotations; never shorter than the step by elements; stable in runs.
 
 use crate::bodies::*;
+use crate::long::samples;
 use crate::patches::{Body, Patch, Spread, eigenvalues, every_pair, frequency_squared, material, patch, stiffness};
 use crate::{blocks, patches, solids};
 use embate_solver::block::{BlockInput, Blocks};

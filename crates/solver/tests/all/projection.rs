@@ -2,7 +2,7 @@
 //! crossings against exact arithmetic.
 #![allow(clippy::unwrap_used)] // what tests call may stop a test like the tests themselves
 
-use crate::bodies::samples;
+use crate::long::samples;
 use embate_solver::contact::projection::node_segment::{Projection, Target, Vector};
 use embate_solver::mesh::surface::{NONE, Surface};
 use proptest::prelude::*;

@@ -5,7 +5,7 @@
 //! True pairs come from distances of points and simplices at many times of the step, the ends and the times
 //! of coplanarity among them.
 
-use crate::bodies::samples;
+use crate::long::samples;
 use embate_solver::contact::search::{Pair, Query, registry};
 use proptest::prelude::*;
 

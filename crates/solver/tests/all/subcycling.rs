@@ -3,6 +3,7 @@
 
 use crate::bodies::*;
 use crate::erosion::torn_bar;
+use crate::long::is_long;
 use crate::patches::Spread;
 use embate_solver::model::*;
 use embate_solver::simulation::Simulation;

@@ -65,7 +65,7 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
     };
     name_the_nameless(&mut model);
     if !model.stages.is_empty() && model.run.end == 0.0 {
-        model.run.end = model.stages.iter().map(|stage| stage.duration).sum();
+        model.run.end = model.duration_of_stages();
     }
     model
 }

@@ -197,7 +197,8 @@ fn world(bodies: [&Blocks; 2], recipe: Recipe, velocity: Vector) -> World {
     let interface = model::Interface { friction: (friction > 0.0).then_some(sliding), ..model::Interface::default() };
     let formulation = NodeFacet::new(tracker, inputs, &interface, 0.0, &positions);
     let formulation = if edges { formulation.with_edges((search::registry::<3>()[0].make)()) } else { formulation };
-    let contact = Contact::new("contact".into(), ContactKind::Contact, Box::new(formulation), 0, [0.0, f64::INFINITY]);
+    let contact =
+        Contact::new("contact".into(), ContactKind::Contact, Box::new(formulation), 0, crate::model::Window::between([0.0, f64::INFINITY]));
     let links = if bond > 0.0 {
         let mut links = bodies[0].links(0, bond);
         links.extend(if held { Vec::new() } else { bodies[1].links(first, bond) });

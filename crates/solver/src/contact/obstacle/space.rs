@@ -442,7 +442,13 @@ mod tests {
         let nodes: Vec<_> = (0..x.len() as u32).map(|node| (node, Slave { stiffness, area: 1.0, of_mass: 0.0 })).collect();
         let manner = Manner { reach: 0.01, factor: 0.0, ignores_start: false };
         let formulation = NodeSolid::new(solid, 0, Outside { nodes: &nodes, facets: &[], positions }, manner, Box::new(Unknown));
-        let mut contact = Contact::new("obstacle".into(), ContactKind::Obstacle(0), Box::new(formulation), 0, [0.0, f64::INFINITY]);
+        let mut contact = Contact::new(
+            "obstacle".into(),
+            ContactKind::Obstacle(0),
+            Box::new(formulation),
+            0,
+            crate::model::Window::between([0.0, f64::INFINITY]),
+        );
         let (mut old, mut lost, mut traces) = (x.clone(), 0.0, Traces::default());
         let sums = |x: &[Vector], v: &[Vector], bodies: &Bodies<3>| {
             let body = bodies.state(0);

@@ -174,7 +174,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(crate::samples(200)))]
+        #![proptest_config(ProptestConfig::with_cases(crate::random::long::samples(200)))]
         #[test]
         fn every_spring_is_in_one_cluster_of_its_patch_and_no_colour_moves_anything_twice(
             ends in prop::collection::vec(prop::collection::btree_set(0u32..3000, 0..6), 1..1500),

@@ -15,50 +15,46 @@ impl Check<'_> {
             self.number(&format!("{path}.duration"), stage.duration);
             if let Some(release) = stage.release {
                 self.number(&format!("{path}.release"), release);
-                if release >= stage.duration {
-                    let message = format!("it takes {release} s to let go, and the stage is over after {} s", stage.duration);
-                    self.fault(&PERIOD, format!("{path}.release"), message, "give a longer `duration` or a shorter `release`");
-                }
+                let what = format!("it takes {release} s to let go");
+                self.before_end(format!("{path}.release"), release, stage.duration, &what, "a shorter `release`");
                 if index == 0 {
-                    self.fault(
-                        &CLASH,
-                        format!("{path}.release"),
-                        "nothing ends before the first stage",
-                        "leave it out, or give it to a later stage",
-                    );
+                    let help = "leave it out, or give it to a later stage";
+                    self.fault(&CLASH, format!("{path}.release"), "nothing ends before the first stage", help);
                 }
             }
-            let Some(relaxation) = stage.relaxation else { continue };
-            self.relaxation(&path, relaxation);
-            if relaxation.from >= stage.duration {
-                let message = format!("rest counts from {} s on, and the stage is over after {} s", relaxation.from, stage.duration);
-                self.fault(&PERIOD, format!("{path}.relaxation.from"), message, "give a longer `duration` or an earlier `from`");
+            if let Some(relaxation) = stage.relaxation {
+                self.relaxation(&path, relaxation);
+                let what = format!("rest counts from {} s on", relaxation.from);
+                self.before_end(format!("{path}.relaxation.from"), relaxation.from, stage.duration, &what, "an earlier `from`");
             }
         }
         if !model.stages.is_empty() {
             self.run_of_stages();
         }
-        for (index, constraint) in model.constraints.iter().enumerate() {
-            self.stage_list(&format!("constraint[{index}].stages"), &constraint.stages);
-        }
-        for (index, terms) in model.load_terms.iter().enumerate() {
-            self.stage_list(&format!("load[{index}].stages"), &terms.stages);
-        }
-        for (index, contact) in model.contacts.iter().enumerate() {
-            self.stage_list(&format!("contact[{index}].stages"), &contact.interface.stages);
-        }
-        for (index, obstacle) in model.obstacles.iter().enumerate() {
-            self.stage_list(&format!("obstacle[{index}].stages"), &obstacle.interface.stages);
+        let constraints = model.constraints.iter().map(|it| &it.stages).enumerate().map(|it| ("constraint", it));
+        let loads = model.load_terms.iter().map(|it| &it.stages).enumerate().map(|it| ("load", it));
+        let contacts = model.contacts.iter().map(|it| &it.interface.stages).enumerate().map(|it| ("contact", it));
+        let obstacles = model.obstacles.iter().map(|it| &it.interface.stages).enumerate().map(|it| ("obstacle", it));
+        for (section, (index, stages)) in constraints.chain(loads).chain(contacts).chain(obstacles) {
+            self.stage_list(&format!("{section}[{index}].stages"), stages);
         }
         for (name, curve) in &model.curves {
             self.stage_list(&format!("curve.{name}.stage"), curve.stage.as_slice());
         }
     }
 
+    /// A time of a stage that must be before its end, s.
+    fn before_end(&mut self, path: String, time: f64, duration: f64, what: &str, change: &str) {
+        if time >= duration {
+            let message = format!("{what}, and the stage is over after {duration} s");
+            self.fault(&PERIOD, path, message, format!("give a longer `duration` or {change}"));
+        }
+    }
+
     /// What a run with stages has besides.
     fn run_of_stages(&mut self) {
         let model = self.model;
-        let durations: f64 = model.stages.iter().map(|stage| stage.duration).sum();
+        let durations = model.duration_of_stages();
         if (model.run.end - durations).abs() > 1e-9 * durations {
             let message = format!("the run ends at {} s, and its stages last {durations} s", model.run.end);
             self.fault(&CLASH, "run.end", message, "give the sum of their durations; in a model file leave `end` out");

@@ -4,6 +4,12 @@
 //! Smooth is the polynomial of fifth degree with zero velocity and acceleration at both points: y₀ + (y₁ −
 //! y₀) s³ (10 − 15 s + 6 s²), twice continuously differentiable.
 
+/// s³ (10 − 15 s + 6 s²): from 0 to 1 without velocity and acceleration at both ends.
+#[must_use]
+pub fn smooth_step(s: f64) -> f64 {
+    s * s * s * (10.0 + s * (6.0 * s - 15.0))
+}
+
 /// Points in time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -26,7 +32,7 @@ impl Table {
         }
         let (t0, t1) = (self.times[next - 1], self.times[next]);
         let s = (time - t0) / (t1 - t0);
-        let s = if self.smooth { s * s * s * (10.0 + s * (6.0 * s - 15.0)) } else { s };
+        let s = if self.smooth { smooth_step(s) } else { s };
         at(next - 1) + s * (at(next) - at(next - 1))
     }
 

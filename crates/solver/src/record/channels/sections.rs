@@ -90,8 +90,8 @@ where
         let plane = Plane::new(cut, system)?;
         let (mut slots, mut moment_slots, mut pieces, mut centre) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let (mut slot, mut moment_slot) = (0, 0);
-        for (index, (block, group)) in system.blocks.iter().zip(&mesh.groups).enumerate() {
-            if cut.takes(&mesh.parts[group.part].name) && !system.rigid[index] {
+        for (number, (block, group)) in system.blocks.iter().zip(&mesh.groups).enumerate() {
+            if cut.takes(&mesh.parts[group.part].name) && !system.rigid[number] {
                 let mut corners = Vec::new();
                 for element in 0..group.elements() {
                     let Some(slice) = plane.slice(group, element, &mesh.positions) else { continue };
@@ -100,7 +100,7 @@ where
                     corners.extend(own.map(|(corner, &node)| [element as u32, corner, node]));
                 }
                 if cut.radius.is_some() {
-                    pieces.push(Piece { group: index, slots: slot..slot + block.slots().len(), corners });
+                    pieces.push(Piece { group: number, slots: slot..slot + block.slots().len(), corners });
                 } else {
                     add_slots(block.slots(), slot, &plane, |slot, node| slots.push((slot, node)));
                     add_slots(block.moment_slots(), moment_slot, &plane, |slot, _| moment_slots.push(slot));

@@ -100,7 +100,7 @@ fn loads_have_no_jump_where_corners_come_near_edges_and_surfaces_have_a_fold() {
     for (number, fold) in [0.0, 0.1, 0.5, 0.8].into_iter().enumerate() {
         let ways = [[1.0, 0.0], [-1.0, 0.0], [0.4, 0.7]];
         // Each way with one fold at least.
-        for way in ways.into_iter().enumerate().filter(|(k, _)| crate::is_long() || number % 3 == *k).map(|(_, way)| way) {
+        for way in ways.into_iter().enumerate().filter(|(k, _)| crate::random::long::is_long() || number % 3 == *k).map(|(_, way)| way) {
             let mut before: Option<Vec<f64>> = None;
             for step in 0..400 {
                 let by = way.map(|c| c * (5e-9 * f64::from(step) + 0.3e-6));

@@ -20,6 +20,10 @@ pub(crate) struct Arguments {
     /// Largest length of an edge of the mesh, "2 mm" for example
     #[arg(long, value_name = "LENGTH", value_parser = model_file::length)]
     size: f64,
+    /// 1: tetrahedra of four nodes, which get straight edges with a node in the middle; 2: of ten nodes,
+    /// whose edges follow the curved surface
+    #[arg(long, value_name = "ORDER", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
+    order: u8,
     /// File for the mesh [default: that of the CAD file, with .msh at its end]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -54,6 +58,7 @@ pub(crate) fn mesh(arguments: &Arguments) -> Result<(), Failure> {
         geometry: arguments.geometry.clone(),
         size: arguments.size,
         unit: arguments.unit,
+        order: arguments.order,
         program: program.unwrap_or_else(|| "gmsh".into()),
         limit: Duration::try_from_secs_f64(arguments.timeout).unwrap_or(Duration::MAX),
     };

@@ -165,6 +165,7 @@ fn gathers_and_scatters_find_the_right_points_in_the_plane_and_in_space() {
     walks::<2, 3>();
     walks::<3, 4>();
     walks::<3, 8>();
+    walks::<3, 10>();
 }
 
 /// Component by component what is loaded of points, and points of components.

@@ -110,9 +110,9 @@ struct Vectors<const W: usize>([[f64; W]; 4]);
 /// Does the work for each row, straight on: values that wait in registers can't be kept in a list that a loop
 /// goes through.
 macro_rules! each_row {
-    ($rows:ident, $row:ident, $work:block) => { each_row!(@ 0 1 2 3 4 5 6 7, $rows, $row, $work) };
+    ($rows:ident, $row:ident, $work:block) => { each_row!(@ 0 1 2 3 4 5 6 7 8 9, $rows, $row, $work) };
     (@ $($number:literal)*, $rows:ident, $row:ident, $work:block) => {
-        const { assert!($rows <= 8, "more rows than are written out") };
+        const { assert!($rows <= 10, "more rows than are written out") };
         $(if $number < $rows {
             let $row: usize = $number;
             $work

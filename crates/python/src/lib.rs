@@ -93,15 +93,15 @@ fn fields(dimension: usize) -> Vec<(&'static str, Vec<&'static str>, &'static st
     fields_of(dimension).iter().map(of).collect()
 }
 
-/// The kinds of cells: name, dimension, number of nodes, number in .msh files and in VTK, corners of each
-/// face.
+/// The kinds of cells: name, dimension, number of nodes, number in .msh files and in VTK, nodes of each
+/// facet.
 #[pyfunction]
 fn cells(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     use embate_solver::mesh::cell::CellKind;
     let of = |kind: CellKind| {
         let facts = kind.facts();
         let corners = |face: &[u8; 4]| face[..if face[2] == face[3] { 3 } else { 4 }].iter().map(|&k| usize::from(k)).collect();
-        let faces: Vec<Vec<usize>> = facts.faces.iter().map(corners).collect();
+        let faces: Vec<Vec<usize>> = facts.facets.iter().map(corners).collect();
         let dict = PyDict::new(py);
         dict.set_item("name", facts.name)?;
         dict.set_item("dimension", facts.dimension)?;

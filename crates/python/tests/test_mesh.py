@@ -66,6 +66,12 @@ def test_solids_of_every_kind() -> None:
     cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float) * 0.01
     wedges = np.array([[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]])
     tets = np.array([[0, 1, 3, 4], [1, 2, 3, 6], [1, 3, 4, 6], [1, 4, 5, 6], [3, 4, 6, 7]])
+    edges = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
+    pairs = sorted({tuple(sorted((cell[a], cell[b]))) for cell in tets.tolist() for a, b in edges})
+    ten = np.array([[*cell, *(8 + pairs.index(tuple(sorted((cell[a], cell[b])))) for a, b in edges)] for cell in tets.tolist()])
+    middles = np.array([0.5 * (cube[a] + cube[b]) for a, b in pairs])
+    both = [embate.Model(name="cube").run(end="1 us").material("steel", **STEEL).part(name="cube", mesh=mesh, material="steel").simulation() for mesh in ((cube, {"tetra": tets}), (np.vstack([cube, middles]), {"tetra10": ten}))]
+    assert both[0].state.position.shape == both[1].state.position.shape == (8 + len(pairs), 3)
     for cells in ({"hexahedron": np.arange(8)[None]}, {"wedge": wedges}, {"tetra": tets}):
         model = embate.Model(name="cube").run(end="1 us").material("steel", **STEEL)
         simulation = model.part(name="cube", mesh=(cube, cells), material="steel", velocity=(0, 0, 2)).simulation()

@@ -55,9 +55,9 @@ fn main() {
             }
         }
     }
-    println!("in 3D, in cache: 1,000 hexahedra, 686 wedges, 750 tetrahedra");
+    println!("in 3D, in cache: 1,000 hexahedra, 686 wedges, 750 tetrahedra of four or ten nodes");
     for kind in ELEMENTS_OF_SPACE {
-        let in_cube = kind.cell.facts().division.len() / kind.nodes();
+        let in_cube = kind.cell.facts().division.len() / kind.cell.corners();
         let n = (1..).take_while(|n| n * n * n * in_cube <= 1000).last().unwrap_or(1);
         let patch = Patch::solid(kind.cell, n);
         for law in FEW {

@@ -11,6 +11,7 @@ mod failure;
 mod hinges;
 mod node_elements;
 mod idle;
+mod locking;
 pub(crate) mod inside_out;
 mod normals;
 mod limits;
@@ -116,6 +117,7 @@ where
     warnings.extend(passing);
     warnings.extend(sizes::warnings(builder.model, &builder.mesh));
     warnings.extend(normals::warnings(builder.model, &builder.mesh));
+    warnings.extend(locking::warnings(builder.model, &builder.mesh));
     warnings.extend(hinges::warnings(builder.model, &builder.mesh, &builder.joins));
     // What is wrong at the start and what is wrong with conditions has nothing to do with each other.
     let start = builder.start();

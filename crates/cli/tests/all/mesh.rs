@@ -75,7 +75,7 @@ fn gmsh_is_called_without_a_shell_and_its_mesh_is_named_and_described() {
     fs::write(folder.join("model.toml"), format!("{MATERIAL}{parts}{probe}")).unwrap();
     let checked = embate(&folder, &["check", "model.toml"]);
     assert_eq!(checked.code, Some(0), "{}{}", checked.out, checked.err);
-    assert!(checked.out.contains("1 tet4") && checked.out.contains("10 x 10 x 10 mm"), "{}", checked.out);
+    assert!(checked.out.contains("1 tet10") && checked.out.contains("10 x 10 x 10 mm"), "{}", checked.out);
 }
 
 #[test]
@@ -93,7 +93,11 @@ fn a_unit_a_program_of_the_environment_and_a_mesh_that_is_there() {
     assert!(job.contains("OCCTargetUnit = \"INCH\";") && job.contains("MeshSizeMax = 1e0;"), "{job}");
     let (code, out) = run(&["mesh", "part.step", "--size", "1 mm"]);
     assert!(code == Some(2) && out.contains("E0702") && out.contains("part.msh exists"), "{out}");
-    assert_eq!(run(&["mesh", "part.step", "--size", "1 mm", "--force"]).0, Some(0));
+    assert!(job.contains("Mesh.ElementOrder = 1;"), "{job}");
+    assert_eq!(run(&["mesh", "part.step", "--size", "1 mm", "--force", "--order", "2"]).0, Some(0));
+    let job = fs::read_to_string(folder.join("job.txt")).unwrap();
+    assert!(job.contains("Mesh.ElementOrder = 2;"), "{job}");
+    assert_eq!(run(&["mesh", "part.step", "--size", "1 mm", "--force", "--order", "3"]).0, Some(2));
 }
 
 #[test]

@@ -407,13 +407,14 @@ impl Deck {
         while let Some(&line) = lines.next() {
             let mut fields = text.fields(line);
             let mut last = line;
-            while fields.len() <= kind.nodes() && text.continues(last) {
+            while fields.len() <= kind.nodes_in_deck && text.continues(last) {
                 let Some(&next) = lines.next() else { break };
                 fields.extend(text.fields(next));
                 last = next;
             }
-            if fields.len() != kind.nodes() + 1 {
-                let message = format!("an element {} of {} numbers; it has a number and {} nodes", kind.name, fields.len(), kind.nodes());
+            let count = kind.nodes_in_deck;
+            if fields.len() != count + 1 {
+                let message = format!("an element {} of {} numbers; it has a number and {count} nodes", kind.name, fields.len());
                 let help = match kind.family {
                     Family::Beam => "leave a third node out, and give the direction n1 in the second line of *BEAM SECTION",
                     _ => "look at the type of the elements, and at the line",
@@ -422,7 +423,7 @@ impl Deck {
             }
             let tag = text.tag(line, fields[0], "the number of an element")?;
             let mut nodes = [0; MOST_NODES];
-            for (k, field) in fields[1..].iter().enumerate() {
+            for (k, field) in fields[1..=kind.nodes()].iter().enumerate() {
                 let node = text.tag(line, field, "a node of an element")?;
                 nodes[k] = self.instances[instance].node(node).ok_or_else(|| {
                     let message = format!("element {tag} needs node {node}, which is not there");

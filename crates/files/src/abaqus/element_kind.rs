@@ -54,6 +54,8 @@ pub(super) struct ElementKind {
     pub(super) element: &'static str,
     /// What differs; empty: nothing to speak of.
     pub(super) differs: &'static str,
+    /// How many nodes it has in the deck: the first are those of the cell.
+    pub(super) nodes_in_deck: usize,
 }
 
 const STRAIN: Family = Family::Plane("plane_strain");
@@ -62,10 +64,17 @@ const ROUND: Family = Family::Plane("axisymmetric");
 const REDUCED: &str = "hourglass control by stiffness after Flanagan and Belytschko, with its own coefficient";
 const BENT: &str = "no incompatible modes: an assumed strain keeps bending from locking";
 const ONE_POINT: &str = "one point in the plane, with a physical stabilisation against hourglass modes";
+const COMPOSITE: &str = "made of twelve tetrahedra, with mean dilatation and masses that contact can use; sides in it are straight";
+const CORNERS: &str = "of first order: the nodes between its corners are left out";
 const TRIANGLE: &str = "transverse shear is that of MITC3";
 
 const fn kind(name: &'static str, cell: CellKind, family: Family, element: &'static str, differs: &'static str) -> ElementKind {
-    ElementKind { name, cell, family, element, differs }
+    ElementKind { name, cell, family, element, differs, nodes_in_deck: cell.nodes() }
+}
+
+/// A solid of second order that is computed by its corners.
+const fn reduced(name: &'static str, cell: CellKind, element: &'static str, nodes_in_deck: usize) -> ElementKind {
+    ElementKind { name, cell, family: Family::Solid, element, differs: CORNERS, nodes_in_deck }
 }
 
 impl ElementKind {
@@ -151,6 +160,14 @@ pub(super) static KINDS: &[ElementKind] = &[
     kind("B31", CellKind::Line, Family::Beam, "beam2", ""),
     kind("PIPE31", CellKind::Line, Family::Beam, "beam2", ""),
     kind("C3D4", CellKind::Tetrahedron, Family::Solid, "tet4", ""),
+    kind("C3D10", CellKind::Tetrahedron10, Family::Solid, "tet10", COMPOSITE),
+    kind("C3D10M", CellKind::Tetrahedron10, Family::Solid, "tet10", COMPOSITE),
+    kind("C3D10I", CellKind::Tetrahedron10, Family::Solid, "tet10", COMPOSITE),
+    kind("C3D10H", CellKind::Tetrahedron10, Family::Solid, "tet10", COMPOSITE),
+    kind("C3D10MH", CellKind::Tetrahedron10, Family::Solid, "tet10", COMPOSITE),
+    reduced("C3D15", CellKind::Wedge, "wedge6", 15),
+    reduced("C3D20", CellKind::Hexahedron, "hex8", 20),
+    reduced("C3D20R", CellKind::Hexahedron, "hex8", 20),
     kind("C3D6", CellKind::Wedge, Family::Solid, "wedge6", ""),
     kind("C3D8", CellKind::Hexahedron, Family::Solid, "hex8", ""),
     kind("C3D8R", CellKind::Hexahedron, Family::Solid, "hex8_reduced", REDUCED),
@@ -191,11 +208,12 @@ pub(super) fn named(name: &str, is_3d: bool) -> Found {
             ),
         };
     }
-    const FIRST: &str = "use elements with nodes at their corners only, such as CPE4R, CPS4R, CAX4R, CPE3, C3D8R or C3D4";
+    const FIRST: &str =
+        "use elements with nodes at their corners only, such as CPE4R, CPS4R, CAX4R, CPE3, C3D8R or C3D4; of second order C3D10M";
     let starts = |all: &[&str]| all.iter().any(|start| name.starts_with(start));
     if starts(&[
-        "CPE6", "CPE8", "CPS6", "CPS8", "CAX6", "CAX8", "S6", "S8", "S9", "M3D6", "M3D8", "M3D9", "CGAX6", "CGAX8", "C3D10", "C3D15",
-        "C3D20", "C3D27",
+        "CPE6", "CPE8", "CPS6", "CPS8", "CAX6", "CAX8", "S6", "S8", "S9", "M3D6", "M3D8", "M3D9", "CGAX6", "CGAX8", "C3D15", "C3D20",
+        "C3D27",
     ]) {
         Found::Refused("is of second order: its lumped masses and its contact are not sound in an explicit computation", FIRST)
     } else if starts(&["SC6", "SC8", "CSS", "R3D"]) {
@@ -225,7 +243,7 @@ mod tests {
     fn elements_of_second_order_and_others_are_refused_with_the_reason() {
         let named = |name: &str| super::named(name, true);
         assert!(matches!(named("CPE8R"), Found::Refused(why, _) if why.contains("second order")));
-        assert!(matches!(named("C3D10M"), Found::Refused(why, _) if why.contains("second order")));
+        assert!(matches!(named("C3D27"), Found::Refused(why, _) if why.contains("second order")));
         assert!(matches!(named("C3D5"), Found::Refused(why, _) if why.contains("pyramid")));
         assert!(matches!(named("R3D4"), Found::Refused(why, _) if why.contains("rigid surface")));
         assert!(matches!(named("C3D8H"), Found::Refused(why, _) if why.contains("hybrid")));
@@ -253,6 +271,7 @@ mod tests {
         let expected: [&[usize]; 5] = [&[0, 1, 2], &[2, 1, 0], &[0, 1], &[1, 2], &[2, 0]];
         assert_eq!(sides, expected);
         assert_eq!(of("C3D4"), [[1, 2, 3], [1, 4, 2], [2, 4, 3], [3, 4, 1]]);
+        assert_eq!(of("C3D10M"), of("C3D4"), "the mesh knows the nodes between corners");
         let wedge: [&[usize]; 5] = [&[1, 2, 3], &[4, 6, 5], &[1, 4, 5, 2], &[2, 5, 6, 3], &[3, 6, 4, 1]];
         assert_eq!(of("C3D6"), wedge);
         assert_eq!(of("C3D8"), [[1, 2, 3, 4], [5, 8, 7, 6], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 8, 4], [4, 8, 5, 1]]);

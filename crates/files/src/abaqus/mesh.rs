@@ -147,7 +147,20 @@ pub(super) fn mesh(deck: &Deck, text: &Text, scale: f64) -> Result<ImportedMesh,
     let values = || (0..deck.nodes.len()).filter(|&node| used[node]).map(|node| Some(scale * deck.thicknesses[node]?)).collect();
     let thickness = || MeshField { name: NODAL_THICKNESS.into(), values: FieldValues::Nodes(values()) };
     let fields = (!deck.thicknesses.is_empty()).then(thickness).into_iter().collect();
-    Ok(ImportedMesh { source: source.into(), positions, groups, fields })
+    Ok(ImportedMesh { source: source.into(), positions, groups, fields, notes: notes(deck) })
+}
+
+/// Elements of second order of which the corners are kept.
+fn notes(deck: &Deck) -> Vec<String> {
+    let mut counts: BTreeMap<&str, (usize, &Element)> = BTreeMap::new();
+    for element in deck.elements.iter().filter(|element| element.kind.nodes_in_deck > element.kind.nodes()) {
+        counts.entry(element.kind.name).or_insert((0, element)).0 += 1;
+    }
+    let of = |(name, (count, first)): (&str, (usize, &Element))| {
+        let cell = first.kind.cell.facts();
+        format!("{count} elements {name}, which become {} of {} nodes", cell.plural, cell.nodes)
+    };
+    counts.into_iter().map(of).collect()
 }
 
 /// Corners of an element, in the deck's unit.

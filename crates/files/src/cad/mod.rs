@@ -54,6 +54,8 @@ pub struct Job {
     pub size: f64,
     /// Unit of the lengths in the mesh file.
     pub unit: Unit,
+    /// Order of the elements: 1, or 2 with nodes between the corners.
+    pub order: u8,
     /// The program: a name that is looked for on `PATH`, or a path.
     pub program: OsString,
     /// How long it may take.
@@ -72,7 +74,7 @@ pub struct Meshed {
 }
 
 impl Job {
-    /// Meshes the CAD file with tetrahedra of four nodes.
+    /// Meshes the CAD file with tetrahedra of four nodes, or ten.
     ///
     /// # Errors
     /// One fault: the CAD file can't be read, is of no kind that Gmsh reads, or holds no volume; Gmsh is not
@@ -94,7 +96,7 @@ impl Job {
         let folder = Scratch::new().map_err(one)?;
         let copy = format!("geometry.{ending}");
         folder.write(&copy, &geometry).map_err(one)?;
-        folder.write(script::NAME, script::text(&copy, self.unit, self.size / self.unit.length).as_bytes()).map_err(one)?;
+        folder.write(script::NAME, script::text(&copy, self.unit, self.size / self.unit.length, self.order).as_bytes()).map_err(one)?;
         drop(geometry);
         let gmsh = Gmsh { program: &self.program, limit: self.limit };
         let log = gmsh.run(&folder.0, &[script::NAME, "-3", "-v", "3", "-nt", "1", "-o", script::MESH]).map_err(one)?;

@@ -9,7 +9,7 @@ pub(super) const FOUND: &str = "found.txt";
 
 /// The script: each volume and each face is a physical group with the number that it has in Gmsh. `size` is
 /// in the unit of the mesh. Labels of a CAD file are printed, as they are, on a line of their own.
-pub(super) fn text(geometry: &str, unit: Unit, size: f64) -> String {
+pub(super) fn text(geometry: &str, unit: Unit, size: f64, order: u8) -> String {
     format!(
         r#"SetFactory("OpenCASCADE");
 Geometry.OCCTargetUnit = "{unit}";
@@ -30,7 +30,7 @@ If (#volumes() > 0)
     EndFor
   EndFor
 EndIf
-Mesh.ElementOrder = 1;
+Mesh.ElementOrder = {order};
 Mesh.MeshSizeMax = {size:e};
 Mesh.MshFileVersion = 4.1;
 Mesh.Binary = 1;

@@ -130,7 +130,7 @@ fn of_3d(kind: CellKind, x: &[[f64; 3]]) -> (bool, f64) {
 /// The nodes of a cell in ascending order, filled up with the largest number.
 fn key(cell: &Cell) -> [u32; MOST_NODES] {
     let mut key = [u32::MAX; MOST_NODES];
-    key[..cell.file.kind.nodes].copy_from_slice(cell.nodes());
+    key[..cell.nodes().len()].copy_from_slice(cell.nodes());
     key.sort_unstable();
     key
 }

@@ -29,7 +29,7 @@ pub(super) struct FileCell {
     pub(super) shape: CellKind,
     /// Number in the file.
     pub(super) tag: u64,
-    /// Node tags; the first `kind.nodes` count.
+    /// Node tags; the first `shape.nodes()` count.
     pub(super) nodes: [u64; MOST_NODES],
     /// Byte offset in the file.
     pub(super) at: usize,
@@ -125,7 +125,7 @@ pub(super) fn element_nodes(kind: &ElementKind, mut tag: impl FnMut() -> Result<
     let mut nodes = [0; MOST_NODES];
     for k in 0..kind.nodes {
         let node = tag()?;
-        if let Some(slot) = nodes.get_mut(k) {
+        if let Some(slot) = nodes.get_mut(kind.place(k)) {
             *slot = node;
         }
     }

@@ -24,9 +24,24 @@ impl ElementKind {
         KINDS.binary_search_by_key(&number, |kind| kind.number).ok().map(|index| &KINDS[index])
     }
 
-    /// The kind of cell that it becomes; `None`: it can't be computed.
+    /// The kind of cell that it becomes; `None`: it can't be computed. Of the second order only the
+    /// tetrahedron has one; of others the first nodes are the corners, and are kept.
     pub(super) fn cell(&self) -> Option<CellKind> {
-        CellKind::of_gmsh(self.number)
+        CellKind::of_gmsh(self.number).or_else(|| Some(REDUCED.iter().find(|(number, _)| *number == self.number)?.1))
+    }
+
+    /// Whether nodes of it are left out in a body.
+    pub(super) fn is_reduced(&self) -> bool {
+        self.cell().is_some_and(|cell| cell.nodes() < self.nodes)
+    }
+
+    /// The places of its nodes in the cell: Gmsh exchanges the last two of a tetrahedron of ten.
+    pub(super) fn place(&self, node: usize) -> usize {
+        match (self.number, node) {
+            (11, 8) => 9,
+            (11, 9) => 8,
+            _ => node,
+        }
     }
 
     /// Whether it is a pyramid, for which there is no element, of whatever order.
@@ -38,6 +53,19 @@ impl ElementKind {
 const fn kind(number: i64, name: &'static str, dimension: u8, nodes: usize) -> ElementKind {
     ElementKind { number, name, dimension, nodes }
 }
+
+/// Cells of second order, and those of their corners. The side of a ten-node tetrahedron is such a triangle:
+/// the mesh knows the nodes between its corners.
+const REDUCED: [(i64, CellKind); 8] = [
+    (8, CellKind::Line),
+    (9, CellKind::Triangle),
+    (10, CellKind::Quadrilateral),
+    (12, CellKind::Hexahedron),
+    (13, CellKind::Wedge),
+    (16, CellKind::Quadrilateral),
+    (17, CellKind::Hexahedron),
+    (18, CellKind::Wedge),
+];
 
 /// In the order of their numbers; types without a fixed number of nodes (polygons, polyhedra) are left out.
 static KINDS: &[ElementKind] = &[
@@ -167,12 +195,13 @@ mod tests {
     }
 
     #[test]
-    fn only_cells_with_nodes_at_their_corners_are_computed_and_no_pyramids() {
+    fn cells_of_first_and_second_order_are_computed_and_no_pyramids() {
         let computed: Vec<_> = KINDS.iter().filter(|kind| kind.cell().is_some()).collect();
-        assert_eq!(computed.iter().map(|kind| kind.number).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6, 15]);
+        assert_eq!(computed.iter().map(|kind| kind.number).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13, 15, 16, 17, 18]);
         for kind in &computed {
             let cell = kind.cell().unwrap();
-            assert_eq!((cell.dimension(), cell.nodes(), cell.corners()), (kind.dimension.into(), kind.nodes, kind.nodes), "{}", kind.name);
+            assert_eq!(cell.dimension(), usize::from(kind.dimension), "{}", kind.name);
+            assert!(if kind.is_reduced() { cell.nodes() < kind.nodes } else { cell.nodes() == kind.nodes }, "{}", kind.name);
         }
         assert!(!computed.iter().any(|kind| kind.is_pyramid()));
     }

@@ -48,8 +48,27 @@ pub(super) fn mesh(bodies: Bodies, contents: &Contents, reader: &Reader, scale: 
         return Err(faults.into_list(source));
     }
     let mut mesh = nodes.mesh(source, &groups, &resolved);
+    mesh.notes = notes(&groups);
     mesh.fields = contents.views.iter().map(|view| nodes.field(view, &index, &resolved, scale)).collect();
     Ok(mesh)
+}
+
+/// Bodies that are no longer of second order.
+fn notes(groups: &[Group]) -> Vec<String> {
+    let bodies = groups.iter().map(|group| group.dimension).max().unwrap_or(0);
+    let mut notes = Vec::new();
+    for group in groups.iter().filter(|group| group.dimension == bodies) {
+        let mut kinds: BTreeMap<i64, (usize, &FileCell)> = BTreeMap::new();
+        for cell in group.cells.iter().filter(|cell| cell.kind.is_reduced()) {
+            kinds.entry(cell.kind.number).or_insert((0, cell)).0 += 1;
+        }
+        for (count, first) in kinds.into_values() {
+            let (name, cell) = (&group.name, first.shape.facts());
+            let what = format!("group {name:?} has {count} elements of the type {:?}", first.kind.name);
+            notes.push(format!("{what}, which become {} of {} nodes", cell.plural, cell.nodes));
+        }
+    }
+    notes
 }
 
 /// A physical group with the name that the model knows it by.
@@ -118,7 +137,7 @@ fn foreign(reader: &Reader, group: &str, occurrence: &Occurrence) -> Fault {
         "pyramids are not computed: mesh with hexahedra, prisms or tetrahedra, each from face to face, or take them \
             out of the physical group"
     } else {
-        "only nodes at corners are computed: mesh with Mesh.ElementOrder = 1 (gmsh -order 1), or take it out of the physical group"
+        "elements of first and second order are read: mesh with Mesh.ElementOrder = 1 or 2, or take it out of the physical group"
     };
     reader.fault(&ELEMENT_TYPE, *first, message, help)
 }
@@ -169,7 +188,7 @@ pub(super) struct Cell<'a> {
 
 impl Cell<'_> {
     pub(super) fn nodes(&self) -> &[u32] {
-        &self.nodes[..self.file.kind.nodes]
+        &self.nodes[..self.file.shape.nodes()]
     }
 }
 
@@ -177,7 +196,7 @@ fn resolve<'a>(group: &Group<'a>, index: &NodeIndex, reader: &Reader, faults: &m
     let mut cells = Vec::with_capacity(group.cells.len());
     for &file in &group.cells {
         let mut cell = Cell { file, nodes: [0; MOST_NODES] };
-        for k in 0..file.kind.nodes {
+        for k in 0..file.shape.nodes() {
             match index.of(file.nodes[k]) {
                 Some(node) => cell.nodes[k] = node,
                 None => faults.add("references to missing nodes", || {

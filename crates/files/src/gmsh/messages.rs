@@ -35,11 +35,11 @@ pub(super) static ELEMENT_TYPE: Message = Message {
     code: "E0223",
     title: "elements of a type that can't be computed",
     example: Example::Gmsh(
-        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n\
-         $Nodes\n6\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 1 0 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n$Elements\n1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"block\"\n$EndPhysicalNames\n\
+         $Nodes\n5\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n$EndNodes\n$Elements\n1\n1 7 2 1 1 1 2 3 4 5\n$EndElements\n",
     ),
-    cause: "A physical group holds pyramids or elements of second order.",
-    remedy: "Mesh with Mesh.ElementOrder = 1, and with hexahedra, prisms or tetrahedra instead of pyramids, or take them out of the group.",
+    cause: "A physical group holds pyramids or elements beyond the second order.",
+    remedy: "Mesh with Mesh.ElementOrder = 1 or 2, and with hexahedra, prisms or tetrahedra instead of pyramids, or take them out of the group.",
 };
 
 pub(super) static PHYSICAL_GROUP: Message = Message {

@@ -1140,7 +1140,7 @@ class Sections:
         *,
         name: str,
         material: str,
-        element: Literal["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_viscous", "quad4_reduced_assumed_strain", "bar2", "beam2", "shell2", "shell4", "shell4_full", "shell3", "hex8", "hex8_reduced", "hex8_reduced_viscous", "hex8_reduced_assumed_strain", "wedge6", "tet4", "tet4_anp"] | None = None,
+        element: Literal["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_viscous", "quad4_reduced_assumed_strain", "bar2", "beam2", "shell2", "shell4", "shell4_full", "shell3", "hex8", "hex8_reduced", "hex8_reduced_viscous", "hex8_reduced_assumed_strain", "wedge6", "tet4", "tet4_anp", "tet10"] | None = None,
         element_triangles: Literal["tri3", "tri3_anp"] | None = None,
         area: Quantity | None = None,
         section: Section | None = None,

@@ -31,6 +31,27 @@ OTHER_NAMES = {
     "wedges": "wedge",
     "prism": "wedge",
 }
+#: Cells of second order of which the corners, the first nodes, are taken: names, and types of Gmsh.
+REDUCED: dict[str | int, str] = {
+    "line3": "line",
+    "triangle6": "triangle",
+    "quad8": "quad",
+    "quad9": "quad",
+    "hexahedron20": "hexahedron",
+    "hexahedron27": "hexahedron",
+    "wedge15": "wedge",
+    "wedge18": "wedge",
+    8: "line",
+    9: "triangle",
+    10: "quad",
+    12: "hexahedron",
+    13: "wedge",
+    16: "quad",
+    17: "hexahedron",
+    18: "wedge",
+}
+#: Where a .msh file has the nodes of a cell otherwise than VTK and meshio: the last two of a ten-node tetrahedron are exchanged.
+GMSH_ORDER = {"tetra10": [0, 1, 2, 3, 4, 5, 6, 7, 9, 8]}
 #: Types of VTK cells, pixels and voxels among them.
 VTK: dict[int, str] = {kind["vtk"]: kind["name"] for kind in _embate.cells()} | {8: "quad", 11: "hexahedron"}
 #: Pixels and voxels count their nodes row by row, not around.
@@ -45,7 +66,7 @@ class Mesh:
     points : array, shape (n, 2) or (n, 3)
         Positions, in metres (or in the unit that ``scale`` of the part's mesh says).
     cells : dict of array
-        Nodes of cells by their kind (``quad``, ``triangle``, ``hexahedron``, ``tetra``, ``wedge``, ``line``, ``vertex``), counted from 0.
+        Nodes of cells by their kind (``quad``, ``triangle``, ``hexahedron``, ``tetra``, ``tetra10``, ``wedge``, ``line``, ``vertex``), counted from 0 and in the order of VTK.
     groups : dict, optional
         Name -> {kind: indices of cells of that kind}. Without groups all cells of the highest dimension are the group ``all``.
     """
@@ -104,7 +125,7 @@ class Mesh:
                 rows = np.empty((len(which), 3 + size), "<i4")
                 rows[:, 0] = which
                 rows[:, 1:3] = tag
-                rows[:, 3:] = self.cells[kind][which]
+                rows[:, 3:] = self.cells[kind][which][:, GMSH_ORDER.get(kind, range(size))]
                 if len(which):
                     runs.append(np.array([number, len(which), 2], "<i4").tobytes() + rows.tobytes())
                 count += len(which)
@@ -212,11 +233,11 @@ def _of_meshio(mesh: Any) -> Mesh:
     cells: dict[str, list[np.ndarray[Any, Any]]] = {}
     starts: list[tuple[str, int, int]] = []
     for block in mesh.cells:
-        kind = OTHER_NAMES.get(block.type, block.type)
+        kind = REDUCED.get(block.type, OTHER_NAMES.get(block.type, block.type))
         if kind not in KINDS:
             raise ValueError(f"mesh: cells of the kind {block.type!r} can't be computed; known are {', '.join(KINDS)}")
         before = sum(map(len, cells.get(kind, [])))
-        cells.setdefault(kind, []).append(np.asarray(block.data))
+        cells.setdefault(kind, []).append(np.asarray(block.data)[:, : KINDS[kind][1]])
         starts.append((kind, before, len(block.data)))
     joined = {kind: np.concatenate(blocks) for kind, blocks in cells.items()}
     groups: dict[str, dict[str, Any]] = {}
@@ -279,10 +300,11 @@ def _of_gmsh(model: Any) -> Mesh:
     def take(entities: Sequence[tuple[int, int]], name: str) -> None:
         for dimension, entity in entities:
             for number, _, nodes in zip(*model.mesh.getElements(dimension, entity)):
-                kind = numbers.get(int(number))
+                kind = numbers.get(int(number), REDUCED.get(int(number)))
                 if kind is None:
-                    raise ValueError(f"mesh: elements of gmsh's type {int(number)} can't be computed; mesh with order 1 and without pyramids")
-                rows = index[np.asarray(nodes, dtype=np.int64)].reshape(-1, KINDS[kind][1])
+                    raise ValueError(f"mesh: elements of gmsh's type {int(number)} can't be computed; mesh with order 1 or 2 and without pyramids")
+                size = int(model.mesh.getElementProperties(int(number))[3])
+                rows = index[np.asarray(nodes, dtype=np.int64)].reshape(-1, size)[:, GMSH_ORDER.get(kind, range(KINDS[kind][1]))]
                 begin = sum(map(len, cells.get(kind, [])))
                 cells.setdefault(kind, []).append(rows)
                 which, known = np.arange(begin, begin + len(rows)), groups.setdefault(name, {})

@@ -7,6 +7,8 @@ use crate::model::{
     Contact, Cuboid, Friction, Interface, Line, Material, Model, Output, Part, Partners, Profile, RECTANGLE, Rectangle, Run, Shape,
     ShellSection, SpaceTruss,
 };
+use crate::vector::{plus, times};
+use std::collections::BTreeMap;
 
 /// Parameters of any law: steel that flows at once and hardens strongly; rubbers and orthotropic bodies of
 /// its stiffness.
@@ -78,14 +80,13 @@ pub struct Patch<const D: usize> {
 
 impl Patch<3> {
     /// `n` × `n` × `n` cubes of 1 mm, each divided into cells of a kind: one hexahedron, two wedges or six
-    /// tetrahedra.
+    /// tetrahedra; nodes between corners are in the middles of edges.
     #[must_use]
     pub fn solid(kind: CellKind, n: usize) -> Self {
         let side = n + 1;
         let place = |k: usize| [k % side, k / side % side, k / (side * side)].map(|i| i as f64 * 1e-3);
-        let positions: Vec<[f64; 3]> = (0..side * side * side).map(place).collect();
-        let velocities = positions.iter().map(|[x, y, z]| [100.0 * y + 20.0 * x, 60.0 * z - 80.0 * x + 5.0 * y, 10.0 * z - 50.0 * y]);
-        let cells = (0..n * n * n).flat_map(|cell| {
+        let mut positions: Vec<[f64; 3]> = (0..side * side * side).map(place).collect();
+        let corners = (0..n * n * n).flat_map(|cell| {
             let first = (cell / (n * n) * side + cell / n % n) * side + cell % n;
             let node = move |corner: usize| {
                 let [i, j, k] = [usize::from(matches!(corner % 4, 1 | 2)), corner % 4 / 2, corner / 4];
@@ -93,7 +94,22 @@ impl Patch<3> {
             };
             kind.facts().division.iter().map(move |&corner| node(usize::from(corner)))
         });
-        Self { velocities: velocities.collect(), connectivity: cells.collect(), positions }
+        let corners: Vec<u32> = corners.collect();
+        let mut connectivity = Vec::new();
+        let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+        for cell in corners.chunks_exact(kind.corners()) {
+            connectivity.extend_from_slice(cell);
+            for edge in kind.facts().edges.iter().take(kind.nodes() - kind.corners()) {
+                let [a, b] = edge.map(|corner| cell[usize::from(corner)]);
+                let middle = *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                    positions.push(times(0.5, plus(positions[a as usize], positions[b as usize])));
+                    positions.len() as u32 - 1
+                });
+                connectivity.push(middle);
+            }
+        }
+        let velocities = positions.iter().map(|[x, y, z]| [100.0 * y + 20.0 * x, 60.0 * z - 80.0 * x + 5.0 * y, 10.0 * z - 50.0 * y]);
+        Self { velocities: velocities.collect(), connectivity, positions }
     }
 }
 

@@ -34,8 +34,8 @@ macro_rules! batches {
 batches! {
     /// What belongs to a batch of eight elements and does not depend on the law's number of values.
     ElementBatch {
-        /// Smallest corner mass of each element times its corners: the mass in the stable step, which holds
-        /// for any later form of the element.
+        /// Mass of each element in the stable step: the smallest of its nodes, each times its mass ratio
+        /// ([`super::kernel::Facts`]), which holds for any later form of the element.
         mass_least,
         /// Stored elastic energy of each element, J/m.
         stored,

@@ -21,7 +21,7 @@ use super::Report;
 use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
 use super::kernel::FixedState;
-use super::strain::{Tensor, averages, circumference, deformation, initial_width, matrix};
+use super::strain::{Tensor, averages, circumference, deformation, flow, initial_width, matrix, scale_of_points};
 use super::strip::{Parts, StripBuffers, prefetch_next};
 use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
 use crate::material::Family;
@@ -145,6 +145,9 @@ struct Geometry<L, const D: usize, const N: usize, const P: usize> {
     depth: [L; P],
     area: L,
     volume: L,
+    /// Of an element that is composite: slope of its volume, and its volume over the sum of its points'.
+    slope: [[L; D]; N],
+    scale: L,
 }
 
 impl<E: Element<D, N, P>, S: FixedState, const D: usize, const N: usize, const P: usize> Parts for ForcesKernel<'_, E, S, D, N, P>
@@ -202,15 +205,10 @@ where
         let live = L::load(&self.input.elements[batch].live, at);
         // In 2D all counts as if it were dilatation; in 3D that thickness is for dampers, and for
         // the start.
-        let dilates =
-            D == 2 || !self.input.is_elastic || self.input.viscosity.is_some() || E::HOURGLASS_MODES > 0 || self.input.time_step <= 0.0;
-        let dilating_squared =
-            if dilates { E::characteristic_length_squared(&geometry.x, &geometry.map, geometry.area, zero) } else { [L::splat(1.0); 2] };
-        let characteristic_length_squared = if D == 3 && self.input.is_elastic {
-            E::characteristic_length_squared(&geometry.x, &geometry.map, geometry.area, (shear_least + shear_least) / modulus)
-        } else {
-            dilating_squared
-        };
+        let thickness = E::thickness(&geometry.x, &geometry.map, geometry.area, &geometry.slope);
+        let dilating_squared = thickness.squared();
+        let characteristic_length_squared =
+            if D == 3 && self.input.is_elastic { thickness.squared_with((shear_least + shear_least) / modulus) } else { dilating_squared };
         let mass = L::load(&self.input.elements[batch].mass_least, at);
         let (mut pressure, mut stiffening) = (zero, L::splat(1.0));
         if let Some(coefficients) = self.input.viscosity {
@@ -307,7 +305,15 @@ where
             }
         }
         let nothing = L::splat(-0.0);
-        let mut geometry = Geometry { x, map: self.map(batch, at, &x), depth: [one; P], area: nothing, volume: nothing };
+        let mut geometry = Geometry {
+            x,
+            map: self.map(batch, at, &x),
+            depth: [one; P],
+            area: nothing,
+            volume: nothing,
+            slope: [[zero; D]; N],
+            scale: one,
+        };
         for p in 0..P {
             let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
             geometry.area += own;
@@ -317,6 +323,11 @@ where
                 geometry.depth[p] = circumference(&x, &E::shape(E::POINTS[p]));
             }
             geometry.volume += if S::STATE.is_plane_stress || S::STATE.is_axisymmetric { own * geometry.depth[p] } else { own };
+        }
+        if E::COMPOSITE {
+            (geometry.volume, geometry.slope) = E::enclosed(&x);
+            geometry.area = geometry.volume;
+            geometry.scale = scale_of_points::<E, L, D, N, P>(geometry.volume, &geometry.map.determinants);
         }
         geometry
     }
@@ -343,18 +354,19 @@ where
 
     /// Stress of a point, and its weight in the forces.
     #[inline(always)]
-    fn stress_and_weight<L: Lane>(&self, point: usize, p: usize, at: usize, depth: &[L; P]) -> (Tensor<D, L>, L) {
+    fn stress_and_weight<L: Lane>(&self, point: usize, p: usize, at: usize, geometry: &Geometry<L, D, N, P>) -> (Tensor<D, L>, L) {
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let mut stress = Tensor::<D, L>::load(&self.input.stress[point * components..(point + 1) * components], at);
         if !self.input.damped.is_empty() {
             stress = stress.plus(Tensor::<D, L>::load(&self.input.damped[point * components..(point + 1) * components], at));
         }
         let mut weight = match self.input.family {
+            Family::Rate if E::COMPOSITE => geometry.scale * L::splat(E::WEIGHTS[p]),
             Family::Rate => L::splat(E::WEIGHTS[p]),
             Family::Hyperelastic => L::load(&self.input.strip.weight[point], at),
         };
         if S::STATE.is_plane_stress || S::STATE.is_axisymmetric {
-            weight = weight * depth[p];
+            weight = weight * geometry.depth[p];
         }
         (stress, weight)
     }
@@ -368,7 +380,7 @@ where
         let mut mean = L::splat(-0.0);
         if averages::<E, D, N, P>(S::STATE) {
             for p in 0..P {
-                let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, depth);
+                let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, geometry);
                 mean += stress.trace() * third * (determinants[p] * weight);
             }
             mean = mean / geometry.volume;
@@ -377,16 +389,16 @@ where
         let mut pulls = Pulls::none();
         let mut hoop = [zero; P];
         for p in 0..P {
-            let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, depth);
+            let (stress, weight) = self.stress_and_weight(batch * P + p, p, at, geometry);
             let mut weighted = stress.times(-weight);
             let share = L::splat(E::WEIGHTS[p]);
             // In plane stress nothing is averaged, and the pressure of the bulk viscosity has the thickness.
             let share = if S::STATE.is_axisymmetric { share * depth[p] } else { share };
             if averages::<E, D, N, P>(S::STATE) {
                 let own = stress.trace() * third * weight;
-                weighted = weighted.plus_isotropic(own - mean * share);
+                weighted = weighted.plus_isotropic(if E::COMPOSITE { own } else { own - mean * share });
             }
-            if self.input.viscosity.is_some() {
+            if self.input.viscosity.is_some() && !E::COMPOSITE {
                 weighted = weighted.plus_isotropic(pressure * share);
             }
             flux[p] = Dim::<D>::flux(&weighted, &adjugates[p]);
@@ -408,6 +420,14 @@ where
             pulls.rest[i] = -held.pulls.rest[i];
         }
         let mut nodal = if E::WARPED { E::divergence_warped(&flux, &pulls) } else { E::divergence(&flux) };
+        if E::COMPOSITE {
+            let all = if self.input.viscosity.is_some() { pressure - mean } else { -mean };
+            for a in 0..N {
+                for i in 0..D {
+                    nodal[a][i] += geometry.slope[a][i] * all;
+                }
+            }
+        }
         if S::STATE.is_axisymmetric {
             for p in 0..P {
                 let shape = E::shape(E::POINTS[p]);
@@ -487,6 +507,9 @@ where
         } else {
             v = L::gather_one::<D, N, true>(&self.input.strip.moving, self.input.places, row, at);
         }
+        if E::COMPOSITE {
+            return flow(&geometry.slope, &v);
+        }
         let v = E::natural(&v);
         let (rates, warp) = (E::gradients(&v), E::warp(&v));
         let Map { adjugates, warped, determinants } = &geometry.map;
@@ -532,6 +555,7 @@ where
             dilating_squared,
             area: geometry.area,
             volume: geometry.volume,
+            slope: geometry.slope,
             modulus,
             shear,
             contraction: if S::STATE.is_plane_stress {

@@ -6,7 +6,7 @@
 //! implementation.
 
 use super::forces::{Forces, ForcesKernel};
-use super::strain::{Strain, StrainKernel, Tensor, averages, initial_width, point_volume, radius};
+use super::strain::{Strain, StrainKernel, Tensor, averages, initial_width, point_volume, radius, scale_of_points};
 use super::strip::{ForEachBatch, StripBuffers};
 use crate::element::{Element, ElementOptions, Map, map_of};
 use crate::stress_state::StressState;
@@ -33,6 +33,8 @@ pub(super) struct Facts {
     pub(super) initial: usize,
     /// Weight of its first point.
     pub(super) weight: f64,
+    /// Its mass over that of each node ([`Element::MASS_RATIOS`]).
+    pub(super) mass_ratios: &'static [f64],
     /// Whether dilatations are averaged over the nodes of the block ([`super::nodal`]).
     pub(super) averages_at_nodes: bool,
     /// Its stress state.
@@ -144,6 +146,7 @@ where
             damps: E::DAMPS,
             initial: initial_width::<E, D, N, P>(state),
             weight: E::WEIGHTS[0],
+            mass_ratios: const { &E::MASS_RATIOS },
             averages_at_nodes: E::NODAL_DILATATION && !state.is_plane_stress,
             state,
         };
@@ -172,10 +175,11 @@ where
         volumes.clear();
         initial.clear();
         let mut corner_sums = [0.0; N];
+        let scale = scale_of_points::<E, f64, D, N, P>(E::enclosed(&x).0, &map.determinants);
         for p in 0..P {
             let determinant = map.determinants[p];
             let shape = E::shape(E::POINTS[p]);
-            let volume = point_volume::<E, _, D, N, P>(state, determinant * E::WEIGHTS[p], &x, p);
+            let volume = scale * point_volume::<E, _, D, N, P>(state, determinant * E::WEIGHTS[p], &x, p);
             places.push(std::array::from_fn(|d| (0..N).map(|a| shape[a] * x[a][d]).sum()));
             volumes.push(volume);
             for a in 0..N {

@@ -37,13 +37,13 @@ where
         (0..self.reports.len()).filter(is_light).map(|chunk| (chunk, batches(chunk))).collect()
     }
 
-    /// By how much the element in a lane is too light, if all of its nodes `may` get mass; the mass that each
-    /// corner lacks, kg/m in 2D.
+    /// By how much the element in a lane is too light, if all of its nodes `may` get mass; the mass that it
+    /// lacks, kg/m in 2D.
     fn lack(&self, batch: usize, lane: usize, squared: [f64; 2], may: &dyn Fn(u32) -> bool) -> Option<[f64; 2]> {
         let values = &self.elements[batch];
         let lack = lack(values.time_step_squared.0[lane], squared);
         let lacks = lack > 1.0 && self.nodes_of(batch, lane).all(|node| may(node as u32));
-        lacks.then(|| [lack, (lack - 1.0) * values.mass_least.0[lane] / self.facts().nodes as f64])
+        lacks.then(|| [lack, (lack - 1.0) * values.mass_least.0[lane]])
     }
 
     /// See [`super::Block::mass_for`].
@@ -54,8 +54,7 @@ where
             .flat_map(|(_, batches)| batches)
             .flat_map(|batch| (0..BATCH).map(move |lane| (batch, lane)));
         let live = lanes.filter(|&(batch, lane)| self.elements[batch].live.0[lane] > 0.0);
-        let of_corners: f64 = live.filter_map(|(batch, lane)| self.lack(batch, lane, squared, may)).map(|[_, mass]| mass).sum();
-        of_corners * self.facts().nodes as f64
+        live.filter_map(|(batch, lane)| self.lack(batch, lane, squared, may)).map(|[_, mass]| mass).sum()
     }
 
     /// See [`super::Block::make_heavier`]; whether any was given.
@@ -85,7 +84,8 @@ where
     ) -> bool {
         let Some([lack, mass]) = self.lack(batch, lane, squared, may) else { return false };
         if self.elements[batch].live.0[lane] > 0.0 {
-            self.nodes_of(batch, lane).for_each(|node| add(node as u32, mass));
+            let ratios = self.facts().mass_ratios;
+            self.nodes_of(batch, lane).zip(ratios).for_each(|(node, ratio)| add(node as u32, mass / ratio));
         }
         let values = &mut self.elements[batch];
         values.mass_least.0[lane] *= lack;

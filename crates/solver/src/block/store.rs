@@ -270,10 +270,12 @@ where
         for (a, corner) in geometry.corner_volumes.iter().enumerate() {
             self.corner_mass[batch * nodes + a].0[lane] = density * corner;
         }
-        let least = geometry.corner_volumes.iter().map(|corner| density * corner).fold(f64::INFINITY, f64::min);
+        // Mass of an element whose nodes have their shares of it, and none of them more than it has here.
+        let wholes = geometry.corner_volumes.iter().zip(self.facts().mass_ratios).map(|(corner, ratio)| density * corner * ratio);
+        let least = wholes.fold(f64::INFINITY, f64::min);
         let volume = geometry.volumes.iter().fold(0.0, |sum, volume| sum + volume);
         let values = &mut self.elements[batch];
-        values.mass_least.0[lane] = nodes as f64 * least;
+        values.mass_least.0[lane] = least;
         values.live.0[lane] = if batch * BATCH + lane < self.count { 1.0 } else { 0.0 };
         values.stored.0[lane] = self.law.stored() * volume;
         if self.resists() {
@@ -482,14 +484,16 @@ where
     }
 
     fn bound_stiffness(&self, shortest: f64, add: &mut dyn FnMut(u32, f64, f64)) {
-        let Facts { nodes, damps, .. } = *self.facts();
+        let Facts { mass_ratios, damps, .. } = *self.facts();
         let is_damped = self.resists() || damps;
         for element in (0..self.count).filter(|&element| self.is_alive(element)) {
             let (batch, lane) = (element / BATCH, element % BATCH);
             let values = &self.elements[batch];
-            let (mass, squared) = (values.mass_least.0[lane] / nodes as f64, values.time_step_squared.0[lane]);
-            let stiffness = bounding_stiffness(mass, squared, shortest, is_damped);
-            self.nodes_of(batch, lane).for_each(|node| add(node as u32, stiffness, mass));
+            let (mass, squared) = (values.mass_least.0[lane], values.time_step_squared.0[lane]);
+            for (node, ratio) in self.nodes_of(batch, lane).zip(mass_ratios) {
+                let mass = mass / ratio;
+                add(node as u32, bounding_stiffness(mass, squared, shortest, is_damped), mass);
+            }
         }
     }
 

@@ -60,6 +60,18 @@ where
     f
 }
 
+/// What the motion of the nodes adds to a volume with these slopes.
+#[inline(always)]
+pub(super) fn flow<L: Lane, const D: usize, const N: usize>(slope: &[[L; D]; N], motion: &[[L; D]; N]) -> L {
+    let mut sum = L::splat(-0.0);
+    for a in 0..N {
+        for i in 0..D {
+            sum += slope[a][i] * motion[a][i];
+        }
+    }
+    sum
+}
+
 /// A matrix from batches, row by row.
 #[inline(always)]
 pub(super) fn matrix<L: Lane, const D: usize>(from: &[Batch], at: usize) -> Matrix<L, D> {
@@ -112,6 +124,25 @@ where
     Dim<D>: Space<D>,
 {
     if state.of::<D>().is_axisymmetric { area * circumference(x, &E::shape(E::POINTS[p])) } else { area }
+}
+
+/// Volume of an element that is composite over the weighted sum of its determinants; of another one 1.
+#[inline(always)]
+pub(super) fn scale_of_points<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
+    enclosed: L,
+    determinants: &[L; P],
+) -> L
+where
+    Dim<D>: Space<D>,
+{
+    if !E::COMPOSITE {
+        return L::splat(1.0);
+    }
+    let mut sum = L::splat(-0.0);
+    for p in 0..P {
+        sum += determinants[p] * L::splat(E::WEIGHTS[p]);
+    }
+    enclosed / sum
 }
 
 /// Whether dilatations are averaged over the element.
@@ -247,7 +278,7 @@ where
         let turn = <Rotation<D, L> as Turn<L>>::COMPONENTS;
         // Sums begin with -0: the first addition is none.
         let (mut dilatation, mut volume) = (L::splat(-0.0), L::splat(-0.0));
-        let mut traces = [zero; P];
+        let (mut traces, mut determinants_middle) = ([zero; P], [zero; P]);
         for p in 0..P {
             let mut middle = jacobians[p];
             if E::PARTS == N {
@@ -284,6 +315,9 @@ where
                 dilatation += traces[p] * own;
                 volume += own;
             }
+            if E::COMPOSITE {
+                determinants_middle[p] = determinant;
+            }
             let (point, [half_way, rotation]) = (batch * P + p, turns);
             // Strain increment and old stress meet at the end of the step; without its half rotation the
             // update is of first order only.
@@ -293,6 +327,15 @@ where
             if self.input.measures.rotation {
                 rotation.store(&mut self.input.strip.rotation[point * turn..(point + 1) * turn], at);
             }
+        }
+        if E::COMPOSITE {
+            let (enclosed, slope) = E::enclosed(&x_middle);
+            let scale = scale_of_points::<E, L, D, N, P>(enclosed, &determinants_middle);
+            for p in 0..P {
+                let own = &mut self.input.strip.volume[batch * P + p];
+                (L::load(own, at) * scale).store(own, at);
+            }
+            (dilatation, volume) = (flow(&slope, &step), enclosed);
         }
         if averages::<E, D, N, P>(S::STATE) {
             dilatation = dilatation / volume;
@@ -339,6 +382,9 @@ where
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
             volume += point_volume::<E, _, D, N, P>(S::STATE, own, x, p);
         }
+        if E::COMPOSITE {
+            volume = E::enclosed(x).0;
+        }
         let initial = L::load(&self.input.volume_initial[batch], at);
         let ratio = volume / initial;
         let heat = match self.input.resistance.get(batch) {
@@ -367,6 +413,9 @@ where
             let own_initial = L::load(&self.input.initial[(batch * P + p) * width + D * D], at);
             own_initial.store(&mut self.input.strip.volume[batch * P + p], at);
             volume_initial += own_initial;
+        }
+        if E::COMPOSITE {
+            volume = E::enclosed(x).0;
         }
         let ratio_mean = volume / volume_initial;
         if E::HOURGLASS_MODES > 0 {
@@ -403,7 +452,7 @@ where
                 // J.
                 let change = ratio_mean / ratio_point;
                 let root = embate_lanes::math::cbrt(change);
-                weight = weight * change;
+                weight = if E::COMPOSITE { L::load(&initial[D * D], at) * ratio_mean / determinants[p] } else { weight * change };
                 (ratio, scale) = (ratio_mean, root * root);
             }
             let mut b = Dim::<D>::left_cauchy_green(&f, scale);

@@ -14,7 +14,7 @@
 //! At 2 × 2 × 2 points only four values of each derivative occur, which saves most of the work. Source:
 //! Hughes, The Finite Element Method (1987), 3.5 and 4.5 (mean dilatation).
 
-use super::stiffest::{Metric, stiffest};
+use super::stiffest::{Metric, Thickness};
 use super::{Element, ElementKind, ElementOptions, Map};
 use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
@@ -204,7 +204,7 @@ impl Element<3, 8, 8> for Hex8 {
     }
 
     #[inline(always)]
-    fn characteristic_length_squared<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 8>, volume: L, shear: L) -> [L; 2] {
+    fn thickness<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 8>, volume: L, _: &[[L; 3]; 8]) -> Thickness<L> {
         let (mut trace, mut spread) = (L::splat(0.0), L::splat(0.0));
         for p in 0..8 {
             let inverse = L::splat(1.0) / map.determinants[p];
@@ -213,6 +213,6 @@ impl Element<3, 8, 8> for Hex8 {
             trace = trace.max(own[0] * inverse);
             spread = spread.max(own[1] * (inverse * inverse));
         }
-        [volume * L::splat(0.5), stiffest([trace, spread], shear)]
+        Thickness::of_points(volume * L::splat(0.5), [trace, spread])
     }
 }

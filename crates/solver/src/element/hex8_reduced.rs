@@ -35,7 +35,7 @@
 
 use super::hex8::{self, Hex8, Parts};
 use super::hex8_assumed_strain::{self, bend};
-use super::stiffest::{Metric, stiffest};
+use super::stiffest::{Metric, Thickness};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
 use crate::mesh::cell::CellKind;
 use crate::tensor::{Dim, Matrix, Space, cross, dot, scaled};
@@ -300,11 +300,11 @@ macro_rules! reduced {
             }
             /// Σ_a B_a B_aᵀ is 8 times that of the parts, 64 V = D.
             #[inline(always)]
-            fn characteristic_length_squared<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 1>, _: L, shear: L) -> [L; 2] {
+            fn thickness<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 1>, _: L, _: &[[L; 3]; 8]) -> Thickness<L> {
                 let ([a, b, c], [d, e, f]) = (map.adjugates[0], map.warped);
                 let determinant = map.determinants[0];
                 let spectrum = Metric::of(a).and(b).and(c).and(d).and(e).and(f).spectrum();
-                [determinant * determinant * L::splat(1.0 / 16.0), stiffest(spectrum, shear)]
+                Thickness::of_points(determinant * determinant * L::splat(1.0 / 16.0), spectrum)
             }
             fn corner_volumes(nodal: &[[f64; 3]; 8], _: bool) -> Option<[f64; 8]> {
                 Some(corner_volumes(nodal))

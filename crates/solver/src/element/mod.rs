@@ -17,6 +17,7 @@ mod hex8_reduced;
 mod quad4;
 mod quad4_reduced;
 mod stiffest;
+mod tet10;
 mod tet4;
 mod tri3;
 mod wedge6;
@@ -31,7 +32,9 @@ pub use shell2::SHELL2;
 pub use shell3::SHELL3;
 pub use shell4::SHELL4;
 pub use shell4_full::SHELL4_FULL;
+pub use stiffest::Thickness;
 pub use tet4::{Tet4, Tet4Anp};
+pub use tet10::Tet10;
 pub use tri3::{Tri3, Tri3Anp};
 pub use wedge6::Wedge6;
 
@@ -102,6 +105,11 @@ where
     /// Whether the gradient at its one point is the exact mean over an element that may be warped: then it
     /// takes a second matrix of natural parts, [`Element::warp`].
     const WARPED: bool = false;
+    /// Whether it is made of smaller ones: then gradients at its points are projections of theirs, its volume
+    /// is that of [`Element::enclosed`], which is no sum over points, and so is the mean dilatation.
+    const COMPOSITE: bool = false;
+    /// Mass of an undistorted element over that of each node; the stable step counts with them.
+    const MASS_RATIOS: [f64; N] = [N as f64; N];
 
     /// The element with its options.
     fn new(options: &ElementOptions) -> Self;
@@ -141,12 +149,15 @@ where
     fn divergence_warped<L: Lane>(flux: &[Matrix<L, D>; P], _pulls: &Pulls<L, D>) -> [[L; D]; N] {
         Self::divergence(flux)
     }
-    /// Square of the element's thickness h, m², as numerator and denominator, so that the step costs one
-    /// division: dt = h / c is stable for waves of speed c² = M/ρ when every corner has the mass share 1/N.
-    /// `natural` are the parts of the positions, `map` is that of the element's present form, `volume` the
-    /// weighted sum of its determinants, and `shear` the part s = 2µ/M of an isotropic elastic stiffness in
-    /// M = K + 4µ/3, or 0 where only M is known.
-    fn characteristic_length_squared<L: Lane>(natural: &[[L; D]; N], map: &Map<L, D, P>, volume: L, shear: L) -> [L; 2];
+    /// Of an element that is composite: the volume that its outside encloses, and its slope by each node.
+    #[inline(always)]
+    fn enclosed<L: Lane>(_nodal: &[[L; D]; N]) -> (L, [[L; D]; N]) {
+        (L::splat(0.0), [[L::splat(0.0); D]; N])
+    }
+    /// The element's thickness, for the stable step: `natural` are the parts of the positions, `map` is that
+    /// of the element's present form, `volume` the weighted sum of its determinants, of a composite one what
+    /// it encloses, and `slope` that of this volume by each node.
+    fn thickness<L: Lane>(natural: &[[L; D]; N], map: &Map<L, D, P>, volume: L, slope: &[[L; D]; N]) -> Thickness<L>;
     /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of an axisymmetric body; `None`: the points' sums are
     /// exact enough.
     fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
@@ -263,6 +274,8 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub area: L,
     /// Volume: area times depth, m² (m³).
     pub volume: L,
+    /// Of an element that is composite: slope of the volume by each node, m (m²).
+    pub slope: [[L; D]; N],
     /// M: K + 4µ/3, in plane stress E/(1 − ν²), Pa.
     pub modulus: L,
     /// µ, Pa.
@@ -375,6 +388,7 @@ elements! {
         Wedge6: 6 nodes, 6 points,
         Tet4: 4 nodes, 1 points,
         Tet4Anp: 4 nodes, 1 points,
+        Tet10: 10 nodes, 4 points,
     }
 }
 

@@ -53,12 +53,22 @@ impl Part {
     /// ([`ElementKind::is_default`]); `None` when there is none of them.
     #[must_use]
     pub fn element_in(&self, dimension: usize, cell: CellKind) -> Option<&'static ElementKind> {
-        let is_named = |kind: &&ElementKind| [&self.element, &self.element_triangles].iter().any(|name| *name == kind.name);
-        let turning = || BEAMS.iter().chain(SHELLS).filter(|kind| kind.dimension <= dimension);
-        let kinds = || elements_of(dimension).iter().chain(BARS).chain(turning()).filter(|kind| kind.cell == cell);
-        let stands_in = |kind: &&ElementKind| dimension == 3 && ELEMENTS.iter().filter(is_named).any(|own| own.extruded == Some(kind.name));
-        kinds().find(|kind| is_named(kind) || stands_in(kind)).or_else(|| kinds().find(|kind| kind.is_default))
+        self.named_element_in(dimension, cell).or_else(|| elements_for(dimension, cell).find(|kind| kind.is_default))
     }
+
+    /// The same without the default ones.
+    #[must_use]
+    pub fn named_element_in(&self, dimension: usize, cell: CellKind) -> Option<&'static ElementKind> {
+        let is_named = |kind: &&ElementKind| [&self.element, &self.element_triangles].iter().any(|name| *name == kind.name);
+        let stands_in = |kind: &&ElementKind| dimension == 3 && ELEMENTS.iter().filter(is_named).any(|own| own.extruded == Some(kind.name));
+        elements_for(dimension, cell).find(|kind| is_named(kind) || stands_in(kind))
+    }
+}
+
+/// Elements of a kind of cell in a model of so many dimensions.
+fn elements_for(dimension: usize, cell: CellKind) -> impl Iterator<Item = &'static ElementKind> {
+    let turning = BEAMS.iter().chain(SHELLS).filter(move |kind| kind.dimension <= dimension);
+    elements_of(dimension).iter().chain(BARS).chain(turning).filter(move |kind| kind.cell == cell)
 }
 
 impl Model {

@@ -12,7 +12,7 @@
 //! values of each occur, which saves most of the work. Source: Hughes, The Finite Element Method (1987), 3.2
 //! and 4.5 (mean dilatation).
 
-use super::{Element, ElementKind, ElementOptions, Map};
+use super::{Element, ElementKind, ElementOptions, Map, Thickness};
 use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
@@ -119,8 +119,9 @@ macro_rules! quadrilateral {
                 divergence(flux)
             }
             #[inline(always)]
-            fn characteristic_length_squared<L: Lane>(nodal: &[[L; 2]; 4], map: &Map<L, 2, 4>, volume: L, _: L) -> [L; 2] {
-                characteristic_length_squared(nodal, &map.determinants, volume)
+            fn thickness<L: Lane>(nodal: &[[L; 2]; 4], map: &Map<L, 2, 4>, volume: L, _: &[[L; 2]; 4]) -> Thickness<L> {
+                let [numerator, denominator] = characteristic_length_squared(nodal, &map.determinants, volume);
+                Thickness::of_waves(numerator, denominator)
             }
         }
     };

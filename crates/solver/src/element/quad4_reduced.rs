@@ -36,7 +36,7 @@
 //! 311-340.
 
 use super::quad4::{Quad4Full, distance_squared, shape};
-use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
+use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls, Thickness};
 use crate::mesh::cell::CellKind;
 use crate::tensor::{Dim, Matrix, Space, scaled};
 use embate_lanes::{Batch, Lane};
@@ -394,8 +394,9 @@ macro_rules! reduced {
                 out
             }
             #[inline(always)]
-            fn characteristic_length_squared<L: Lane>(nodal: &[[L; 2]; 4], _: &Map<L, 2, 1>, area: L, _: L) -> [L; 2] {
-                characteristic_length_squared(nodal, area)
+            fn thickness<L: Lane>(nodal: &[[L; 2]; 4], _: &Map<L, 2, 1>, area: L, _: &[[L; 2]; 4]) -> Thickness<L> {
+                let [numerator, denominator] = characteristic_length_squared(nodal, area);
+                Thickness::of_waves(numerator, denominator)
             }
             fn corner_volumes(nodal: &[[f64; 2]; 4], is_axisymmetric: bool) -> Option<[f64; 4]> {
                 Some(corner_volumes(nodal, is_axisymmetric))

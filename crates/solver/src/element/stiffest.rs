@@ -57,10 +57,57 @@ impl<L: Lane> Metric<L> {
     }
 }
 
-/// max(1 − s, 0) T + s Λ from the trace t and 3q − t².
+/// Λ from the trace t and 3q − t².
 #[inline(always)]
-pub(super) fn stiffest<L: Lane>([trace, spread]: [L; 2], shear: L) -> L {
-    let dilating = (L::splat(1.0) - shear).max(L::splat(0.0));
-    let largest = (trace + (spread + spread).sqrt()) * L::splat(1.0 / 3.0);
-    dilating * trace + shear * largest
+pub(super) fn largest<L: Lane>([trace, spread]: [L; 2]) -> L {
+    (trace + (spread + spread).sqrt()) * L::splat(1.0 / 3.0)
+}
+
+/// Square of the thickness of an element, m², as numerator and denominator, so that the step costs one
+/// division: dt = h / c is stable for waves of speed c² = M/ρ when every node has its share of the mass
+/// ([`super::Element::MASS_RATIOS`]).
+#[derive(Clone, Copy, Debug)]
+pub struct Thickness<L> {
+    numerator: L,
+    /// Denominator where only M is known of the stiffness, or where all of M resists dilatation alone.
+    unknown: L,
+    /// Of a body with s = 2µ/M the denominator is max(1 − a s, 0) b + s c.
+    known: [L; 3],
+}
+
+impl<L: Lane> Thickness<L> {
+    /// Of an element in 2D, where no more than M is asked for.
+    #[inline(always)]
+    #[must_use]
+    pub fn of_waves(numerator: L, denominator: L) -> Self {
+        Self { numerator, unknown: denominator, known: [L::splat(1.0), denominator, denominator] }
+    }
+
+    /// From the largest trace and spread of S at the points.
+    #[inline(always)]
+    pub(super) fn of_points(numerator: L, spectrum: [L; 2]) -> Self {
+        Self { numerator, unknown: spectrum[0], known: [L::splat(1.0), spectrum[0], largest(spectrum)] }
+    }
+
+    /// From all its parts.
+    #[inline(always)]
+    pub(super) fn of_parts(numerator: L, unknown: L, known: [L; 3]) -> Self {
+        Self { numerator, unknown, known }
+    }
+
+    /// Where only M is known of the stiffness.
+    #[inline(always)]
+    #[must_use]
+    pub fn squared(&self) -> [L; 2] {
+        [self.numerator, self.unknown]
+    }
+
+    /// Of an isotropic elastic stiffness with the part `shear`, s = 2µ/M in M = K + 4µ/3.
+    #[inline(always)]
+    #[must_use]
+    pub fn squared_with(&self, shear: L) -> [L; 2] {
+        let [share, dilating, shearing] = self.known;
+        let part = (L::splat(1.0) - share * shear).max(L::splat(0.0));
+        [self.numerator, part * dilating + shear * shearing]
+    }
 }

@@ -13,7 +13,7 @@
 //! Sources: Hughes, The Finite Element Method (1987), 3.I; Bonet and Burton, Commun. Numer. Meth. Engng 14
 //! (1998) 437-449.
 
-use super::stiffest::{Metric, stiffest};
+use super::stiffest::{Metric, Thickness};
 use super::{Element, ElementKind, ElementOptions, Map};
 use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
@@ -58,8 +58,8 @@ macro_rules! tetrahedron {
                 out
             }
             #[inline(always)]
-            fn characteristic_length_squared<L: Lane>(_: &[[L; 3]; 4], map: &Map<L, 3, 1>, _: L, shear: L) -> [L; 2] {
-                characteristic_length_squared(map, shear)
+            fn thickness<L: Lane>(_: &[[L; 3]; 4], map: &Map<L, 3, 1>, _: L, _: &[[L; 3]; 4]) -> Thickness<L> {
+                thickness(map)
             }
         }
     };
@@ -98,9 +98,9 @@ tetrahedron!(
 /// h² = 1 / (max(1 − s, 0) T + s Λ) of Σ_a ∇N_a ∇N_aᵀ, whose rows times the determinant are those of the
 /// adjugate, and minus their sum.
 #[inline(always)]
-fn characteristic_length_squared<L: Lane>(map: &Map<L, 3, 1>, shear: L) -> [L; 2] {
+fn thickness<L: Lane>(map: &Map<L, 3, 1>) -> Thickness<L> {
     let [a, b, c] = map.adjugates[0];
     let last = [a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]];
     let determinant = map.determinants[0];
-    [determinant * determinant, stiffest(Metric::of(a).and(b).and(c).and(last).spectrum(), shear)]
+    Thickness::of_points(determinant * determinant, Metric::of(a).and(b).and(c).and(last).spectrum())
 }

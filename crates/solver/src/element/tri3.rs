@@ -12,7 +12,7 @@
 //! (1998) 437-449.
 
 use super::quad4::distance_squared;
-use super::{Element, ElementKind, ElementOptions, Map};
+use super::{Element, ElementKind, ElementOptions, Map, Thickness};
 use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
@@ -58,8 +58,9 @@ macro_rules! triangle {
                 out
             }
             #[inline(always)]
-            fn characteristic_length_squared<L: Lane>(x: &[[L; 2]; 3], _: &Map<L, 2, 1>, area: L, _: L) -> [L; 2] {
-                characteristic_length_squared(x, area)
+            fn thickness<L: Lane>(x: &[[L; 2]; 3], _: &Map<L, 2, 1>, area: L, _: &[[L; 2]; 3]) -> Thickness<L> {
+                let [numerator, denominator] = characteristic_length_squared(x, area);
+                Thickness::of_waves(numerator, denominator)
             }
             fn corner_volumes(x: &[[f64; 2]; 3], is_axisymmetric: bool) -> Option<[f64; 3]> {
                 Some(corner_volumes(x, is_axisymmetric))

@@ -17,7 +17,7 @@
 //! linear in the triangle times ζ, have 1/3 + 1/4 < 1 of it. Source: Hughes, The Finite Element Method
 //! (1987), 3.I and 4.5 (mean dilatation).
 
-use super::stiffest::{Metric, stiffest};
+use super::stiffest::{Metric, Thickness};
 use super::{Element, ElementKind, ElementOptions, Map};
 use crate::mesh::cell::CellKind;
 use crate::tensor::Matrix;
@@ -100,7 +100,7 @@ impl Element<3, 6, 6> for Wedge6 {
     }
 
     #[inline(always)]
-    fn characteristic_length_squared<L: Lane>(_: &[[L; 3]; 6], map: &Map<L, 3, 6>, volume: L, shear: L) -> [L; 2] {
+    fn thickness<L: Lane>(_: &[[L; 3]; 6], map: &Map<L, 3, 6>, volume: L, _: &[[L; 3]; 6]) -> Thickness<L> {
         let (scale, height) = (L::splat(0.5f64.sqrt()), L::splat((1.0 / 6.0f64).sqrt()));
         let (mut trace, mut spread) = (L::splat(0.0), L::splat(0.0));
         for p in 0..6 {
@@ -115,6 +115,6 @@ impl Element<3, 6, 6> for Wedge6 {
             trace = trace.max(own[0] * inverse);
             spread = spread.max(own[1] * (inverse * inverse));
         }
-        [volume * L::splat(4.0 / 6.0), stiffest([trace, spread], shear)]
+        Thickness::of_points(volume * L::splat(4.0 / 6.0), [trace, spread])
     }
 }

@@ -115,9 +115,11 @@ pub(crate) static LOCKING: Message = Message {
             = [1, 0]\nrectangle = { corner = [0, 0], size = [\"10 mm\", \"10 mm\"], elements = [2, 2] \
             }\n\n[[contact]]\nname = \"self\"\nbodies = \"all\"\n",
     ),
-    cause: "A nearly incompressible material in elements that hold the volume at each of their points: bending and \
-        shear are several times too stiff.",
-    remedy: "Take `quad4`, or `tri3_anp` for triangles.",
+    cause: "A nearly incompressible material, or one that flows plastically, in elements that hold the volume one by one: bending and \
+        shear are several times too stiff, also with many elements. Of triangles and tetrahedra that is the rule: `tri3` and `tet4` are for \
+        foams and brittle fragments.",
+    remedy: "Take `quad4` for `quad4_full`, `tri3_anp` for triangles, `tet10` for tetrahedra: a mesh of four-node tetrahedra becomes one of \
+        ten nodes by itself, and should be coarser.",
 };
 
 pub(crate) static FLUID: Message = Message {

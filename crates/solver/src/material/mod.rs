@@ -378,6 +378,7 @@ struct Facts {
     is_isotropic: bool,
     flows_in_volume: bool,
     needs_equation_of_state: bool,
+    has_plastic_strain: bool,
 }
 
 fn facts(name: &str) -> Option<Facts> {
@@ -390,6 +391,7 @@ fn facts(name: &str) -> Option<Facts> {
                 is_isotropic: M::ISOTROPIC,
                 flows_in_volume: M::FLOWS_IN_VOLUME,
                 needs_equation_of_state: M::NEEDS_EQUATION_OF_STATE,
+                has_plastic_strain: M::VARIABLES.iter().any(|history| history.variable == &variable::PLASTIC_STRAIN),
             }
         }
     }
@@ -400,6 +402,13 @@ fn facts(name: &str) -> Option<Facts> {
 #[must_use]
 pub fn is_hyperelastic(name: &str) -> Option<bool> {
     facts(name).map(|law| law.family == Family::Hyperelastic)
+}
+
+/// Whether the law called `name` flows plastically, and keeps its volume in doing so; `None` when there is no
+/// such law.
+#[must_use]
+pub fn flows_at_constant_volume(name: &str) -> Option<bool> {
+    facts(name).map(|law| law.has_plastic_strain && !law.flows_in_volume)
 }
 
 /// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there

@@ -4,9 +4,9 @@
 //! Element kinds name the kind of their cell, groups of elements and results carry it, and surfaces, file
 //! formats and pictures read its facts. To add a kind: its variant, its line in [`CellKind::ALL`] and its
 //! [`Facts`]; the tests below check them. The facts leave room for cells whose nodes are not all corners
-//! (six-node triangle, ten-node tetrahedron: corners come first), whose corners do not all have three edges
-//! (pyramid), and whose dimension is below that of the model (four-node shell beside a four-node
-//! tetrahedron).
+//! (ten-node tetrahedron: corners come first, then the middles of its edges in their order), whose corners do
+//! not all have three edges (pyramid), and whose dimension is below that of the model (four-node shell beside
+//! a four-node tetrahedron).
 //!
 //! ```text
 //!   3-----2      2          3              3-----5            7-----6
@@ -38,6 +38,8 @@ pub enum CellKind {
     Wedge,
     /// Eight nodes: two quadrilaterals; seen from the second, the first runs counter-clockwise.
     Hexahedron,
+    /// Ten nodes: a tetrahedron, and the middles of its edges.
+    Tetrahedron10,
 }
 
 /// The facts of a kind of cell. Corners are numbered from 0; nodes that are no corners come after them.
@@ -59,6 +61,9 @@ pub struct Facts {
     /// Corners of each face; a triangle repeats its last one. Of a volume they are its sides in the order of
     /// Abaqus, counter-clockwise seen from outside; a surface is its own face.
     pub faces: &'static [[u8; 4]],
+    /// Nodes of what the faces are made of: of each face as many facets, those of the first come first. The
+    /// faces themselves where all nodes are corners; else the triangles between neighbouring nodes.
+    pub facets: &'static [[u8; 4]],
     /// Of each corner the other ends of its edges: of a surface the next corner, then the previous one; of a
     /// volume counter-clockwise seen from inside, so that any three that follow each other are right-handed.
     pub neighbours: &'static [&'static [u8]],
@@ -76,7 +81,7 @@ pub struct Facts {
     pub size: f64,
     /// What becomes of it when it is extruded, node by node: first those of one end, then those of the other.
     pub extruded: Option<CellKind>,
-    /// Corners of the cells of this kind into which the [`CellKind::Quadrilateral`] or
+    /// Corners, and no other nodes, of the cells of this kind into which the [`CellKind::Quadrilateral`] or
     /// [`CellKind::Hexahedron`] of its dimension can be divided.
     pub division: &'static [u8],
     /// Number in VTK's files.
@@ -97,8 +102,16 @@ pub const MOST_NODES: usize = {
 
 impl CellKind {
     /// Every kind.
-    pub const ALL: [Self; 7] =
-        [Self::Point, Self::Line, Self::Triangle, Self::Quadrilateral, Self::Tetrahedron, Self::Wedge, Self::Hexahedron];
+    pub const ALL: [Self; 8] = [
+        Self::Point,
+        Self::Line,
+        Self::Triangle,
+        Self::Quadrilateral,
+        Self::Tetrahedron,
+        Self::Wedge,
+        Self::Hexahedron,
+        Self::Tetrahedron10,
+    ];
 
     /// Its facts.
     #[must_use]
@@ -111,6 +124,7 @@ impl CellKind {
             Self::Tetrahedron => &TETRAHEDRON,
             Self::Wedge => &WEDGE,
             Self::Hexahedron => &HEXAHEDRON,
+            Self::Tetrahedron10 => &TETRAHEDRON10,
         }
     }
 
@@ -225,9 +239,31 @@ impl<'a> Cell<'a> {
         self.kind.facts().edges.iter().map(move |edge| edge.map(|k| self.nodes[usize::from(k)]))
     }
 
-    /// Nodes at the corners of each face; a triangle repeats its last one.
-    pub fn faces(self) -> impl Iterator<Item = [u32; 4]> + Clone {
-        self.kind.facts().faces.iter().map(move |face| face.map(|k| self.nodes[usize::from(k)]))
+    /// Nodes of each piece of an edge: of the whole where it has no node in its middle.
+    pub fn pieces_of_edges(self) -> impl Iterator<Item = [u32; 2]> + Clone {
+        let middles = self.nodes[self.kind.corners()..].iter().copied().map(Some).chain(std::iter::repeat(None));
+        self.edges()
+            .zip(middles)
+            .flat_map(|([a, b], middle)| match middle {
+                Some(middle) => [Some([a, middle]), Some([middle, b])],
+                None => [Some([a, b]), None],
+            })
+            .flatten()
+    }
+
+    /// The corner of a simplex beyond the face that a facet is a piece of; `None`: it has no such facet.
+    #[must_use]
+    pub fn beyond(self, facet: &[u32]) -> Option<u32> {
+        let facts = self.kind.facts();
+        let has_all = |own: &[u8; 4]| facet.iter().all(|node| own.iter().any(|&k| self.nodes[usize::from(k)] == *node));
+        let place = facts.facets.iter().position(has_all)?;
+        let face = &facts.faces[place * facts.faces.len() / facts.facets.len()];
+        (0..facts.corners as u8).find(|corner| !face.contains(corner)).map(|corner| self.nodes[usize::from(corner)])
+    }
+
+    /// Nodes of each facet; a triangle repeats its last one.
+    pub fn facets(self) -> impl Iterator<Item = [u32; 4]> + Clone {
+        self.kind.facts().facets.iter().map(move |facet| facet.map(|k| self.nodes[usize::from(k)]))
     }
 
     /// Whether a node occurs twice.
@@ -245,6 +281,7 @@ const POINT: Facts = Facts {
     corners: 1,
     edges: &[],
     faces: &[],
+    facets: &[],
     neighbours: &[&[]],
     symmetries: &[0],
     reflection: &[0],
@@ -265,6 +302,7 @@ const LINE: Facts = Facts {
     corners: 2,
     edges: &[[0, 1]],
     faces: &[],
+    facets: &[],
     neighbours: &[&[1], &[0]],
     symmetries: &[0, 1, 1, 0],
     reflection: &[0, 1],
@@ -285,6 +323,7 @@ const TRIANGLE: Facts = Facts {
     corners: 3,
     edges: &[[0, 1], [1, 2], [2, 0]],
     faces: &[[0, 1, 2, 2]],
+    facets: &[[0, 1, 2, 2]],
     neighbours: &[&[1, 2], &[2, 0], &[0, 1]],
     symmetries: [[0, 1, 2], [1, 2, 0], [2, 0, 1]].as_flattened(),
     reflection: &[0, 2, 1],
@@ -305,6 +344,7 @@ const QUADRILATERAL: Facts = Facts {
     corners: 4,
     edges: &[[0, 1], [1, 2], [2, 3], [3, 0]],
     faces: &[[0, 1, 2, 3]],
+    facets: &[[0, 1, 2, 3]],
     neighbours: &[&[1, 3], &[2, 0], &[3, 1], &[0, 2]],
     symmetries: [[0, 1, 2, 3], [1, 2, 3, 0], [2, 3, 0, 1], [3, 0, 1, 2]].as_flattened(),
     reflection: &[0, 3, 2, 1],
@@ -325,6 +365,7 @@ const TETRAHEDRON: Facts = Facts {
     corners: 4,
     edges: &[[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]],
     faces: &[[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [2, 0, 3, 3]],
+    facets: &[[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [2, 0, 3, 3]],
     neighbours: &[&[1, 2, 3], &[2, 0, 3], &[0, 1, 3], &[0, 2, 1]],
     symmetries: [
         [0, 1, 2, 3],
@@ -352,6 +393,83 @@ const TETRAHEDRON: Facts = Facts {
     gmsh: 4,
 };
 
+/// The tetrahedron with the middles of its edges, in the order of Abaqus and VTK.
+const TETRAHEDRON10: Facts = Facts {
+    name: "tetra10",
+    plural: "ten-node tetrahedra",
+    nodes: 10,
+    facets: TETRAHEDRON10_FACETS.as_flattened(),
+    symmetries: TETRAHEDRON10_SYMMETRIES.as_flattened(),
+    reflection: &with_middles([0, 2, 1, 3]),
+    reference: &[
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.5, 0.0, 0.0],
+        [0.5, 0.5, 0.0],
+        [0.0, 0.5, 0.0],
+        [0.0, 0.0, 0.5],
+        [0.5, 0.0, 0.5],
+        [0.0, 0.5, 0.5],
+    ],
+    vtk: 24,
+    gmsh: 11,
+    ..TETRAHEDRON
+};
+
+/// The node in the middle of the edge between two corners of a tetrahedron.
+const fn middle(a: u8, b: u8) -> u8 {
+    let mut edge = 0;
+    loop {
+        let [from, to] = TETRAHEDRON.edges[edge];
+        if (from == a && to == b) || (from == b && to == a) {
+            return 4 + edge as u8;
+        }
+        edge += 1;
+    }
+}
+
+/// A numbering of the corners of a tetrahedron with that of the middles of its edges.
+const fn with_middles(corners: [u8; 4]) -> [u8; 10] {
+    let mut way = [0; 10];
+    let mut k = 0;
+    while k < 10 {
+        way[k] = if k < 4 {
+            corners[k]
+        } else {
+            let [a, b] = TETRAHEDRON.edges[k - 4];
+            middle(corners[a as usize], corners[b as usize])
+        };
+        k += 1;
+    }
+    way
+}
+
+/// Four triangles on each face: at its corners, and between its middles.
+const TETRAHEDRON10_FACETS: [[[u8; 4]; 4]; 4] = {
+    let mut all = [[[0; 4]; 4]; 4];
+    let mut face = 0;
+    while face < 4 {
+        let [a, b, c, _] = TETRAHEDRON.faces[face];
+        let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+        all[face] = [[a, ab, ca, ca], [ab, b, bc, bc], [ca, bc, c, c], [ab, bc, ca, ca]];
+        face += 1;
+    }
+    all
+};
+
+const TETRAHEDRON10_SYMMETRIES: [[u8; 10]; 12] = {
+    let mut all = [[0; 10]; 12];
+    let mut way = 0;
+    while way < 12 {
+        let own = TETRAHEDRON.symmetries;
+        all[way] = with_middles([own[4 * way], own[4 * way + 1], own[4 * way + 2], own[4 * way + 3]]);
+        way += 1;
+    }
+    all
+};
+
 const WEDGE: Facts = Facts {
     name: "wedge",
     plural: "wedges",
@@ -360,6 +478,7 @@ const WEDGE: Facts = Facts {
     corners: 6,
     edges: &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]],
     faces: &[[0, 2, 1, 1], [3, 4, 5, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
+    facets: &[[0, 2, 1, 1], [3, 4, 5, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]],
     neighbours: &[&[1, 2, 3], &[2, 0, 4], &[0, 1, 5], &[5, 4, 0], &[3, 5, 1], &[4, 3, 2]],
     symmetries: [[0, 1, 2, 3, 4, 5], [1, 2, 0, 4, 5, 3], [2, 0, 1, 5, 3, 4], [3, 5, 4, 0, 2, 1], [5, 4, 3, 2, 1, 0], [4, 3, 5, 1, 0, 2]]
         .as_flattened(),
@@ -381,6 +500,7 @@ const HEXAHEDRON: Facts = Facts {
     corners: 8,
     edges: &[[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]],
     faces: &[[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
+    facets: &[[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
     neighbours: &[&[1, 3, 4], &[2, 0, 5], &[3, 1, 6], &[0, 2, 7], &[7, 5, 0], &[4, 6, 1], &[5, 7, 2], &[6, 4, 3]],
     symmetries: HEXAHEDRON_SYMMETRIES.as_flattened(),
     reflection: &[0, 3, 2, 1, 4, 7, 6, 5],

@@ -11,7 +11,7 @@ use super::surface::{Corners, PlaneSurface, Sided, SpaceSurface};
 use crate::error::Fault;
 use crate::model::{Model, Part};
 use crate::tensor::{Dim, cross};
-use crate::vector::{dot, minus, plus};
+use crate::vector::{dot, minus, plus, times};
 
 /// A dimension in which there are meshes.
 pub trait Meshed<const D: usize> {
@@ -76,6 +76,8 @@ pub trait Meshed<const D: usize> {
 }
 
 const MEND: &str = "fix the mesh there";
+const MEND_MIDDLE: &str =
+    "move it towards the middle of its edge, or let the mesh generator make straight ones (Gmsh: Mesh.SecondOrderLinear = 1)";
 const DEGENERATE: &str = "is degenerate or folds over at a corner";
 
 impl Meshed<2> for Dim<2> {
@@ -190,7 +192,8 @@ impl Meshed<3> for Dim<3> {
         }
         let volumes = || corner_volumes(kind, places);
         if volumes().all(|volume| volume > 0.0) {
-            None
+            let is_folded = kind == CellKind::Tetrahedron10 && !subtetrahedra(places).all(|volume| volume > 0.0);
+            is_folded.then_some(["is folded over by a node between its corners", MEND_MIDDLE])
         } else if volumes().all(|volume| volume < 0.0) {
             Some(["has negative volume: its nodes run the wrong way round", "exchange its lower and its upper nodes"])
         } else {
@@ -211,7 +214,7 @@ impl Meshed<3> for Dim<3> {
 
     fn add_around(cell: Cell<'_>, sums: &mut [u64]) {
         // A facet inside is seen once from each side: what it adds for one cell it takes for the other.
-        for facet in cell.faces().filter(|_| cell.kind.dimension() == 3) {
+        for facet in cell.facets().filter(|_| cell.kind.dimension() == 3) {
             let [lowest, next, c, d] = facet.canonical();
             let (opposite, before) = if c == d { (0, c) } else { (c, d) };
             let mixed = [lowest, next.min(before), opposite, next.max(before)].iter().fold(0, |mixed, &node| mix(mixed ^ u64::from(node)));
@@ -262,6 +265,23 @@ pub(in crate::mesh) fn corner_volumes(kind: CellKind, places: &[[f64; 3]]) -> im
     })
 }
 
+/// Six times the volumes of the twelve tetrahedra of which one of ten nodes consists, m³: at the corners, and
+/// around the mean of the nodes between them towards corners and faces.
+fn subtetrahedra(places: &[[f64; 3]]) -> impl Iterator<Item = f64> + '_ {
+    // By corner: the nodes next to it, and those of the face opposite; right-handed seen from it.
+    const NEXT: [([usize; 3], [usize; 3]); 4] =
+        [([4, 6, 7], [5, 9, 8]), ([5, 4, 8], [6, 7, 9]), ([6, 5, 9], [4, 8, 7]), ([9, 8, 7], [5, 4, 6])];
+    let middle = times(1.0 / 6.0, places[4..].iter().fold([0.0; 3], |sum, &x| plus(sum, x)));
+    let volume = move |apex: [f64; 3], nodes: [usize; 3]| {
+        let [a, b, c] = nodes.map(|node| minus(places[node], apex));
+        dot(cross(a, b), c)
+    };
+    NEXT.into_iter().zip(places).flat_map(move |((near, far), &corner)| {
+        let [a, b, c] = near;
+        [volume(corner, near), volume(middle, [a, c, b]), volume(middle, far)]
+    })
+}
+
 /// Volume of a tetrahedron, wedge or hexahedron, m³, as the mean of the Jacobians at its corners: exact for
 /// tetrahedra and where opposite edges are parallel; negative for one that is turned inside out, 0 for a cell
 /// that is no volume.
@@ -277,7 +297,7 @@ pub fn signed_volume(kind: CellKind, places: &[[f64; 3]]) -> f64 {
 mod tests {
     use super::*;
 
-    const VOLUMES: [CellKind; 3] = [CellKind::Tetrahedron, CellKind::Wedge, CellKind::Hexahedron];
+    const VOLUMES: [CellKind; 4] = [CellKind::Tetrahedron, CellKind::Wedge, CellKind::Hexahedron, CellKind::Tetrahedron10];
 
     #[test]
     fn a_cell_that_is_reflected_and_renumbered_has_its_volume() {
@@ -301,6 +321,23 @@ mod tests {
         let flat: Vec<[f64; 3]> = CellKind::Tetrahedron.facts().reference.iter().map(|&[x, y, _]| [x, y, 0.0]).collect();
         assert!(Dim::<3>::wrong_form(CellKind::Tetrahedron, &flat).is_some());
         assert!(Dim::<3>::wrong_form(CellKind::Tetrahedron, &[[f64::NAN; 3]; 4]).is_some());
+    }
+
+    #[test]
+    fn a_middle_node_may_leave_its_edge_until_a_part_of_the_element_is_turned_over() {
+        let straight = CellKind::Tetrahedron10.facts().reference;
+        let with = |middle: [f64; 3]| {
+            let mut places = straight.to_vec();
+            places[4] = middle;
+            Dim::<3>::wrong_form(CellKind::Tetrahedron10, &places)
+        };
+        assert!(with([0.5, -0.1, 0.1]).is_none() && with([0.6, 0.0, 0.0]).is_none());
+        assert!(with([1.1, 0.0, 0.0]).is_some() && with([0.5, 0.6, 0.0]).is_some() && with([f64::NAN; 3]).is_some());
+        // The twelve fill it, whatever its form.
+        let moved: Vec<[f64; 3]> = straight.iter().zip(0..).map(|(x, k)| x.map(|x| x + 0.03 * f64::from(k % 4))).collect();
+        let nodes: Vec<u32> = (0..10).collect();
+        let whole = <Dim<3> as crate::mesh::geometry::CellGeometry<3>>::size(CellKind::Tetrahedron10.cell(&nodes), &moved);
+        assert!((subtetrahedra(&moved).sum::<f64>() / 6.0 - whole).abs() < 1e-15);
     }
 
     #[test]

@@ -5,8 +5,9 @@
 //! placed alike ([`Part::shares_nodes_with`]): these share nodes and groups, those of different places share
 //! nothing.
 
-use super::cell::CellKind;
+use super::cell::{Cell, CellKind};
 use super::messages::GROUP;
+use super::middles::Middles;
 use super::placement::{turn_over, turn_pieces_over};
 use super::shapes::sweep::SweptMesh;
 use super::surface::{self, Corners, Facet};
@@ -88,7 +89,7 @@ where
     }
 
     /// Adds the cells of a group of a file in a place.
-    fn add_group(&mut self, source: &ImportedMesh, group: &str, part: &Part, place: usize, faults: &mut Vec<Fault>) {
+    fn add_group<'a>(&mut self, source: &'a ImportedMesh, group: &str, part: &Part, place: usize, faults: &mut Vec<Fault>) {
         let dimension = match part {
             part if part.is_of_lines() => 1,
             part if part.is_of_sheets() => 2,
@@ -101,10 +102,17 @@ where
             self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
             return;
         };
+        // Of tetrahedra with ten nodes a part may want the corners alone.
+        let is_straight = part.named_element_in(D, CellKind::Tetrahedron).is_some();
+        let reduced = |cell: Cell<'a>| match cell.kind {
+            CellKind::Tetrahedron10 if is_straight => CellKind::Tetrahedron.cell(cell.corners()),
+            _ => cell,
+        };
+        let elements = || group.elements().flatten().map(reduced);
         let mut placed = std::mem::take(&mut self.placed[place]);
         placed.numbers.resize(source.positions.len(), NOWHERE);
         let (first, mut new) = (self.positions.len() as u32, Vec::new());
-        for &node in group.cells.iter().flatten() {
+        for &node in elements().flat_map(|cell| cell.nodes) {
             let number = &mut placed.numbers[node as usize];
             if *number == NOWHERE {
                 number[0] = first + new.len() as u32;
@@ -119,9 +127,9 @@ where
             self.positions.extend(new.iter().map(|&node| Dim::<D>::of_3d(source.positions[node as usize])));
             part.placement.place(&mut self.positions[from..], copy);
         }
-        let cells = (0..placed.copies).flat_map(|copy| group.elements().flatten().map(move |cell| (copy, cell)));
+        let cells = (0..placed.copies).flat_map(|copy| elements().map(move |cell| (copy, cell)));
         self.add_elements_of_bodies(cells, part.placement.mirror.is_some(), |node, copy| placed.number(node, copy));
-        let nodes = (0..placed.copies).flat_map(|copy| group.cells.iter().flatten().map(move |&node| (node, copy)));
+        let nodes = (0..placed.copies).flat_map(|copy| elements().flat_map(|cell| cell.nodes).map(move |&node| (node, copy)));
         let nodes = sorted(nodes.map(|(node, copy)| placed.number(node, copy)));
         self.parts.push(PartMesh { name: part.name.clone(), nodes, faces: Vec::new() });
         self.placed[place] = placed;
@@ -162,6 +170,7 @@ where
         let mut outside = self.outside_of_solids(placed.parts.iter().copied());
         outside.extend(&middle);
         let middle: BTreeSet<Facet<D>> = middle.into_iter().collect();
+        let between = Middles::of_mesh(self.groups.iter());
         let (mut surfaces, mut sets, mut on_shells) = (Vec::new(), Vec::new(), Vec::new());
         for group in &source.groups {
             if group.cells.iter().flatten().any(|&node| placed.number(node, 0) == u32::MAX) {
@@ -175,7 +184,10 @@ where
             };
             let cells = || (0..placed.copies).flat_map(|copy| group.cells.iter().map(move |cell| (copy, cell))).map(number);
             let facets = if usize::from(group.dimension) + 1 == D {
-                cells().map(|nodes| Facet::<D>::of_cell(&nodes)).collect::<Option<Vec<Facet<D>>>>()
+                cells()
+                    .map(|nodes| Some(between.divided::<D>(Facet::<D>::of_cell(&nodes)?)))
+                    .collect::<Option<Vec<_>>>()
+                    .map(|facets| facets.concat())
             } else {
                 None
             };

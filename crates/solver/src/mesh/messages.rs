@@ -23,6 +23,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NOTHING_CUT,
     &CUT_LEAVES_OUT,
     &SIZES,
+    &REDUCED,
 ];
 
 pub(crate) static SHAPE: Message = Message {
@@ -263,4 +264,16 @@ pub(crate) static SIZES: Message = Message {
         length of its elements, or thicker than its part is long.",
     remedy: "Write lengths with their unit: a number without one is in m. Of a mesh file `scale` is the unit of its lengths, \
         such as `scale = \"1 mm\"`.",
+};
+
+pub(crate) static REDUCED: Message = Message {
+    code: "W0206",
+    title: "elements of second order are computed by their corners",
+    example: Example::Gmsh(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"block\"\n$EndPhysicalNames\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n6 1 0.5 0\n7 0.5 1 0\n\
+         8 0 0.5 0\n$EndNodes\n$Elements\n1\n1 16 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n",
+    ),
+    cause: "Of elements with nodes between their corners only the tetrahedron of ten nodes is computed; of others the corners are kept, and \
+        their edges become straight.",
+    remedy: "Nothing, if the mesh is fine enough for that; else mesh with elements of first order, or with tetrahedra of ten nodes.",
 };

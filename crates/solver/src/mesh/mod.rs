@@ -12,6 +12,7 @@ pub(crate) mod messages;
 pub mod surface;
 mod dimension;
 mod imported;
+mod middles;
 mod order;
 mod persist;
 mod skin;
@@ -290,6 +291,10 @@ where
         if mesh.positions.len() > u32::MAX as usize - 1 {
             faults.push(Fault::new(&TOO_MANY, "", "the model has more than 4 billion nodes", "make it smaller"));
         }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        mesh.add_middles(model, &mut faults);
         if !faults.is_empty() {
             return Err(faults);
         }

@@ -231,6 +231,8 @@ pub struct ImportedMesh {
     pub groups: Vec<MeshGroup>,
     /// Lengths by place that the file has besides, such as the thickness of shells.
     pub fields: Vec<MeshField>,
+    /// What became of it that its user should know.
+    pub notes: Vec<String>,
 }
 
 /// A named length by place, as a mesh file has it.

@@ -49,6 +49,7 @@ mod loads;
 mod locking;
 mod johnson_cook;
 mod materials;
+mod middles;
 mod mixed;
 mod models_in_3d;
 mod nodal_bound;

@@ -4,6 +4,7 @@
 use crate::beams::rectangle as bar;
 use crate::bodies::*;
 use crate::shells::section;
+use crate::solids::with_middles;
 use embate_solver::model::{
     Constraint, Contact, Copies, Cuboid, Drive, Extrude, FieldValues, ImportedMesh, Interface, Line, Load, LoadTerms, MeshField, MeshGroup,
     Mirror, Model, Obstacle, Part, Partners, Placement, Probe, ProbeAt, Rectangle, Shape, ShellLayer, ShellSection, Sweep,
@@ -42,6 +43,7 @@ fn turned_over(dimension: u8, in_3d: bool, cell: &[u32]) -> Vec<u32> {
     match (dimension, cell.len()) {
         (1, 2) if in_3d => cell.to_vec(),
         (3, 4) => vec![cell[1], cell[0], cell[2], cell[3]],
+        (3, 10) => [1, 0, 2, 3, 4, 6, 5, 8, 7, 9].map(|k: usize| cell[k]).to_vec(),
         (3, n) => [&cell[n / 2..], &cell[..n / 2]].concat(),
         _ => cell.iter().rev().copied().collect(),
     }
@@ -68,11 +70,12 @@ fn written(mesh: &ImportedMesh, in_3d: bool) -> ImportedMesh {
         positions: (0..2).flat_map(|copy| mesh.positions.iter().map(move |&x| by_hand(x, copy))).collect(),
         groups: mesh.groups.iter().map(group).collect(),
         fields: mesh.fields.iter().map(field).collect(),
+        ..ImportedMesh::default()
     }
 }
 
 /// A grid of hexahedra, of wedges or of tetrahedra, with the face at x = 0 and a node of the opposite one.
-fn block(nodes: usize) -> ImportedMesh {
+pub(crate) fn block(nodes: usize) -> ImportedMesh {
     let [nx, ny, nz] = [4, 2, 2];
     let number = |[i, j, k]: [usize; 3]| ((k * (ny + 1) + j) * (nx + 1) + i) as u32;
     let mut positions = Vec::new();
@@ -102,6 +105,14 @@ fn block(nodes: usize) -> ImportedMesh {
     let far = vec![number([nx, ny, nz])];
     let groups = vec![group("body", 3, cells.into_iter()), group("face", 2, face.into_iter()), group("far", 0, [far].into_iter())];
     ImportedMesh { source: "block".into(), positions, groups, ..ImportedMesh::default() }
+}
+
+/// The same of ten nodes: those between the corners in the middles of the edges, in the order of Abaqus.
+pub(crate) fn ten(mut mesh: ImportedMesh) -> ImportedMesh {
+    let body = mesh.groups.iter_mut().find(|group| group.name == "body").unwrap();
+    let cells = with_middles(&mut mesh.positions, &body.cells.concat());
+    body.cells = cells.chunks(10).map(<[u32]>::to_vec).collect();
+    mesh
 }
 
 /// Quadrilaterals and triangles in a plane, with the line at x = 0 and a node of the opposite one.
@@ -159,6 +170,8 @@ fn every_body(mut check: impl FnMut(&str, ImportedMesh, Part, bool, bool)) {
     check("hexahedra", block(8), of("hex8_reduced"), true, true);
     check("wedges", block(6), of("wedge6"), true, true);
     check("tetrahedra", block(4), of("tet4"), true, true);
+    check("tetrahedra that get their middles", block(4), of("tet10"), true, true);
+    check("ten-node tetrahedra", ten(block(4)), of("tet10"), true, true);
     check("shell in 2D", chain(false), Part { section: Some(layered()), ..of("shell2") }, true, false);
     let mut sheet = plate();
     sheet.positions.iter_mut().for_each(|x| x[2] = x[0] * x[0] / 2.0);

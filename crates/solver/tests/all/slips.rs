@@ -170,7 +170,7 @@ fn square(side: f64, at: f64, n: u32) -> ImportedMesh {
     let cell = |i: u32, j: u32| vec![i + (n + 1) * j, i + 1 + (n + 1) * j, i + 1 + (n + 1) * (j + 1), i + (n + 1) * (j + 1)];
     let cells = (0..n).flat_map(|j| (0..n).map(move |i| cell(i, j))).collect();
     let groups = vec![MeshGroup { name: "all".into(), dimension: 2, cells }];
-    ImportedMesh { source: "square.msh".into(), positions, groups, fields: Vec::new() }
+    ImportedMesh { source: "square.msh".into(), positions, groups, ..ImportedMesh::default() }
 }
 
 #[test]
@@ -405,7 +405,7 @@ fn faults_of_the_mesh_are_reported_beside_those_of_other_sections() {
         source: "turned.msh".into(),
         positions: vec![[0.0, 0.2, 0.0], [1.0, 0.2, 0.0], [2.0, 0.2, 0.0], [0.0, 1.2, 0.0], [0.3, 0.3, 0.0], [2.0, 1.2, 0.0]],
         groups: vec![MeshGroup { name: "all".into(), dimension: 2, cells: vec![turned, vec![0, 1, 4, 3]] }],
-        fields: Vec::new(),
+        ..ImportedMesh::default()
     };
     model.meshes.push(Arc::new(mesh));
     let shape = Shape::Group { mesh: 0, group: "all".into() };

@@ -2,6 +2,7 @@
 
 use crate::patches::{Patch, Spread, nodes_of};
 use embate_solver::element::{Element, ElementVisitor, map_of, with_element};
+use std::collections::BTreeMap;
 
 pub(crate) type Vector = [f64; 3];
 pub(crate) type Gradient = [Vector; 3];
@@ -55,6 +56,25 @@ pub(crate) fn faces(nodes: usize) -> &'static [&'static [usize]] {
         4 => &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]],
         6 => &[&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]],
         8 => &[&[0, 3, 2, 1], &[4, 5, 6, 7], &[0, 1, 5, 4], &[1, 2, 6, 5], &[2, 3, 7, 6], &[3, 0, 4, 7]],
+        // Four triangles on each face of a tetrahedron.
+        10 => &[
+            &[0, 6, 4],
+            &[6, 2, 5],
+            &[4, 5, 1],
+            &[6, 5, 4],
+            &[0, 4, 7],
+            &[4, 1, 8],
+            &[7, 8, 3],
+            &[4, 8, 7],
+            &[1, 5, 8],
+            &[5, 2, 9],
+            &[8, 9, 3],
+            &[5, 9, 8],
+            &[2, 6, 9],
+            &[6, 0, 7],
+            &[9, 7, 3],
+            &[6, 7, 9],
+        ],
         nodes => panic!("teach the tests the faces of an element of {nodes} nodes"),
     }
 }
@@ -136,10 +156,18 @@ fn soundness(x: &[Vector]) -> f64 {
     };
     let corner = |a: usize| {
         let [i, j, k] = edges(a).map(|b| plus(x[b], -1.0, x[a]));
-        dot(i, cross(j, k)) * [0.0, 0.0, 0.0, 0.0, 1.0 / 6.0, 0.0, 0.5, 0.0, 1.0][x.len()]
+        dot(i, cross(j, k)) * [0.0, 0.0, 0.0, 0.0, 1.0 / 6.0, 0.0, 0.5, 0.0, 1.0, 0.0, 1.0 / 6.0][x.len()]
     };
-    let name = ["", "", "", "", "tet4", "", "wedge6", "", "hex8"][x.len()];
-    (0..x.len()).map(corner).fold(with_element(name, Ask(x)).unwrap(), f64::min) / volume(x).abs()
+    // Of ten nodes the tetrahedra at the corners, too: an eighth of the whole each.
+    let at_corner = |a: usize| {
+        let [i, j, k] = [[4, 6, 7], [5, 4, 8], [6, 5, 9], [9, 8, 7]][a].map(|b: usize| plus(x[b], -1.0, x[a]));
+        dot(i, cross(j, k)) * 8.0 / 6.0
+    };
+    if x.len() == 10 && (0..4).map(at_corner).fold(f64::INFINITY, f64::min) < 0.1 * volume(x) {
+        return -1.0;
+    }
+    let name = ["", "", "", "", "tet4", "", "wedge6", "", "hex8", "", "tet10"][x.len()];
+    (0..if x.len() == 10 { 4 } else { x.len() }).map(corner).fold(with_element(name, Ask(x)).unwrap(), f64::min) / volume(x).abs()
 }
 
 /// A random sound element: corners moved by up to `roughness` of its half size, stretched by up to `aspect`,
@@ -153,7 +181,7 @@ pub(crate) fn distorted(element: &str, roughness: f64, aspect: f64, numbers: &mu
         let sheared = numbers.between(0.0, 1.5).floor();
         let shear: Vector = numbers.in_3d(sheared);
         let q = rotation(plus([0.1, 0.2, 1.0], 1.0, numbers.in_3d(1.0)), numbers.between(0.0, 6.3));
-        let size = if reference.len() == 8 { 1.0 } else { 0.5 };
+        let size = [0.5, 1.0, 0.3][usize::from(reference.len() == 8) + 2 * usize::from(reference.len() == 10)];
         let corner = |x: &Vector, moved: Vector| {
             let [x, y, z] = plus(*x, size, moved);
             let [x, y, z] = [x * stretch[0], y * stretch[1], z * stretch[2]];
@@ -176,7 +204,7 @@ pub(crate) fn patch(element: &str, n: usize, roughness: f64) -> Patch<3> {
         let moved = if is_inner(k) { numbers.in_3d(roughness) } else { [0.0; 3] };
         plus(indices(k).map(|i| i as f64), 1.0, moved)
     };
-    let positions = (0..side * side * side).map(place).collect();
+    let mut positions: Vec<Vector> = (0..side * side * side).map(place).collect();
     let mut connectivity: Vec<u32> = Vec::new();
     for cell in 0..n * n * n {
         let node = |[i, j, k]: [usize; 3]| (((cell / (n * n) + k) * side + cell / n % n + j) * side + cell % n + i) as u32;
@@ -185,7 +213,7 @@ pub(crate) fn patch(element: &str, n: usize, roughness: f64) -> Patch<3> {
             8 => connectivity.extend(c),
             6 => connectivity.extend([0, 1, 2, 4, 5, 6, 0, 2, 3, 4, 6, 7].map(|a: usize| c[a])),
             // Kuhn's six tetrahedra around the diagonal from 0 to 6.
-            4 => connectivity.extend(
+            4 | 10 => connectivity.extend(
                 [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]]
                     .as_flattened()
                     .iter()
@@ -194,5 +222,27 @@ pub(crate) fn patch(element: &str, n: usize, roughness: f64) -> Patch<3> {
             nodes => panic!("teach the patch an element of {nodes} nodes"),
         }
     }
-    Patch { positions, connectivity, inner: (0..side * side * side).filter(|&k| is_inner(k)).collect() }
+    if nodes_of(element) == 10 {
+        connectivity = with_middles(&mut positions, &connectivity);
+    }
+    let is_within = |x: &Vector| x.iter().all(|x| (1e-9..n as f64 - 1e-9).contains(x));
+    let inner = (0..positions.len()).filter(|&k| if k < side * side * side { is_inner(k) } else { is_within(&positions[k]) }).collect();
+    Patch { positions, connectivity, inner }
+}
+
+/// Tetrahedra of ten nodes from those of four, with straight edges.
+pub(crate) fn with_middles(positions: &mut Vec<Vector>, connectivity: &[u32]) -> Vec<u32> {
+    let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+    let mut all = Vec::new();
+    for cell in connectivity.chunks_exact(4) {
+        all.extend_from_slice(cell);
+        for [a, b] in [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]].map(|edge| edge.map(|k: usize| cell[k])) {
+            let new = *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                positions.push(plus(positions[a as usize], 1.0, positions[b as usize]).map(|x| 0.5 * x));
+                positions.len() as u32 - 1
+            });
+            all.push(new);
+        }
+    }
+    all
 }

@@ -14,6 +14,39 @@ use std::collections::HashMap;
 
 /// Facets of an element by its number of nodes, and the corners of its reference element.
 const TETRAHEDRON: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]];
+const TETRAHEDRON10: [&[usize]; 16] = [
+    &[0, 6, 4],
+    &[6, 2, 5],
+    &[4, 5, 1],
+    &[6, 5, 4],
+    &[0, 4, 7],
+    &[4, 1, 8],
+    &[7, 8, 3],
+    &[4, 8, 7],
+    &[1, 5, 8],
+    &[5, 2, 9],
+    &[8, 9, 3],
+    &[5, 9, 8],
+    &[2, 6, 9],
+    &[6, 0, 7],
+    &[9, 7, 3],
+    &[6, 7, 9],
+];
+/// The parts of one of ten nodes: 10 is the middle of those between its corners.
+const PARTS: [[usize; 4]; 12] = [
+    [0, 4, 6, 7],
+    [1, 5, 4, 8],
+    [2, 6, 5, 9],
+    [3, 9, 8, 7],
+    [10, 4, 7, 6],
+    [10, 5, 8, 4],
+    [10, 6, 9, 5],
+    [10, 9, 7, 8],
+    [10, 5, 9, 8],
+    [10, 6, 7, 9],
+    [10, 4, 8, 7],
+    [10, 5, 4, 6],
+];
 const WEDGE: [&[usize]; 5] = [&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
 const HEXAHEDRON: [&[usize]; 6] = [&[0, 3, 2, 1], &[4, 5, 6, 7], &[0, 1, 5, 4], &[1, 2, 6, 5], &[2, 3, 7, 6], &[3, 0, 4, 7]];
 
@@ -22,6 +55,7 @@ fn faces(nodes: usize) -> &'static [&'static [usize]] {
         4 => &TETRAHEDRON,
         6 => &WEDGE,
         8 => &HEXAHEDRON,
+        10 => &TETRAHEDRON10,
         _ => &[],
     }
 }
@@ -145,6 +179,8 @@ pub(crate) fn checks_itself() {
         (&[&[0, 1, 2, 4, 5, 6], &[0, 2, 3, 4, 6, 7]], CellKind::Wedge),
         (&[&[0, 1, 2, 6], &[0, 2, 3, 6], &[0, 3, 7, 6], &[0, 7, 4, 6], &[0, 4, 5, 6], &[0, 5, 1, 6]], CellKind::Tetrahedron),
     ];
+    let reference = CellKind::Tetrahedron10.facts().reference;
+    assert!(is_within(reference, [0.1, 0.1, 0.1]) && is_within(reference, [0.3, 0.3, 0.3]) && !is_within(reference, [0.4, 0.4, 0.3]));
     for (cube, bar) in (0..9).map(|k| (split[k / 3], split[k % 3])) {
         let mut cells = Cells { offsets: vec![0], part_names: vec!["cube".into(), "bar".into()], ..Cells::default() };
         for (part, (all, kind)) in (0..).zip([cube, bar]) {
@@ -166,6 +202,11 @@ pub(crate) fn checks_itself() {
 
 /// Whether a place is within an element: its coordinates by Newton's method.
 fn is_within(corners: &[Vector], p: Vector) -> bool {
+    if corners.len() == 10 {
+        let middle: Vector = std::array::from_fn(|d| corners[4..].iter().map(|x| x[d]).sum::<f64>() / 6.0);
+        let at = |k: usize| if k == 10 { middle } else { corners[k] };
+        return PARTS.iter().any(|part| is_within(&part.map(at), p));
+    }
     let mut r = if corners.len() == 8 { [0.0; 3] } else { [0.25, 0.25, if corners.len() == 6 { 0.0 } else { 0.25 }] };
     for _ in 0..30 {
         let (shapes, slopes) = shapes(corners.len(), r);

@@ -8,7 +8,7 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// Corners of each side of a cell; the last is repeated where there are three. A surface is its own side.
 pub(super) fn sides_of(kind: CellKind) -> &'static [[u8; 4]] {
-    kind.facts().faces
+    kind.facts().facets
 }
 
 /// The sides of all cells.

@@ -86,6 +86,29 @@ fn every_face_of_a_type_is_that_of_the_manual() {
 }
 
 #[test]
+fn ten_node_tetrahedra_keep_their_nodes_and_other_solids_of_second_order_their_corners() {
+    let deck = "*NODE\n1,0,0,0\n2,2,0,0\n3,0,2,0\n4,0,0,2\n5,1,0,0\n6,1,1,0\n7,0,1,0\n8,0,0,1\n9,1,0,1\n10,0,1,1\n\
+        *ELEMENT, TYPE=C3D10M, ELSET=tip\n1, 1,2,3,4,5,6,7,8,\n9,10\n*SURFACE, NAME=face\ntip, S3\n*NSET, NSET=middle\n9\n";
+    let mesh = read(deck).unwrap();
+    assert_eq!(group(&mesh, "tip").cells, [(0..10).collect::<Vec<u32>>()]);
+    assert_eq!(
+        (group(&mesh, "face").cells.len(), group(&mesh, "face").cells[0].len(), &group(&mesh, "middle").cells),
+        (1, 3, &vec![vec![8]])
+    );
+    for edge in embate_solver::mesh::cell::CellKind::Tetrahedron10.facts().edges.iter().zip(4..) {
+        let ([a, b], middle) = (edge.0.map(|k| mesh.positions[usize::from(k)]), mesh.positions[edge.1]);
+        assert!((0..3).all(|d| middle[d] == 0.5 * (a[d] + b[d])));
+    }
+    let twice: Vec<String> = (1..=20).map(|k| k.to_string()).collect();
+    let nodes: String = (9..=20).map(|k| format!("{k},0.5,{k},0\n")).collect();
+    let cube = "1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n";
+    let deck = format!("*NODE\n{cube}{nodes}*ELEMENT, TYPE=C3D20R, ELSET=cube\n1, {},\n{}\n", twice[..10].join(","), twice[10..].join(","));
+    let mesh = read(&deck).unwrap();
+    assert_eq!((&group(&mesh, "cube").cells, mesh.positions.len()), (&vec![(0..8).collect::<Vec<u32>>()], 8));
+    assert_eq!(mesh.notes, ["1 elements C3D20R, which become hexahedra of 8 nodes"]);
+}
+
+#[test]
 fn solids_of_negative_volume_are_turned_and_flat_ones_refused() {
     let swapped = SOLID
         .replace(" 1, 1,2,3,4,\n 5,6,7,8", " 1, 5,6,7,8, 1,2,3,4")

@@ -90,7 +90,7 @@ const CASES: &[Case] = &[
     ("plate-v2-text", "52 3 2 4 1 22 14 5 16\n", "52 3 99999999999 4 1 22 14 5 16\n", "m.msh, line 97", "the line ends where a tag of an element is expected", "a number is missing"),
     ("plate-v2-text", "52 3 2 4 1 22 14 5 16\n", "52 3 2 4 1 22 14 5\n", "m.msh, line 97", "the line ends where a node of an element is expected", "a number is missing"),
     ("plate-v2-text", "52 3 2 4 1 22 14 5 16\n", "52 7 2 4 1 22 14 5 16 1\n", "m.msh, line 97", "group \"volume-4\" has 1 element of the type \"pyramid\" (number 7)", "pyramids are not computed"),
-    ("plate-v2-text", "52 3 2 4 1 22 14 5 16\n", "52 16 2 4 1 22 14 5 16 1 2 3 4\n", "m.msh, line 97", "group \"strip\" has 1 element of the type \"8-node quadrilateral\"", "only nodes at corners are computed"),
+    ("plate-v2-text", "52 3 2 4 1 22 14 5 16\n", "52 39 2 4 1 22 14 5 16 1 2 3 4 6 7 8 9\n", "m.msh, line 97", "group \"strip\" has 1 element of the type \"12-node quadrilateral\"", "elements of first and second order are read"),
     ("plate-v2-text", "52 3 2 4 1 22 14 5 16\n", "52 x 2 4 1 22 14 5 16\n", "m.msh, line 97", "expected the type of an element, found \"x\"", "the file is damaged here"),
 
     // Binary: places are byte offsets.
@@ -186,13 +186,14 @@ fn negative_physical_tags_name_the_same_group() {
 }
 
 #[test]
-fn higher_order_elements_are_named_with_their_group() {
-    let faults = faults(&bytes("plate-order-2"));
-    let message = "group \"plate\" has 32 elements of the type \"6-node triangle\" (number 9)";
-    let plate = faults.iter().find(|fault| fault.message == message).unwrap_or_else(|| panic!("{faults:#?}"));
-    assert!(plate.help.starts_with("only nodes at corners are computed: mesh with Mesh.ElementOrder = 1"));
-    assert!(faults.iter().any(|fault| fault.message.starts_with("group \"hole\" has 8 elements of the type \"3-node line\"")));
-    assert!(faults.iter().any(|fault| fault.message.starts_with("group \"strip\" has 4 elements of the type \"9-node quadrilateral\"")));
+fn elements_of_second_order_in_2d_are_read_by_their_corners_which_is_said() {
+    let mesh = parse(&bytes("plate-order-2"), "m.msh", 1.0).unwrap_or_else(|faults| panic!("{faults:#?}"));
+    let of = |name: &str| mesh.groups.iter().find(|group| group.name == name).map(|group| (group.cells.len(), group.cells[0].len()));
+    assert_eq!([of("plate"), of("hole"), of("strip")], [Some((36, 3)), Some((8, 2)), Some((4, 4))]);
+    let message = "group \"plate\" has 32 elements of the type \"6-node triangle\", which become triangles of 3 nodes";
+    assert!(mesh.notes.iter().any(|note| note == message), "{:?}", mesh.notes);
+    let used: std::collections::BTreeSet<u32> = mesh.groups.iter().flat_map(|group| &group.cells).flatten().copied().collect();
+    assert_eq!(used.len(), mesh.positions.len(), "none is left over");
 }
 
 #[test]

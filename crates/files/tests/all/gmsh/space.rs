@@ -5,7 +5,7 @@ use super::{faults, group, mesh};
 use embate_files::gmsh::parse;
 use embate_files::model_file::load_text;
 use embate_solver::error::Fault;
-use embate_solver::mesh::cell::Cell;
+use embate_solver::mesh::cell::{Cell, CellKind};
 use embate_solver::mesh::{Mesh, signed_volume};
 use embate_solver::model::ImportedMesh;
 
@@ -67,8 +67,8 @@ fn version_2(nodes: &[[f64; 3]], elements: &[Element]) -> Vec<u8> {
 fn dimension_of(kind: i32) -> usize {
     match kind {
         15 => 0,
-        1 => 1,
-        2 | 3 => 2,
+        1 | 8 => 1,
+        2 | 3 | 9 => 2,
         _ => 3,
     }
 }
@@ -193,6 +193,48 @@ fn volumes_without_any_group_are_the_group_all_and_what_bounds_them_is_none() {
     assert_eq!(shape, [("all", 3, 9)]);
 }
 
+/// Of second order, as Gmsh writes them: a tetrahedron with its side and an edge of it, a hexahedron, a
+/// prism.
+#[test]
+fn tetrahedra_of_second_order_keep_their_nodes_and_others_their_corners() {
+    let middle = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|d| 0.5 * (a[d] + b[d])) };
+    let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    // The last two of Gmsh are exchanged in Abaqus and VTK.
+    let sides = [[0, 1], [1, 2], [0, 2], [0, 3], [2, 3], [1, 3]];
+    let nodes: Vec<[f64; 3]> = corners.into_iter().chain(sides.map(|[a, b]| middle(corners[a], corners[b]))).collect();
+    let read = |elements: &[Element], nodes: &[[f64; 3]]| {
+        let files = [version_2(nodes, elements), version_4(nodes, elements, false), version_4(nodes, elements, true)];
+        let [one, rest @ ..] = files.map(|file| parse(&file, "m.msh", 1.0).unwrap_or_else(|faults| panic!("{faults:#?}")));
+        assert!(rest.iter().all(|other| *other == one));
+        one
+    };
+    for turned in [false, true] {
+        let mut own: Vec<usize> = (1..=10).collect();
+        if turned {
+            // The same seen in a mirror: corners 1 and 2 exchanged, and the nodes beside them.
+            own = [1, 3, 2, 4, 7, 6, 5, 8, 9, 10].into();
+            own.swap(8, 9);
+        }
+        let mesh = read(&[(11, 6, own), (9, 4, vec![1, 2, 3, 5, 6, 7]), (8, 2, vec![1, 2, 5])], &nodes);
+        let of = |name: &str| &mesh.groups.iter().find(|group| group.name == name).unwrap().cells;
+        let cell = CellKind::Tetrahedron10.cell(&of("tetrahedra")[0]);
+        let place = |node: u32| mesh.positions[node as usize];
+        assert!(signed_volume(cell.kind, &cell.nodes.iter().map(|&node| place(node)).collect::<Vec<_>>()) > 0.0);
+        for (edge, &node) in cell.edges().zip(&cell.nodes[4..]) {
+            assert_eq!(place(node), middle(place(edge[0]), place(edge[1])), "turned {turned}");
+        }
+        assert!(mesh.notes.is_empty() && mesh.positions.len() == 10);
+        let names: Vec<(&str, usize)> = mesh.groups.iter().map(|group| (group.name.as_str(), group.cells[0].len())).collect();
+        assert_eq!(names.iter().map(|(_, nodes)| *nodes).collect::<Vec<_>>(), [2, 3, 10], "{names:?}");
+    }
+    // A cube of 20 nodes is one of 8, whatever the others are.
+    let cube = CellKind::Hexahedron.facts().reference;
+    let more: Vec<[f64; 3]> = cube.iter().copied().chain((0..12).map(|k| [0.1 * f64::from(k), 0.5, 0.5])).collect();
+    let mesh = read(&[(17, 5, (1..=20).collect())], &more);
+    assert_eq!((mesh.positions.len(), mesh.groups[0].cells[0].len()), (8, 8));
+    assert!(mesh.notes[0].contains("1 elements of the type \"20-node hexahedron\", which become hexahedra of 8 nodes"), "{:?}", mesh.notes);
+}
+
 /// One wrong element in place of (or beside) a good one, and the fault that is expected.
 #[test]
 fn every_fault_of_a_solid_has_its_message() {
@@ -211,14 +253,14 @@ fn every_fault_of_a_solid_has_its_message() {
         ),
         (more((19, 5, (1..14).collect())), "group \"block\" has 1 element of the type \"13-node pyramid\"", "pyramids are not computed"),
         (
-            more((11, 6, (1..11).collect())),
-            "group \"tetrahedra\" has 1 element of the type \"10-node tetrahedron\"",
-            "only nodes at corners are computed",
+            more((29, 6, (1..21).collect())),
+            "group \"tetrahedra\" has 1 element of the type \"20-node tetrahedron\"",
+            "elements of first and second order are read",
         ),
         (
-            more((17, 5, (1..21).collect())),
-            "group \"block\" has 1 element of the type \"20-node hexahedron\"",
-            "only nodes at corners are computed",
+            more((92, 5, (1..65).collect())),
+            "group \"block\" has 1 element of the type \"64-node hexahedron\"",
+            "elements of first and second order are read",
         ),
         (
             with(7, (5, 5, vec![1, 2, 5, 4, 1, 2, 5, 4])),

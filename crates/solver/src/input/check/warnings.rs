@@ -6,12 +6,12 @@
 
 use super::plausible;
 use crate::contact::messages::OPEN;
-use crate::element::{Element, Quad4, Quad4Full, Tri3};
+use crate::element::{Element, Quad4, Quad4Full};
 use crate::error::Warning;
 use crate::load::messages::FALLING;
 use crate::material::messages::{FLUID, LOCKING, SOFTENING};
 use crate::material::{self, Law, Null, Parameters};
-use crate::mesh::messages::NOT_ON_SHELLS;
+use crate::mesh::messages::{NOT_ON_SHELLS, REDUCED};
 use crate::model::{Load, Material, Model, ObstacleShape, Part, Shape, TriangleSurface};
 use crate::stress_state::PLANE_STRESS;
 use crate::vector::{length, place};
@@ -38,6 +38,7 @@ impl Model {
             warnings.extend(self.fluid(index, part, it));
         }
         warnings.extend(self.not_on_shells());
+        warnings.extend(self.reduced());
         for (index, obstacle) in self.obstacles.iter().enumerate() {
             if let ObstacleShape::Triangles(surface) = &obstacle.shape {
                 warnings.extend(open(index, surface));
@@ -71,6 +72,25 @@ impl Model {
             ),
             help: "hold them by a [[constraint]], or let them lie on an [[obstacle]]".into(),
         })
+    }
+
+    /// What became of cells of mesh files that are not computed as they are.
+    fn reduced(&self) -> Vec<Warning> {
+        let of_part = |(index, part): (usize, &Part)| {
+            let Shape::Group { mesh, .. } = &part.shape else { return None };
+            // Each file once.
+            let is_first = self.parts[..index].iter().all(|other| !matches!(&other.shape, Shape::Group { mesh: own, .. } if own == mesh));
+            let imported = self.meshes.get(*mesh).filter(|imported| is_first && !imported.notes.is_empty())?;
+            Some(Warning {
+                kind: &REDUCED,
+                path: format!("part[{index}].mesh"),
+                message: format!("{}: {}", imported.source, imported.notes.join("; ")),
+                consequence: "nodes between corners are left out, and curved edges become straight".into(),
+                help: "nothing is to be done if that is meant; else mesh with elements of first order, or with tetrahedra of ten nodes"
+                    .into(),
+            })
+        };
+        self.parts.iter().enumerate().filter_map(of_part).collect()
     }
 
     /// Settings of the run that do not act on shells and beams.
@@ -113,13 +133,10 @@ impl Model {
 
     /// Nearly no change of volume in elements that need one in bending and shear.
     fn locking(&self, index: usize, part: &Part, it: &Material) -> Option<Warning> {
-        let (element, remedy) = if self.has_elements(part, Tri3::KIND.name) {
-            (Tri3::KIND.name, "take `element_triangles = \"tri3_anp\"`, or quadrilaterals")
-        } else if self.has_elements(part, Quad4Full::KIND.name) {
-            (Quad4Full::KIND.name, "take `element = \"quad4\"`")
-        } else {
+        let element = Quad4Full::KIND.name;
+        if !self.has_elements(part, element) {
             return None;
-        };
+        }
         // An equation of state has a bulk modulus of its own.
         if part.stress_state == PLANE_STRESS.name || !it.eos.is_empty() || material::bears_uniaxial_stress(&it.law) != Some(true) {
             return None;
@@ -131,7 +148,7 @@ impl Model {
             path: format!("part[{index}].material"),
             message: format!("Poisson's ratio of `{}` is {poisson:.4}, in elements `{element}`", part.material),
             consequence: "they lock: bending and shear of the part are several times too stiff, also with many elements".into(),
-            help: remedy.into(),
+            help: "take `element = \"quad4\"`".into(),
         })
     }
 

@@ -16,6 +16,7 @@ const PYRAMID: Facts = Facts {
     corners: 5,
     edges: &[[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [1, 4], [2, 4], [3, 4]],
     faces: &[[0, 3, 2, 1], [0, 1, 4, 4], [1, 2, 4, 4], [2, 3, 4, 4], [3, 0, 4, 4]],
+    facets: &[[0, 3, 2, 1], [0, 1, 4, 4], [1, 2, 4, 4], [2, 3, 4, 4], [3, 0, 4, 4]],
     neighbours: &[&[1, 3, 4], &[2, 0, 4], &[3, 1, 4], &[0, 2, 4], &[0, 3, 2, 1]],
     symmetries: [[0, 1, 2, 3, 4], [1, 2, 3, 0, 4], [2, 3, 0, 1, 4], [3, 0, 1, 2, 4]].as_flattened(),
     reflection: &[0, 3, 2, 1, 4],
@@ -32,6 +33,7 @@ const TRIANGLE6: Facts = Facts {
     name: "triangle6",
     plural: "six-node triangles",
     nodes: 6,
+    facets: &[[0, 3, 5, 5], [3, 1, 4, 4], [5, 4, 2, 2], [3, 4, 5, 5]],
     symmetries: [[0, 1, 2, 3, 4, 5], [1, 2, 0, 4, 5, 3], [2, 0, 1, 5, 3, 4]].as_flattened(),
     reflection: &[0, 2, 1, 5, 4, 3],
     reference: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]],
@@ -106,7 +108,7 @@ fn kinds_stand_in_order_and_have_their_own_numbers() {
         assert_eq!((CellKind::of_vtk(kind.facts().vtk), CellKind::of_gmsh(kind.facts().gmsh)), (Some(kind), Some(kind)));
     }
     assert_eq!((CellKind::of(3, 5), CellKind::of_vtk(14), CellKind::of_gmsh(7)), (None, None, None));
-    assert_eq!(MOST_NODES, 8);
+    assert_eq!(MOST_NODES, 10);
 }
 
 #[test]
@@ -207,11 +209,57 @@ fn symmetries_keep_edges_faces_and_orientation_and_are_all_that_do() {
 #[test]
 fn symmetries_of_nodes_between_corners_follow_the_corners() {
     // Each node in the middle of an edge stays in the middle of the same corners.
-    let between = |k: usize| TRIANGLE6.edges[k - 3];
-    for way in TRIANGLE6.symmetries.chunks_exact(6).chain([TRIANGLE6.reflection]) {
-        for k in 3..6 {
-            let moved = between(k).map(|corner| way[usize::from(corner)]).into_iter().collect::<BTreeSet<_>>();
-            assert_eq!(moved, between(usize::from(way[k])).into_iter().collect(), "{way:?}");
+    for facts in all().filter(|facts| facts.nodes > facts.corners) {
+        let between = |k: usize| facts.edges[k - facts.corners];
+        for way in facts.symmetries.chunks_exact(facts.nodes).chain([facts.reflection]) {
+            for k in facts.corners..facts.nodes {
+                let moved = between(k).map(|corner| way[usize::from(corner)]).into_iter().collect::<BTreeSet<_>>();
+                assert_eq!(moved, between(usize::from(way[k])).into_iter().collect(), "{way:?}");
+            }
+        }
+        // Of its corners the same numberings as without those nodes.
+        let of_corners = |facts: &'static Facts| facts.symmetries.chunks_exact(facts.nodes).map(|way| &way[..facts.corners]);
+        let plain = if facts.dimension == 2 { &TRIANGLE } else { &TETRAHEDRON };
+        assert!(of_corners(facts).eq(of_corners(plain)), "{}", facts.name);
+    }
+}
+
+#[test]
+fn nodes_between_corners_are_in_the_middles_of_edges_and_facets_cover_the_faces() {
+    for facts in all() {
+        for (middle, [a, b]) in (facts.corners as u8..facts.nodes as u8).zip(facts.edges) {
+            let centre = centre(facts, [*a, *b].into_iter());
+            assert_eq!(at(facts, middle), centre, "{}", facts.name);
+        }
+        let area = |facet: &[u8; 4]| {
+            let [a, b, c, d] = facet.map(|k| at(facts, k));
+            let halves = [cross(minus(b, a), minus(c, a)), cross(minus(c, a), minus(d, a))];
+            std::array::from_fn::<f64, 3, _>(|k| 0.5 * (halves[0][k] + halves[1][k]))
+        };
+        let each = facts.facets.len() / facts.faces.len().max(1);
+        assert_eq!(each * facts.faces.len(), facts.facets.len());
+        for (face, facets) in facts.faces.iter().zip(facts.facets.chunks_exact(each.max(1))) {
+            let sum = facets.iter().map(area).fold([0.0; 3], |sum, own| std::array::from_fn(|k| sum[k] + own[k]));
+            assert!((0..3).all(|k| (sum[k] - area(face)[k]).abs() < 1e-15), "{}: {face:?}", facts.name);
+            assert!(facets.iter().all(|facet| dot(area(facet), area(face)) > 0.0), "{}: {face:?}", facts.name);
+        }
+        let nodes: Vec<u32> = (0..facts.nodes as u32).collect();
+        if let Some(kind) = CellKind::ALL.into_iter().find(|kind| kind.facts().name == facts.name && facts.nodes > 4) {
+            let (cell, is_simplex) = (kind.cell(&nodes), facts.corners == facts.dimension + 1);
+            assert_eq!(cell.pieces_of_edges().count(), facts.edges.len() + facts.nodes - facts.corners);
+            for facet in cell.facets().filter(|_| is_simplex) {
+                let [a, b, c, _] = facet.map(|node| at(facts, node as u8));
+                let away = minus(at(facts, cell.beyond(&facet).unwrap() as u8), a);
+                assert!((dot(cross(minus(b, a), minus(c, a)), away).abs() - 0.25).abs() < 1e-15, "as far as the corner opposite");
+            }
+        }
+        // Between facets of a volume each edge lies twice, once in each direction.
+        if facts.dimension == 3 {
+            let mut directed: Vec<[u8; 2]> = facts.facets.iter().flat_map(|facet| around(corners(facet))).collect();
+            let mut other: Vec<[u8; 2]> = directed.iter().map(|&[a, b]| [b, a]).collect();
+            directed.sort_unstable();
+            other.sort_unstable();
+            assert!(directed == other && directed.windows(2).all(|pair| pair[0] != pair[1]), "{}", facts.name);
         }
     }
 }
@@ -300,7 +348,7 @@ fn however_its_nodes_are_numbered_a_cell_becomes_the_same() {
         };
         let all: BTreeSet<Vec<u32>> = kind.symmetries().map(begun).collect();
         assert_eq!(all.len(), 1, "{kind:?}");
-        assert!(all.iter().all(|nodes| nodes[0] == *mixed.iter().min().unwrap()), "{kind:?}");
+        assert!(all.iter().all(|nodes| nodes[0] == *mixed[..kind.corners()].iter().min().unwrap()), "{kind:?}");
         let mut twice = mixed.clone();
         kind.reflect(&mut twice);
         kind.reflect(&mut twice);
@@ -312,7 +360,7 @@ fn however_its_nodes_are_numbered_a_cell_becomes_the_same() {
 fn a_shell_lies_beside_a_solid_with_as_many_nodes() {
     let nodes = [0, 1, 2, 3];
     let [shell, solid] = [CellKind::Quadrilateral, CellKind::Tetrahedron].map(|kind| kind.cell(&nodes));
-    assert_eq!((shell.kind.nodes(), shell.faces().count()), (solid.kind.nodes(), 1));
-    assert_eq!((solid.faces().count(), shell.edges().count(), solid.edges().count()), (4, 4, 6));
+    assert_eq!((shell.kind.nodes(), shell.facets().count()), (solid.kind.nodes(), 1));
+    assert_eq!((solid.facets().count(), shell.edges().count(), solid.edges().count()), (4, 4, 6));
     assert!(shell != solid && !shell.is_collapsed() && CellKind::Triangle.cell(&[4, 2, 4]).is_collapsed());
 }

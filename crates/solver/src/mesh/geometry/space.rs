@@ -37,7 +37,10 @@ impl CellGeometry<3> for Dim<3> {
     }
     fn inverse_height(facet: [u32; 4], cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
         let areas = <Self as Tributary<3>>::shares(Depth::Plane, facet, positions);
-        areas.into_iter().sum::<f64>() / size(cell, positions)
+        // Several facets of a face stand on the same volume.
+        let facts = cell.kind.facts();
+        let of_face = facts.facets.len() as f64 / facts.faces.len() as f64;
+        areas.into_iter().sum::<f64>() * of_face / size(cell, positions)
     }
     fn size(cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
         size(cell, positions)
@@ -46,7 +49,7 @@ impl CellGeometry<3> for Dim<3> {
         strains(cell, from, to)
     }
     fn cell_facets(cell: Cell<'_>) -> Vec<[u32; 4]> {
-        cell.faces().map(Corners::canonical).collect()
+        cell.facets().map(Corners::canonical).collect()
     }
 }
 
@@ -64,7 +67,7 @@ fn size(cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
     }
     let wedge = |a: u32, b: u32, c: u32| dot(x(a), cross(x(b), x(c)));
     let facet = |[a, b, c, d]: [u32; 4]| 0.5 * (wedge(a, b, c) + wedge(a, c, d) + wedge(a, b, d) + wedge(b, c, d));
-    cell.faces().map(facet).sum::<f64>() / 6.0
+    cell.facets().map(facet).sum::<f64>() / 6.0
 }
 
 /// Three vectors that a cell carries with it: the edges of a tetrahedron at a corner, else means of opposite

@@ -288,7 +288,7 @@ fn an_element_that_is_inside_out_is_reported_with_its_number_and_place() {
         let model = Model { parts, meshes: vec![Arc::new(file)], ..Model::default() };
         assert_eq!(model.dimension(), 3);
         match Mesh::<3>::new(&model) {
-            Ok(mesh) => assert!(name == "good" && mesh.groups[0].kind == CellKind::Tetrahedron),
+            Ok(mesh) => assert!(name == "good" && mesh.groups[0].kind == CellKind::Tetrahedron10),
             Err(faults) => {
                 let reported = &faults[0].message;
                 assert!(

@@ -332,12 +332,12 @@ impl<'a> Table<'a> {
         let mut count = 0;
         for cell in &cells {
             if cell.kind.dimension() != 3 || cell.is_collapsed() {
-                let help = "elements of solids have four, six or eight different corners; remove collapsed ones from the mesh";
+                let help = "elements of solids have four, six, eight or ten different nodes; remove collapsed ones from the mesh";
                 return Err(Fault::new(&BAD_ELEMENT, "", format!("an element has the nodes {:?}", cell.nodes), help));
             }
             count = cell.nodes.iter().fold(count, |count, &node| count.max(node as usize + 1));
         }
-        let of_cell = |(cell, number): (&Cell<'a>, u32)| cell.faces().zip(0..).map(move |(facet, l)| seen(facet, (number, l)));
+        let of_cell = |(cell, number): (&Cell<'a>, u32)| cell.facets().zip(0..).map(move |(facet, l)| seen(facet, (number, l)));
         let mut at = Rows::new(count, cells.iter().zip(0..).flat_map(of_cell));
         (0..count).for_each(|node| at.of_mut(node).sort_unstable());
         let table = Self { cells, at };
@@ -411,7 +411,7 @@ impl<'a> Table<'a> {
                 let n = corners.len();
                 *l != local && (0..n).any(|k| [corners[k], corners[(k + 1) % n]] == [b, a])
             };
-            let (there, other_local) = self.cells[cell as usize].faces().zip(0..).find(has_it)?;
+            let (there, other_local) = self.cells[cell as usize].facets().zip(0..).find(has_it)?;
             let group = self.group(there);
             // The cell beyond has the same facet the other way round, and so the edge a → b in it.
             match group.iter().find(|it| (it.cell, it.local) != (cell, other_local)) {
@@ -565,7 +565,7 @@ mod tests {
                 };
                 (det(x[0], x[1], x[2]) + det(x[0], x[2], x[3])) / 6.0
             };
-            let of_cell = |cell: Cell<'_>| cell.faces().map(|facet| cone(&facet.canonical())).sum::<f64>();
+            let of_cell = |cell: Cell<'_>| cell.facets().map(|facet| cone(&facet.canonical())).sum::<f64>();
             let (outside, inside): (f64, f64) = (surface.facets.iter().map(cone).sum(), hexes(&cells).map(of_cell).sum());
             prop_assert!((outside - inside).abs() < 1e-11, "{} {}", outside, inside);
             // The order of the cells, and how they are numbered, change nothing.

@@ -53,8 +53,12 @@ pub(super) fn balls_under(side: &Side<'_, 3>, positions: &[Vector]) -> Vec<Ball>
     balls
 }
 
-/// The node of an element at the other end of the edge that leaves a facet at its node `at`.
+/// The node of an element at the other end of the edge that leaves a facet at its node `at`; of one with
+/// nodes between its corners the corner that is opposite.
 fn beyond(cell: Cell<'_>, facet: &[u32], at: u32) -> Option<u32> {
+    if cell.nodes.len() > cell.kind.corners() {
+        return cell.beyond(facet);
+    }
     let mut ends = cell.edges().flat_map(|[a, b]| [[a, b], [b, a]]);
     ends.find(|&[here, there]| here == at && !facet.contains(&there)).map(|[_, there]| there)
 }

@@ -84,7 +84,7 @@ where
         if !self.is_between(group.nodes_of(element).iter().copied()) {
             return None;
         }
-        let edges = group.cell(element).edges().filter(|edge| self.has_beyond(edge[0]) != self.has_beyond(edge[1]));
+        let edges = group.cell(element).pieces_of_edges().filter(|edge| self.has_beyond(edge[0]) != self.has_beyond(edge[1]));
         let edges: Vec<([u32; 2], f64)> = edges.map(|edge| (edge, self.share(edge, positions))).collect();
         let slice = Slice { points: edges.iter().map(|&(edge, share)| in_3d(between(edge, share, positions))).collect(), edges };
         let way = minus(slice.middle(), in_3d(self.point));

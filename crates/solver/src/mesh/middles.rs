@@ -1,0 +1,206 @@
+//! Four-node tetrahedra become ten-node ones: a node in the middle of each edge, shared by all elements
+//! there.
+//!
+//! It happens to the parts that name no element of four nodes for their tetrahedra, and are not rigid. Bodies
+//! that are connected change together: a node in the middle of an edge where an element of another kind has
+//! none would hang free, so tetrahedra beside such elements stay as they are, or are a fault where the part
+//! wants ten nodes.
+//!
+//! New nodes come after all others, so that the user's numbers stay. Facets of named sides are divided, and a
+//! middle belongs to each set that both ends of its edge are in, unless the set has middles already.
+
+use super::cell::{Cell, CellKind};
+use super::messages::NO_ELEMENT;
+use super::surface::{Corners, Facet};
+use super::{Dim, ElementGroup, Mesh, Meshed};
+use crate::error::Fault;
+use crate::model::Model;
+use std::collections::BTreeSet;
+
+/// An edge by its nodes, the lower one first.
+type Edge = [u32; 2];
+
+fn edges(cell: Cell<'_>) -> impl Iterator<Item = Edge> + Clone {
+    cell.edges().map(Corners::undirected)
+}
+
+/// Nodes in the middle of edges, by these, ascending.
+pub(super) struct Middles {
+    edges: Vec<(Edge, u32)>,
+}
+
+impl Middles {
+    /// Of cells that have them.
+    pub(super) fn of_mesh<'a>(groups: impl Iterator<Item = &'a ElementGroup>) -> Self {
+        let cells = groups.filter(|group| group.kind == CellKind::Tetrahedron10).flat_map(ElementGroup::cells);
+        let mut all: Vec<(Edge, u32)> = cells.flat_map(|cell| edges(cell).zip(cell.nodes[4..].iter().copied())).collect();
+        all.sort_unstable();
+        all.dedup();
+        Self { edges: all }
+    }
+
+    /// Adds edges without one, each once, from a number on; those that it got.
+    fn add(&mut self, mut wanted: Vec<Edge>, first: u32) -> Vec<Edge> {
+        wanted.sort_unstable();
+        wanted.dedup();
+        wanted.retain(|edge| self.of(*edge).is_none());
+        self.edges.extend(wanted.iter().copied().zip(first..));
+        self.edges.sort_unstable();
+        wanted
+    }
+
+    fn of(&self, edge: Edge) -> Option<u32> {
+        let at = self.edges.partition_point(|(other, _)| *other < edge);
+        self.edges.get(at).filter(|(other, _)| *other == edge).map(|&(_, node)| node)
+    }
+
+    /// Of the edge between two nodes.
+    fn between(&self, a: u32, b: u32) -> Option<u32> {
+        self.of([a.min(b), a.max(b)])
+    }
+
+    /// A triangle as four, where its edges have middles.
+    pub(super) fn divided<const D: usize>(&self, facet: Facet<D>) -> Vec<Facet<D>>
+    where
+        Dim<D>: Meshed<D>,
+    {
+        let whole = || vec![facet];
+        if self.edges.is_empty() {
+            return whole();
+        }
+        let &[a, b, c] = facet.corners() else { return whole() };
+        let middles = [self.between(a, b), self.between(b, c), self.between(c, a)];
+        let [Some(ab), Some(bc), Some(ca)] = middles else { return whole() };
+        let of = |nodes: [u32; 3]| Facet::<D>::of_cell(&nodes);
+        // In an order that does not depend on where the triangle begins, nor on its direction.
+        let mut all = [(a, [a, ab, ca]), (b, [ab, b, bc]), (c, [ca, bc, c]), (u32::MAX, [ab, bc, ca])];
+        all.sort_unstable();
+        all.into_iter().filter_map(|(_, nodes)| of(nodes)).map(Corners::canonical).collect()
+    }
+
+    /// Those whose edges have both ends among these nodes.
+    fn within<'a>(&'a self, has: impl Fn(u32) -> bool + 'a) -> impl Iterator<Item = u32> + 'a {
+        self.edges.iter().filter(move |([a, b], _)| has(*a) && has(*b)).map(|&(_, node)| node)
+    }
+}
+
+impl<const D: usize> Mesh<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    /// Gives tetrahedra their middles, where they want and can have them.
+    pub(super) fn add_middles(&mut self, model: &Model, faults: &mut Vec<Fault>) {
+        let is_tetrahedra = |group: &ElementGroup| D == 3 && group.kind == CellKind::Tetrahedron;
+        let wants =
+            |group: &ElementGroup| is_tetrahedra(group) && model.parts[group.part].named_element_in(D, CellKind::Tetrahedron).is_none();
+        let mut changes: Vec<bool> = self.groups.iter().map(wants).collect();
+        let has_middles = |group: &ElementGroup| group.kind == CellKind::Tetrahedron10;
+        if !changes.contains(&true) && !self.groups.iter().any(has_middles) {
+            return;
+        }
+        self.leave_out_neighbours(&mut changes);
+        self.leave_out_rigid(&mut changes, |part| model.parts[part].rigid.is_some());
+        let mut middles = Middles::of_mesh(self.groups.iter());
+        let changing = || self.groups.iter().zip(&changes).filter(|(_, changes)| **changes).map(|(group, _)| group);
+        let first = self.positions.len() as u32;
+        let new = middles.add(changing().flat_map(ElementGroup::cells).flat_map(edges).collect(), first);
+        // What has no middles, but an edge that has one.
+        for (group, _) in self.groups.iter().zip(&changes).filter(|(group, changes)| !**changes && !has_middles(group)) {
+            let Some(edge) = group.cells().flat_map(edges).find(|edge| middles.of(*edge).is_some()) else { continue };
+            let [a, b] = edge.map(|node| self.positions[node as usize].map(|x| format!("{x:.4e}")).join(", "));
+            let message = format!(
+                "its {} share the edge from ({a}) to ({b}) m with ten-node tetrahedra, whose node in the middle would hang free",
+                group.kind.facts().plural
+            );
+            let help = "give both parts elements of the same order, or separate them in the mesh and tie them with a contact";
+            faults.push(Fault::new(&NO_ELEMENT, format!("part[{}]", group.part), message, help));
+        }
+        for (group, _) in self.groups.iter().zip(&changes).filter(|(group, changes)| !**changes && is_tetrahedra(group)) {
+            if let Some(ten) = model.parts[group.part].named_element_in(D, CellKind::Tetrahedron10) {
+                let message = format!("its tetrahedra share edges with elements of another kind, so they can't become `{}`", ten.name);
+                let help = "take `tet4`, or separate the bodies and tie them";
+                faults.push(Fault::new(&NO_ELEMENT, format!("part[{}].element", group.part), message, help));
+            }
+        }
+        if !faults.is_empty() {
+            return;
+        }
+        for [a, b] in &new {
+            let [a, b] = [a, b].map(|node| self.positions[*node as usize]);
+            self.positions.push(std::array::from_fn(|d| 0.5 * (a[d] + b[d])));
+        }
+        for (group, _) in self.groups.iter_mut().zip(&changes).filter(|(_, changes)| **changes) {
+            let cells = group.connectivity.chunks_exact(4).flat_map(|nodes| {
+                let own = edges(CellKind::Tetrahedron.cell(nodes)).filter_map(|edge| middles.of(edge));
+                nodes.iter().copied().chain(own).collect::<Vec<u32>>()
+            });
+            (group.connectivity, group.kind) = (cells.collect(), CellKind::Tetrahedron10);
+        }
+        self.name_middles(&middles, first);
+        // Tetrahedra of a part that were not all of one kind are now of two.
+        self.groups.sort_by_key(|group| (group.part, std::cmp::Reverse((group.kind.nodes(), group.kind))));
+    }
+
+    /// Tetrahedra that share an edge with what will have no middles get none, and so on.
+    fn leave_out_neighbours(&self, changes: &mut [bool]) {
+        loop {
+            let is_without = |(group, changes): &(&ElementGroup, &bool)| {
+                !**changes && group.kind != CellKind::Tetrahedron10 && group.kind.dimension() > 0
+            };
+            let mut without: Vec<Edge> =
+                self.groups.iter().zip(&*changes).filter(is_without).flat_map(|(group, _)| group.cells()).flat_map(edges).collect();
+            without.sort_unstable();
+            without.dedup();
+            let touches = |group: &ElementGroup| group.cells().flat_map(edges).any(|edge| without.binary_search(&edge).is_ok());
+            let touching: Vec<usize> = (0..changes.len()).filter(|&at| changes[at] && touches(&self.groups[at])).collect();
+            if touching.is_empty() {
+                return;
+            }
+            touching.into_iter().for_each(|at| changes[at] = false);
+        }
+    }
+
+    /// Tetrahedra of rigid parts need no middles, unless they are connected with some that have them. Rigid
+    /// parts share no nodes with each other.
+    fn leave_out_rigid(&self, changes: &mut [bool], is_rigid: impl Fn(usize) -> bool) {
+        let rigid: Vec<usize> = (0..changes.len()).filter(|&at| changes[at] && is_rigid(self.groups[at].part)).collect();
+        if rigid.is_empty() {
+            return;
+        }
+        let has_them =
+            |(group, changes): &(&ElementGroup, &bool)| group.kind == CellKind::Tetrahedron10 || **changes && !is_rigid(group.part);
+        let with: BTreeSet<Edge> =
+            self.groups.iter().zip(&*changes).filter(has_them).flat_map(|(group, _)| group.cells()).flat_map(edges).collect();
+        let is_alone = |at: &usize| !self.groups[*at].cells().flat_map(edges).any(|edge| with.contains(&edge));
+        rigid.into_iter().filter(is_alone).for_each(|at| changes[at] = false);
+    }
+
+    /// Puts middles into the parts, sides and sets that they belong to.
+    fn name_middles(&mut self, middles: &Middles, first: u32) {
+        for (index, part) in self.parts.iter_mut().enumerate() {
+            let own = self.groups.iter().filter(|group| group.part == index && group.kind == CellKind::Tetrahedron10);
+            let mut new: Vec<u32> = own.flat_map(|group| group.connectivity.iter().copied().filter(|&node| node >= first)).collect();
+            new.sort_unstable();
+            new.dedup();
+            part.nodes.extend(new);
+        }
+        let surfaces = self.surfaces.values_mut().flatten().map(|(_, facets)| facets);
+        for facets in self.sides.values_mut().chain(surfaces) {
+            *facets = facets.iter().flat_map(|facet| middles.divided::<D>(*facet)).collect();
+        }
+        let count = self.positions.len();
+        let (mut is_in, mut is_middle) = (vec![false; count], vec![false; count]);
+        middles.edges.iter().for_each(|&(_, node)| is_middle[node as usize] = true);
+        for nodes in self.points.values_mut().chain(self.sets.values_mut().flatten().map(|(_, nodes)| nodes)) {
+            if nodes.iter().any(|node| is_middle[*node as usize]) {
+                continue; // of a file that has them, and says which
+            }
+            nodes.iter().for_each(|&node| is_in[node as usize] = true);
+            let own: Vec<u32> = middles.within(|node| is_in[node as usize]).collect();
+            nodes.iter().for_each(|&node| is_in[node as usize] = false);
+            nodes.extend(own);
+            nodes.sort_unstable();
+            nodes.dedup();
+        }
+    }
+}

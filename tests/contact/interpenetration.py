@@ -62,7 +62,7 @@ from overlap import (
 FRACTION = 0.25
 # Places on each piece of an edge that is inside another body.
 PLACES = 11
-SOLIDS = {10, 12, 13}
+SOLIDS = {10, 12, 13, 24}
 # A warning that speaks of bodies inside each other.
 TOLD = re.compile(r"penetrat|unverified|inside (a|another|the) body|without being in contact|overlap|go(es)? through", re.I)
 

@@ -16,6 +16,12 @@ FACES = {
     12: [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
     13: [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
     10: [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
+    24: [
+        (0, 6, 4), (6, 2, 5), (4, 5, 1), (6, 5, 4),
+        (0, 4, 7), (4, 1, 8), (7, 8, 3), (4, 8, 7),
+        (1, 5, 8), (5, 2, 9), (8, 9, 3), (5, 9, 8),
+        (2, 6, 9), (6, 0, 7), (9, 7, 3), (6, 7, 9),
+    ],
     9: [(0, 1), (1, 2), (2, 3), (3, 0)],
     5: [(0, 1), (1, 2), (2, 0)],
 }
@@ -219,11 +225,11 @@ def outside(cells, points):
 
 
 def simplices(cells, points):
-    """The cells as simplices around their means: corners (M, D + 1, 3), and the nodes of the cell of each (M, 8; the last repeated)."""
+    """The cells as simplices around their means: corners (M, D + 1, 3), and the nodes of the cell of each (M, 10; the last repeated)."""
     corners, owners = [], []
     for kind, nodes in sorted(cells.items()):
         centre = points[nodes].mean(axis=1)
-        padded = np.concatenate([nodes, np.repeat(nodes[:, -1:], 8 - nodes.shape[1], axis=1)], axis=1)
+        padded = np.concatenate([nodes, np.repeat(nodes[:, -1:], 10 - nodes.shape[1], axis=1)], axis=1)
         for face in FACES[kind]:
             place = points[nodes[:, list(face)]]
             if len(face) == 4:

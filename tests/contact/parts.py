@@ -97,7 +97,8 @@ class Scene:
         for part in self.parts:
             shape = part.shape
             if not shape:
-                kind = {4: "tet4", 6: "wedge6", 8: "hex8"}[max(len(cell) for cell in part.mesh.cells)]
+                tetrahedron = "tet10" if len(lines) % 2 else "tet4"
+                kind = {4: tetrahedron, 6: "wedge6", 8: "hex8"}[max(len(cell) for cell in part.mesh.cells)]
                 shape = f'element = "{kind}", mesh = {{ file = "bodies.msh", group = "{part.name}" }}'
             rigid = ", rigid = true" if part.rigid else ""
             lines.append(

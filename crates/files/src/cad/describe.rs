@@ -106,7 +106,7 @@ impl Meshed {
     fn outside(&self, body: &str) -> Outside {
         let group = self.mesh.groups.iter().find(|group| group.name == body && group.dimension == 3);
         // Of ten nodes the corners: faces are triangles of corners, too.
-        let cells = group.into_iter().flat_map(MeshGroup::elements).flatten().map(corners);
+        let cells = group.into_iter().flat_map(MeshGroup::elements).flatten().map(Cell::of_corners);
         // Of what is no body there are none, and no normals.
         let facets = surface::exterior::<3>(cells).unwrap_or_default();
         facets.into_iter().map(|facet| (facet.undirected(), facet)).collect()
@@ -151,7 +151,7 @@ impl Meshed {
     /// its longest edge; of other cells that of [`CellGeometry::shape_quality`].
     fn shape(&self, cell: Cell<'_>) -> f64 {
         let positions = &self.mesh.positions;
-        let cell = corners(cell);
+        let cell = cell.of_corners();
         if cell.kind != CellKind::Tetrahedron {
             return Dim::<3>::shape_quality(cell, positions);
         }
@@ -175,11 +175,6 @@ impl Meshed {
     fn place(&self, at: Vector) -> String {
         format!("{} {}", self.numbers(at), self.unit.name)
     }
-}
-
-/// A tetrahedron by its corners.
-fn corners(cell: Cell<'_>) -> Cell<'_> {
-    if cell.kind == CellKind::Tetrahedron10 { CellKind::Tetrahedron.cell(cell.corners()) } else { cell }
 }
 
 /// Four digits: what rounds to nothing beside a millionth is zero.

@@ -203,8 +203,7 @@ where
             stored = stored * L::splat(0.5);
         }
         let live = L::load(&self.input.elements[batch].live, at);
-        // In 2D all counts as if it were dilatation; in 3D that thickness is for dampers, and for
-        // the start.
+        // In 2D all counts as if it were dilatation.
         let thickness = E::thickness(&geometry.x, &geometry.map, geometry.area, &geometry.slope);
         let dilating_squared = thickness.squared();
         let characteristic_length_squared =
@@ -568,7 +567,7 @@ where
             rate: L::splat(if self.input.time_step > 0.0 { 1.0 / self.input.time_step } else { 0.0 }),
             is_start: self.input.time_step <= 0.0,
         };
-        let held = self.element.hourglass_forces(&corners, keep, at);
+        let held = self.element.hourglass_forces(&corners, &geometry.map, keep, at);
         let element = &mut self.input.elements[batch];
         let booked = if E::HOURGLASS_MODES > 0 { L::load(&element.hourglass, at) + held.work } else { held.work };
         booked.store(&mut element.hourglass, at);

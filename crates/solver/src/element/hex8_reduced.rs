@@ -314,7 +314,7 @@ macro_rules! reduced {
                 hourglass_rates(x, step)
             }
             #[inline(always)]
-            fn hourglass_forces<L: Lane>(&self, corners: &Corners<L, 3, 8>, kept: &mut [Batch], at: usize) -> Held<L, 3, 8> {
+            fn hourglass_forces<L: Lane>(&self, corners: &Corners<L, 3, 8>, _: &Map<L, 3, 1>, kept: &mut [Batch], at: usize) -> Held<L, 3, 8> {
                 match Control::$control {
                     Control::Stiffness => hold(self.coefficient, corners, kept, at),
                     Control::Viscous => damp(self.coefficient, corners, kept, at),

@@ -170,12 +170,18 @@ where
     fn hourglass_rates<L: Lane>(_x: &[[L; D]; N], _step: &[[L; D]; N], _gradient: &Matrix<L, D>) -> [[L; D]; PATTERNS] {
         [[L::splat(0.0); D]; PATTERNS]
     }
-    /// Forces against the shapes that the points do not feel; `kept` is what was kept at the beginning of the
-    /// step ([`Element::HOURGLASS`] batches, lanes from `at` on; a force that follows an amplitude is turned
-    /// to its end) and becomes what is kept until the next. Called only where hourglass control keeps
-    /// something.
+    /// Forces against the shapes that the points do not feel; `map` is that of the present form, `kept` is
+    /// what was kept at the beginning of the step ([`Element::HOURGLASS`] batches, lanes from `at` on; a
+    /// force that follows an amplitude is turned to its end) and becomes what is kept until the next. Called
+    /// only where hourglass control keeps something.
     #[inline(always)]
-    fn hourglass_forces<L: Lane>(&self, _corners: &Corners<L, D, N>, _kept: &mut [Batch], _at: usize) -> Held<L, D, N> {
+    fn hourglass_forces<L: Lane>(
+        &self,
+        _corners: &Corners<L, D, N>,
+        _map: &Map<L, D, P>,
+        _kept: &mut [Batch],
+        _at: usize,
+    ) -> Held<L, D, N> {
         let zero = L::splat(0.0);
         Held { forces: [[zero; D]; N], flux: [[zero; D]; D], pulls: Pulls::none(), work: zero, stiffening: L::splat(1.0) }
     }

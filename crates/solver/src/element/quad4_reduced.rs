@@ -408,7 +408,7 @@ macro_rules! reduced {
                 all
             }
             #[inline(always)]
-            fn hourglass_forces<L: Lane>(&self, corners: &Corners<L, 2, 4>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
+            fn hourglass_forces<L: Lane>(&self, corners: &Corners<L, 2, 4>, _: &Map<L, 2, 1>, kept: &mut [Batch], at: usize) -> Held<L, 2, 4> {
                 hourglass_forces(Control::$control, self.coefficient, corners, kept, at)
             }
         }

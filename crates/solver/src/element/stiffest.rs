@@ -68,11 +68,11 @@ pub(super) fn largest<L: Lane>([trace, spread]: [L; 2]) -> L {
 /// ([`super::Element::MASS_RATIOS`]).
 #[derive(Clone, Copy, Debug)]
 pub struct Thickness<L> {
-    numerator: L,
+    pub(super) numerator: L,
     /// Denominator where only M is known of the stiffness, or where all of M resists dilatation alone.
-    unknown: L,
+    pub(super) unknown: L,
     /// Of a body with s = 2µ/M the denominator is max(1 − a s, 0) b + s c.
-    known: [L; 3],
+    pub(super) known: [L; 3],
 }
 
 impl<L: Lane> Thickness<L> {
@@ -87,12 +87,6 @@ impl<L: Lane> Thickness<L> {
     #[inline(always)]
     pub(super) fn of_points(numerator: L, spectrum: [L; 2]) -> Self {
         Self { numerator, unknown: spectrum[0], known: [L::splat(1.0), spectrum[0], largest(spectrum)] }
-    }
-
-    /// From all its parts.
-    #[inline(always)]
-    pub(super) fn of_parts(numerator: L, unknown: L, known: [L; 3]) -> Self {
-        Self { numerator, unknown, known }
     }
 
     /// Where only M is known of the stiffness.

@@ -53,7 +53,7 @@
 
 use super::stiffest::{Metric, Thickness, largest};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, Pulls};
-use crate::mesh::cell::CellKind;
+use crate::mesh::cell::{CellKind, Facts};
 use crate::tensor::{Dim, Matrix, Space};
 use embate_lanes::{Batch, Lane, math};
 
@@ -68,22 +68,32 @@ const G_0: f64 = 3.0 * ROOT / 4.0;
 const FAR: f64 = (5.0 - ROOT) / 20.0;
 const NEAR: f64 = 1.0 - 3.0 * FAR;
 
-/// The node between two corners; at the same corner twice what is not read.
-const BETWEEN: [[usize; 4]; 4] = [[0, 4, 6, 7], [4, 0, 5, 8], [6, 5, 0, 9], [7, 8, 9, 0]];
-/// Corners at the ends of each side with a node in its middle, from node 4 on.
-const SIDES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+const FACTS: &Facts = CellKind::Tetrahedron10.facts();
+/// Corners at the ends of each edge with a node in its middle, from node 4 on.
+const EDGES: [[usize; 2]; 6] = {
+    let (mut all, mut edge) = ([[0; 2]; 6], 0);
+    while edge < 6 {
+        let [a, b] = FACTS.edges[edge];
+        (all[edge], edge) = ([a as usize, b as usize], edge + 1);
+    }
+    all
+};
+/// The node between two corners; at the same corner what is not read.
+const BETWEEN: [[usize; 4]; 4] = {
+    let (mut all, mut edge) = ([[0; 4]; 4], 0);
+    while edge < 6 {
+        let [a, b] = EDGES[edge];
+        (all[a][b], all[b][a]) = (4 + edge, 4 + edge);
+        edge += 1;
+    }
+    all
+};
 /// Triangles of the outside, seen from there counter-clockwise: four on each face.
 const TRIANGLES: [[usize; 3]; 16] = {
-    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
-    let (mut all, mut face) = ([[0; 3]; 16], 0);
-    while face < 4 {
-        let [a, b, c]: [usize; 3] = faces[face];
-        let (ab, bc, ca) = (BETWEEN[a][b], BETWEEN[b][c], BETWEEN[c][a]);
-        all[4 * face] = [a, ab, ca];
-        all[4 * face + 1] = [ab, b, bc];
-        all[4 * face + 2] = [ca, bc, c];
-        all[4 * face + 3] = [ab, bc, ca];
-        face += 1;
+    let (mut all, mut at) = ([[0; 3]; 16], 0);
+    while at < 16 {
+        let [a, b, c, _] = FACTS.facets[at];
+        (all[at], at) = ([a as usize, b as usize, c as usize], at + 1);
     }
     all
 };
@@ -116,11 +126,13 @@ impl Element<3, 10, 4> for Tet10 {
     };
     const POINTS: [[f64; 3]; 4] = [[FAR; 3], [NEAR, FAR, FAR], [FAR, NEAR, FAR], [FAR, FAR, NEAR]];
     const WEIGHTS: [f64; 4] = [1.0 / 24.0; 4];
-    #[rustfmt::skip]
-    const NODES: [[f64; 3]; 10] = [
-        [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0],
-        [0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5], [0.5, 0.0, 0.5], [0.0, 0.5, 0.5],
-    ];
+    const NODES: [[f64; 3]; 10] = {
+        let (mut all, mut at) = ([[0.0; 3]; 10], 0);
+        while at < 10 {
+            (all[at], at) = (FACTS.reference[at], at + 1);
+        }
+        all
+    };
     const MASS_RATIOS: [f64; 10] = {
         let (corner, middle) = (32.0, 48.0 / 7.0);
         [corner, corner, corner, corner, middle, middle, middle, middle, middle, middle]
@@ -140,7 +152,7 @@ impl Element<3, 10, 4> for Tet10 {
         for a in 0..4 {
             out[a] = l[a] * (2.0 * l[a] - 1.0);
         }
-        for (middle, [a, b]) in out[4..].iter_mut().zip(SIDES) {
+        for (middle, [a, b]) in out[4..].iter_mut().zip(EDGES) {
             *middle = 4.0 * l[a] * l[b];
         }
         out
@@ -200,7 +212,7 @@ impl Element<3, 10, 4> for Tet10 {
             }
             let all = pulls[0][0] + pulls[1][1] + pulls[2][2] + pulls[3][3];
             for side in 0..6 {
-                let [a, b] = SIDES[side];
+                let [a, b] = EDGES[side];
                 let own = pulls[a][a] + pulls[b][b];
                 out[4 + side][i] = own * b_1 + (all - own) * c_1 + (apart[a] + apart[b]) * b_0 + (pulls[a][b] + pulls[b][a]) * g_0;
             }
@@ -245,11 +257,7 @@ impl Element<3, 10, 4> for Tet10 {
         // What the points call the slope, of the same volume.
         let mut flux = [[[zero; 3]; 3]; 4];
         for p in 0..4 {
-            for i in 0..3 {
-                for k in 0..3 {
-                    flux[p][i][k] = map.adjugates[p][k][i];
-                }
-            }
+            flux[p] = flux_of(&map.adjugates[p], one);
         }
         let determinants = map.determinants;
         let sum = (determinants[0] + determinants[1]) + (determinants[2] + determinants[3]);
@@ -273,7 +281,7 @@ impl Element<3, 10, 4> for Tet10 {
         let points = scale * L::splat(24.0 * STIFFNESS);
         let share = (one + one + together * together) * L::splat(1.0 / 3.0);
         let unknown = dilating.max(points * spectrum[0]);
-        Thickness::of_parts(volume * L::splat(4.0), unknown, [share, dilating, points * largest(spectrum)])
+        Thickness { numerator: volume * L::splat(4.0), unknown, known: [share, dilating, points * largest(spectrum)] }
     }
 
     fn corner_volumes(x: &[[f64; 3]; 10], _is_axisymmetric: bool) -> Option<[f64; 10]> {
@@ -301,13 +309,9 @@ impl Element<3, 10, 4> for Tet10 {
     }
 
     #[inline(always)]
-    fn hourglass_forces<L: Lane>(&self, corners: &Corners<L, 3, 10>, kept: &mut [Batch], at: usize) -> Held<L, 3, 10> {
+    fn hourglass_forces<L: Lane>(&self, corners: &Corners<L, 3, 10>, map: &Map<L, 3, 4>, kept: &mut [Batch], at: usize) -> Held<L, 3, 10> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
-        let jacobians = Self::gradients(&corners.x);
-        let mut determinants = [zero; 4];
-        for p in 0..4 {
-            determinants[p] = Dim::<3>::determinant(&jacobians[p]);
-        }
+        let determinants = map.determinants;
         if corners.is_start {
             let shear = L::select(zero.less(corners.shear), corners.shear, corners.modulus * L::splat(0.1));
             corners.volume.store(&mut kept[0], at);
@@ -337,13 +341,7 @@ impl Element<3, 10, 4> for Tet10 {
             mean += pull;
             work += pull * l * L::splat(0.5);
             most = most.max(own * inverse * (one + l.abs() + l.abs()));
-            let adjugate = Dim::<3>::adjugate(&jacobians[p]);
-            let weight = pull * inverse;
-            for i in 0..3 {
-                for k in 0..3 {
-                    flux[p][i][k] = adjugate[k][i] * weight;
-                }
-            }
+            flux[p] = flux_of(&map.adjugates[p], pull * inverse);
         }
         let mut forces = Self::divergence(&flux);
         let mean = mean / corners.volume;
@@ -357,6 +355,18 @@ impl Element<3, 10, 4> for Tet10 {
         let stiffening = one + modulus / corners.modulus * (corners.dilating_squared[1] / corners.characteristic_length_squared[1]);
         Held { forces, flux: [[zero; 3]; 3], pulls: Pulls::none(), work, stiffening }
     }
+}
+
+/// The flux at a point of a pressure of minus `weight`: the adjugate, transposed.
+#[inline(always)]
+fn flux_of<L: Lane>(adjugate: &Matrix<L, 3>, weight: L) -> Matrix<L, 3> {
+    let mut flux = *adjugate;
+    for i in 0..3 {
+        for k in 0..3 {
+            flux[i][k] = adjugate[k][i] * weight;
+        }
+    }
+    flux
 }
 
 /// Largest trace and spread of the points' S, see [`super::stiffest`].

@@ -234,6 +234,16 @@ impl<'a> Cell<'a> {
         &self.nodes[..self.kind.corners()]
     }
 
+    /// The cell of first order with its corners: of a ten-node tetrahedron that of four, of others
+    /// themselves.
+    #[must_use]
+    pub fn of_corners(self) -> Self {
+        match self.kind {
+            CellKind::Tetrahedron10 => CellKind::Tetrahedron.cell(self.corners()),
+            _ => self,
+        }
+    }
+
     /// Nodes of each edge.
     pub fn edges(self) -> impl Iterator<Item = [u32; 2]> + Clone {
         self.kind.facts().edges.iter().map(move |edge| edge.map(|k| self.nodes[usize::from(k)]))

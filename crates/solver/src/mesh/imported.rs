@@ -5,7 +5,7 @@
 //! placed alike ([`Part::shares_nodes_with`]): these share nodes and groups, those of different places share
 //! nothing.
 
-use super::cell::{Cell, CellKind};
+use super::cell::CellKind;
 use super::messages::GROUP;
 use super::middles::Middles;
 use super::placement::{turn_over, turn_pieces_over};
@@ -89,7 +89,7 @@ where
     }
 
     /// Adds the cells of a group of a file in a place.
-    fn add_group<'a>(&mut self, source: &'a ImportedMesh, group: &str, part: &Part, place: usize, faults: &mut Vec<Fault>) {
+    fn add_group(&mut self, source: &ImportedMesh, group: &str, part: &Part, place: usize, faults: &mut Vec<Fault>) {
         let dimension = match part {
             part if part.is_of_lines() => 1,
             part if part.is_of_sheets() => 2,
@@ -104,11 +104,7 @@ where
         };
         // Of tetrahedra with ten nodes a part may want the corners alone.
         let is_straight = part.named_element_in(D, CellKind::Tetrahedron).is_some();
-        let reduced = |cell: Cell<'a>| match cell.kind {
-            CellKind::Tetrahedron10 if is_straight => CellKind::Tetrahedron.cell(cell.corners()),
-            _ => cell,
-        };
-        let elements = || group.elements().flatten().map(reduced);
+        let elements = || group.elements().flatten().map(|cell| if is_straight { cell.of_corners() } else { cell });
         let mut placed = std::mem::take(&mut self.placed[place]);
         placed.numbers.resize(source.positions.len(), NOWHERE);
         let (first, mut new) = (self.positions.len() as u32, Vec::new());

@@ -15,13 +15,25 @@ use super::surface::{Corners, Facet};
 use super::{Dim, ElementGroup, Mesh, Meshed};
 use crate::error::Fault;
 use crate::model::Model;
-use std::collections::BTreeSet;
 
 /// An edge by its nodes, the lower one first.
 type Edge = [u32; 2];
 
 fn edges(cell: Cell<'_>) -> impl Iterator<Item = Edge> + Clone {
     cell.edges().map(Corners::undirected)
+}
+
+/// Edges of groups, each once, ascending.
+fn edges_of<'a>(groups: impl Iterator<Item = &'a ElementGroup>) -> Vec<Edge> {
+    let mut all: Vec<Edge> = groups.flat_map(ElementGroup::cells).flat_map(edges).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// Whether a group has one of these edges, which ascend.
+fn has_any(group: &ElementGroup, of: &[Edge]) -> bool {
+    group.cells().flat_map(edges).any(|edge| of.binary_search(&edge).is_ok())
 }
 
 /// Nodes in the middle of edges, by these, ascending.
@@ -39,10 +51,8 @@ impl Middles {
         Self { edges: all }
     }
 
-    /// Adds edges without one, each once, from a number on; those that it got.
+    /// Adds those of these edges, each there once, that have none, from a number on; those that it added.
     fn add(&mut self, mut wanted: Vec<Edge>, first: u32) -> Vec<Edge> {
-        wanted.sort_unstable();
-        wanted.dedup();
         wanted.retain(|edge| self.of(*edge).is_none());
         self.edges.extend(wanted.iter().copied().zip(first..));
         self.edges.sort_unstable();
@@ -99,11 +109,12 @@ where
             return;
         }
         self.leave_out_neighbours(&mut changes);
-        self.leave_out_rigid(&mut changes, |part| model.parts[part].rigid.is_some());
+        let named = |part: usize| model.parts[part].named_element_in(D, CellKind::Tetrahedron10);
+        self.leave_out_rigid(&mut changes, |part| model.parts[part].rigid.is_some() && named(part).is_none());
         let mut middles = Middles::of_mesh(self.groups.iter());
         let changing = || self.groups.iter().zip(&changes).filter(|(_, changes)| **changes).map(|(group, _)| group);
         let first = self.positions.len() as u32;
-        let new = middles.add(changing().flat_map(ElementGroup::cells).flat_map(edges).collect(), first);
+        let new = middles.add(edges_of(changing()), first);
         // What has no middles, but an edge that has one.
         for (group, _) in self.groups.iter().zip(&changes).filter(|(group, changes)| !**changes && !has_middles(group)) {
             let Some(edge) = group.cells().flat_map(edges).find(|edge| middles.of(*edge).is_some()) else { continue };
@@ -116,7 +127,7 @@ where
             faults.push(Fault::new(&NO_ELEMENT, format!("part[{}]", group.part), message, help));
         }
         for (group, _) in self.groups.iter().zip(&changes).filter(|(group, changes)| !**changes && is_tetrahedra(group)) {
-            if let Some(ten) = model.parts[group.part].named_element_in(D, CellKind::Tetrahedron10) {
+            if let Some(ten) = named(group.part) {
                 let message = format!("its tetrahedra share edges with elements of another kind, so they can't become `{}`", ten.name);
                 let help = "take `tet4`, or separate the bodies and tie them";
                 faults.push(Fault::new(&NO_ELEMENT, format!("part[{}].element", group.part), message, help));
@@ -147,12 +158,8 @@ where
             let is_without = |(group, changes): &(&ElementGroup, &bool)| {
                 !**changes && group.kind != CellKind::Tetrahedron10 && group.kind.dimension() > 0
             };
-            let mut without: Vec<Edge> =
-                self.groups.iter().zip(&*changes).filter(is_without).flat_map(|(group, _)| group.cells()).flat_map(edges).collect();
-            without.sort_unstable();
-            without.dedup();
-            let touches = |group: &ElementGroup| group.cells().flat_map(edges).any(|edge| without.binary_search(&edge).is_ok());
-            let touching: Vec<usize> = (0..changes.len()).filter(|&at| changes[at] && touches(&self.groups[at])).collect();
+            let without = edges_of(self.groups.iter().zip(&*changes).filter(is_without).map(|(group, _)| group));
+            let touching: Vec<usize> = (0..changes.len()).filter(|&at| changes[at] && has_any(&self.groups[at], &without)).collect();
             if touching.is_empty() {
                 return;
             }
@@ -160,8 +167,8 @@ where
         }
     }
 
-    /// Tetrahedra of rigid parts need no middles, unless they are connected with some that have them. Rigid
-    /// parts share no nodes with each other.
+    /// Tetrahedra of rigid parts that do not ask for middles need none, unless they are connected with some
+    /// that have them. Rigid parts share no nodes with each other.
     fn leave_out_rigid(&self, changes: &mut [bool], is_rigid: impl Fn(usize) -> bool) {
         let rigid: Vec<usize> = (0..changes.len()).filter(|&at| changes[at] && is_rigid(self.groups[at].part)).collect();
         if rigid.is_empty() {
@@ -169,10 +176,8 @@ where
         }
         let has_them =
             |(group, changes): &(&ElementGroup, &bool)| group.kind == CellKind::Tetrahedron10 || **changes && !is_rigid(group.part);
-        let with: BTreeSet<Edge> =
-            self.groups.iter().zip(&*changes).filter(has_them).flat_map(|(group, _)| group.cells()).flat_map(edges).collect();
-        let is_alone = |at: &usize| !self.groups[*at].cells().flat_map(edges).any(|edge| with.contains(&edge));
-        rigid.into_iter().filter(is_alone).for_each(|at| changes[at] = false);
+        let with = edges_of(self.groups.iter().zip(&*changes).filter(has_them).map(|(group, _)| group));
+        rigid.into_iter().filter(|&at| !has_any(&self.groups[at], &with)).for_each(|at| changes[at] = false);
     }
 
     /// Puts middles into the parts, sides and sets that they belong to.

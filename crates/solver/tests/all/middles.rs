@@ -121,5 +121,6 @@ fn tetrahedra_beside_others_stay_as_they_are_and_nothing_hangs_in_silence() {
         nodes(&simulation(&model))
     };
     assert_eq!(rigid(held(block(4), &[("body", "")]), &[0]), 5 * 3 * 3);
+    assert_eq!(rigid(held(block(4), &[("body", "tet10")]), &[0]), 9 * 5 * 5, "it is named");
     assert_eq!(rigid(held(halves, &[("body", ""), ("half", "")]), &[1]), 9 * 5 * 5);
 }

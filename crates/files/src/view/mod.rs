@@ -14,6 +14,7 @@ mod describe;
 mod folder;
 mod frame;
 mod levels;
+mod model;
 
 pub use arrays::{FrameArrays, frame_files};
 pub use bodies::{Bodies, Topology};
@@ -21,3 +22,4 @@ pub use container::Container;
 pub use describe::{Column, FrameTime, PartDescription, RunDescription, ScalarDescription, Warned};
 pub use folder::{Probed, Ranged, ResultView, Series};
 pub use frame::{FrameRequest, frame, gone, outlines};
+pub use model::ModelView;

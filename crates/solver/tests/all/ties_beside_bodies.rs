@@ -10,8 +10,8 @@ use embate_solver::simulation::Simulation;
 const FORMULATIONS: [Formulation; 3] = [Formulation::DoublePass, Formulation::Segment, Formulation::Pinball];
 const TIES: [Formulation; 3] = [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }, Formulation::Segment];
 
-/// An upper block that comes down on a lower one, to which it is tied, with meshes that don't match; the lower
-/// one is wider by `wider`, m, on both sides.
+/// An upper block that comes down on a lower one, to which it is tied, with meshes that don't match; the
+/// lower one is wider by `wider`, m, on both sides.
 fn plane(tie: Formulation, strength: f64, wider: f64) -> Model {
     let mut model = model(4e-4);
     add(&mut model, "upper", rectangle([0.0, 0.1], [0.1, 0.1], [7, 5]), [2.0, -5.0]);
@@ -74,7 +74,8 @@ const MODELS: [(fn(Formulation, f64, f64) -> Model, &str); 2] = [(plane, "y"), (
 #[test]
 fn what_is_tied_moves_as_without_the_contact_of_bodies() {
     for (make, up) in MODELS {
-        // Where the slave is wider than the target the target's rim lies on facets that are not tied as a whole.
+        // Where the slave is wider than the target the target's rim lies on facets that are not tied as a
+        // whole.
         let cases = TIES.map(|tie| (tie, 0.0)).into_iter().chain([(Formulation::DoublePass, 0.02)]);
         for (tie, wider) in cases {
             let alone = make(tie, f64::INFINITY, wider);

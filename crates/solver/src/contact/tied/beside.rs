@@ -2,12 +2,12 @@
 //!
 //! Left out is a spring whose ends on one side are all nodes that a tie holds of one of its surfaces, and
 //! whose ends on the other side are all nodes that it holds of the other one. It stays in the list, opened,
-//! so that nodes are followed and checked on as ever. Where the tie breaks, springs of nodes begin as those of
-//! surfaces that meet: without energy, at the gap 0. Those of segments, facets and pinballs have no such
+//! so that nodes are followed and checked on as ever. Where the tie breaks, springs of nodes begin as those
+//! of surfaces that meet: without energy, at the gap 0. Those of segments, facets and pinballs have no such
 //! beginning; what was tied once they leave to the ordinary contact of the tie itself.
 //!
-//! A tie that does not act all the time leaves nothing out: when it ends, what is pressed together there would
-//! meet with an energy that nothing has put in.
+//! A tie that does not act all the time leaves nothing out: when it ends, what is pressed together there
+//! would meet with an energy that nothing has put in.
 
 use super::Held;
 use crate::contact::Contact;

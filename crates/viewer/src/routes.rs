@@ -14,7 +14,7 @@ use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
 use axum::routing::get;
 use embate_files::results::ResultsError;
-use embate_files::view::{FrameRequest, ResultView};
+use embate_files::view::{FrameRequest, ProbePlace, RangeOf, ResultView, SectionRequest};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -111,6 +111,10 @@ impl Refusal {
         Self { status: StatusCode::NOT_FOUND, code: "", text: text.into() }
     }
 
+    fn unclear(text: String) -> Self {
+        Self { status: StatusCode::BAD_REQUEST, code: "", text }
+    }
+
     pub(crate) fn forbidden(text: &str) -> Self {
         Self { status: StatusCode::FORBIDDEN, code: "", text: text.into() }
     }
@@ -164,6 +168,7 @@ pub(crate) fn router(shown: Arc<Shown>) -> Router {
             .route("/api/runs/{run}/history", get(history))
             .route("/api/runs/{run}/range", get(range))
             .route("/api/runs/{run}/probe", get(probe))
+            .route("/api/runs/{run}/track", get(track))
             .route("/api/runs/{run}/topology/{topology}", get(topology))
             .route("/api/runs/{run}/frames/{frame}", get(frame))
             .route("/api/live", get(live));
@@ -232,10 +237,33 @@ async fn run(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usiz
 #[derive(Deserialize)]
 struct Wanted {
     rows: Option<usize>,
-    scalar: Option<String>,
-    arrows: Option<u8>,
     node: Option<usize>,
     cell: Option<usize>,
+    inside: Option<u8>,
+    scalar: Option<String>,
+    averaged: Option<u8>,
+    arrows: Option<u8>,
+    glyphs: Option<String>,
+    section: Option<String>,
+    scale: Option<f64>,
+}
+
+impl Wanted {
+    fn place(&self) -> Result<ProbePlace, Refusal> {
+        let place = self.node.map(ProbePlace::Node).or(self.cell.map(ProbePlace::Cell));
+        place.ok_or(Refusal::nothing("this needs a node or a cell"))
+    }
+}
+
+/// The request of a frame, of an address or of a message.
+pub(crate) fn frame_request(
+    scalar: Option<String>,
+    [averaged, arrows]: [bool; 2],
+    glyphs: Option<String>,
+    section: Option<(&str, f64)>,
+) -> Result<FrameRequest, String> {
+    let section = section.map(|(planes, scale)| SectionRequest::read(planes, scale)).transpose()?;
+    Ok(FrameRequest { scalar, averaged, arrows, glyphs, section })
 }
 
 async fn history(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
@@ -251,7 +279,8 @@ async fn history(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, 
 
 async fn range(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
     beside(move || {
-        let (range, frames) = shown.run(run)?.range(&wanted.scalar.unwrap_or_default())?;
+        let of = RangeOf { inside: wanted.inside == Some(1), averaged: wanted.averaged == Some(1) };
+        let (range, frames) = shown.run(run)?.range(&wanted.scalar.unwrap_or_default(), of)?;
         data(&json!({ "range": range, "frames": frames }))
     })
     .await
@@ -259,9 +288,17 @@ async fn range(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, us
 
 async fn probe(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
     beside(move || {
-        let place = wanted.node.or(wanted.cell).ok_or(Refusal::nothing("a probe needs a node or a cell"))?;
+        let place = wanted.place()?;
         let probed = shown.run(run)?.probe(&wanted.scalar.unwrap_or_default(), place)?;
         data(&json!(probed.ok_or(Refusal::nothing("there is no such node, cell or field"))?))
+    })
+    .await
+}
+
+async fn track(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
+    beside(move || {
+        let track = shown.run(run)?.track(wanted.place()?)?;
+        data(&json!(track.ok_or(Refusal::nothing("there is no such node or cell"))?))
     })
     .await
 }
@@ -284,7 +321,9 @@ async fn frame(
     Query(wanted): Query<Wanted>,
 ) -> Answer {
     beside(move || {
-        let frame_request = FrameRequest { scalar: wanted.scalar, arrows: wanted.arrows == Some(1) };
+        let Wanted { scalar, averaged, arrows, glyphs, section, scale, .. } = wanted;
+        let section = section.as_deref().map(|planes| (planes, scale.unwrap_or(1.0)));
+        let frame_request = frame_request(scalar, [averaged, arrows].map(|on| on == Some(1)), glyphs, section).map_err(Refusal::unclear)?;
         let frame = shown.run(run)?.frame(number, &frame_request)?;
         bytes(frame.ok_or(Refusal::nothing("there is no frame of this number"))?.bytes())
     })

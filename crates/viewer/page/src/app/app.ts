@@ -8,12 +8,16 @@ import { Player } from "./player";
 import { Gone, Refusal, type Requests } from "./requests";
 import { FrameStore, Session } from "./session";
 import { firstView, viewOf, viewText, type View } from "./view";
+import { wishOf, type Wish } from "./wish";
 
 /** A text for the user at the top of the picture; `alert` is read aloud at once. */
 export interface Note {
   text: string;
   alert: boolean;
 }
+
+/** What a click in the picture does: a probe of the node or of the element there, or an end of a distance. */
+export type Tool = "node" | "cell" | "measure";
 
 export class App {
   readonly events = new Events();
@@ -24,6 +28,12 @@ export class App {
   readonly player: Player;
   view: View;
   note: Note | null = null;
+  /** What a click in the picture does. */
+  tool: Tool = "node";
+  /** The first node of a distance, until the second is picked. */
+  started: { run: number; node: number } | null = null;
+  /** A plane is being dragged: nothing is read ahead. */
+  isDragging = false;
   private addressTimer = 0;
   private pollTimer = 0;
   private polling = false;
@@ -70,6 +80,10 @@ export class App {
   get isComparison(): boolean {
     return this.sessions.length > 1;
   }
+  /** What frames of a run are to hold. */
+  wish(session: Session): Wish {
+    return wishOf(this.view, session.run);
+  }
   /** Something may still come. */
   get isGoing(): boolean {
     return this.sessions.some((session) => !session.run.is_over) && !(this.live?.ended && !this.live.ended.stays);
@@ -89,6 +103,12 @@ export class App {
   /** Moves the time by hand: leaves playing and following. */
   moveTo(time: number): void {
     this.change({ time: Math.min(Math.max(time, this.player.times()[0] ?? 0), this.player.times().at(-1) ?? time), playing: false, follow: false });
+  }
+
+  use(tool: Tool): void {
+    this.tool = tool;
+    this.started = null;
+    this.events.emit("view");
   }
 
   say(text: string, alert = false): void {

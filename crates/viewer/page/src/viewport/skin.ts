@@ -2,15 +2,16 @@
 // level has a table of its facets' corners and a list of vertex numbers without hidden parts. Also gives the
 // program of the id pass.
 
-import { type BufferGeometry, type RawShaderMaterial } from "three";
+import { type BufferGeometry, type RawShaderMaterial, type Texture } from "three";
 import type { Topology } from "../types";
+import type { Pickable } from "./picking";
 import { markOutlines } from "./outline";
 import { PICK_FRAGMENT, SKIN_FRAGMENT, SKIN_VERTEX } from "./shaders";
 import { Layer, makeMaterial, numbered, type Stage, type Uniforms } from "./stage";
 import { Table } from "./store";
 
 /** What colours stand for. */
-export type Colouring = "CELL" | "NODE" | "PART";
+export type Colouring = "CELL" | "NODE" | "CORNER" | "PART";
 
 /** More facets than this have no outlines: finding them would take long. */
 const MOST_OUTLINED = 1_500_000;
@@ -108,9 +109,11 @@ export class Skin {
     };
   }
 
-  private material(index: number, colouring: Colouring | "PICK", lines: boolean, image?: { value: number }): RawShaderMaterial {
+  private material(index: number, colouring: Colouring | "PICK", lines: boolean, iso: boolean, image?: { value: number }): RawShaderMaterial {
     const level = this.levels[index]!;
     const defines: string[] = [colouring];
+    if (this.stage.isCut) defines.push("CLIP");
+    if (iso && (colouring === "NODE" || colouring === "CORNER")) defines.push("ISO");
     if (this.stage.shared.scale.value !== 1) defines.push("SCALED");
     if (!this.stage.isPlane && colouring !== "PICK") defines.push("SPACE");
     if (level.sources !== null) defines.push("COARSE");
@@ -133,19 +136,25 @@ export class Skin {
     return material;
   }
 
-  show(level: number, colouring: Colouring, lines: boolean): void {
+  show(level: number, colouring: Colouring, lines: boolean, iso: boolean): void {
     const shown = this.levels[level];
     if (shown === undefined) return this.layer.hide();
     const pixel = this.stage.shared.pixel.value;
     this.halfLine.value = 0.5 * pixel;
     this.halfOutline.value = (this.stage.isPlane ? 1.1 : 0.8) * pixel;
-    this.layer.show(shown.geometry, this.material(level, colouring, lines));
+    this.layer.show(shown.geometry, this.material(level, colouring, lines, iso));
+  }
+
+  /** The whole skin: its vertices, and the table of its corners. */
+  get whole(): { geometry: BufferGeometry; corners: Texture } | null {
+    const level = this.levels[0];
+    return level === undefined || level.triangles === 0 ? null : { geometry: level.geometry, corners: level.corners.texture };
   }
 
   /** Geometry and program that write the numbers of facets instead of colours; of the whole skin. */
-  forPick(image: { value: number }): [BufferGeometry, RawShaderMaterial] | null {
+  forPick(image: { value: number }): Pickable | null {
     const whole = this.levels[0];
-    return whole === undefined || whole.triangles === 0 ? null : [whole.geometry, this.material(0, "PICK", false, image)];
+    return whole === undefined || whole.triangles === 0 ? null : [whole.geometry, this.material(0, "PICK", false, false, image)];
   }
 
   private clear(): void {

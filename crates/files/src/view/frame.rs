@@ -1,6 +1,6 @@
-//! A frame as a page gets it: places of the nodes that are seen, one scalar, contact forces, glyphs, sections,
-//! obstacles. Taken piece by piece from what is shown, a file that was read or a simulation between two steps;
-//! of a model in 3D no more than its skin is asked for, unless it is cut or averaged.
+//! A frame as a page gets it: places of the nodes that are seen, one scalar, contact forces, glyphs,
+//! sections, obstacles. Taken piece by piece from what is shown, a file that was read or a simulation between
+//! two steps; of a model in 3D no more than its skin is asked for, unless it is cut or averaged.
 
 use super::bodies::{self, Bodies, Topology};
 use super::container::Container;

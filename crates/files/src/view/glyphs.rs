@@ -45,8 +45,8 @@ pub(super) fn add(container: &mut Container, topology: &Topology, shown: &dyn Sh
     }
 }
 
-/// Principal values of a tensor xx yy zz xy (yz zx), the largest first, and unit vectors along their axes; not
-/// a number where a component is not.
+/// Principal values of a tensor xx yy zz xy (yz zx), the largest first, and unit vectors along their axes;
+/// not a number where a component is not.
 fn principal(tensor: &[f64]) -> ([f32; 3], [[f32; 3]; 3]) {
     let tensor: [f64; 6] = std::array::from_fn(|k| tensor.get(k).copied().unwrap_or(0.0));
     if tensor.iter().any(|component| !component.is_finite()) {

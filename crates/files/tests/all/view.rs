@@ -237,6 +237,25 @@ fn a_track_is_where_the_node_is_and_probes_of_elements_are_the_means_of_their_no
 }
 
 #[test]
+fn obstacles_are_shown_until_their_death() {
+    for (name, model, array_of) in [("view-death-plane", PLANE, "obstacle_lines"), ("view-death-space", SPACE, "obstacle_facets")] {
+        let folder = fresh(name);
+        let obstacle = if model == PLANE {
+            model.replace("normal = [1, 0] } }", "normal = [1, 0] }, death = \"12 us\" }")
+        } else {
+            let wall = "obstacle = [{ name = \"wall\", plane = { point = [0, 0, -1e-4], normal = [0, 0, 1] }, death = \"12 us\" }]";
+            format!("{model}{wall}")
+        };
+        let (frames, _) = run(&obstacle, &folder);
+        let view = ResultView::open(&folder).unwrap();
+        for (number, shown) in frames.iter().enumerate() {
+            let bytes = view.frame(number, &FrameRequest::default()).unwrap().unwrap().bytes();
+            assert_eq!(array(&bytes, array_of).is_empty(), shown.time > 12e-6, "{name} at {}", shown.time);
+        }
+    }
+}
+
+#[test]
 fn a_probe_is_the_value_in_every_frame_and_the_range_is_over_all_of_them() {
     let folder = fresh("view-probe");
     let (frames, _) = run(SPACE, &folder);

@@ -44,7 +44,7 @@ export class App {
     const runs = this.sessions.map((session) => session.run);
     this.first = firstView(runs);
     const text = location.hash.length > 1 ? location.hash : served.view;
-    this.view = viewOf(text, this.first, runs[0]!);
+    this.view = this.there(viewOf(text, this.first, runs[0]!));
     this.live = served.live && this.sessions[0] ? new Live(this.sessions[0], requests, this.events) : null;
     this.player = new Player(this);
   }
@@ -56,7 +56,7 @@ export class App {
     };
     window.addEventListener("hashchange", () => {
       if (location.hash.slice(1) === viewText(this.view, this.first)) return;
-      this.view = { ...viewOf(location.hash, this.first, this.sessions[0]!.run), playing: false };
+      this.view = { ...this.there(viewOf(location.hash, this.first, this.sessions[0]!.run)), playing: false };
       this.events.emit("view");
       this.events.emit("theme");
       this.player.update();
@@ -68,6 +68,15 @@ export class App {
     for (const session of this.sessions) void session.loadHistory();
     this.player.update();
     this.schedule();
+  }
+
+  /** A view without probes and distances at nodes and elements that no run has. */
+  private there(view: View): View {
+    const run = (index: number) => this.sessions.find((session) => session.index === index)?.run;
+    const isNode = (index: number, node: number): boolean => node < (run(index)?.nodes ?? 0);
+    const isCell = (index: number, cell: number): boolean => cell < (run(index)?.elements ?? 0);
+    const probes = view.probes.filter((p) => (p.of === "cell" || isNode(p.run, p.node)) && isCell(p.run, p.cell));
+    return { ...view, probes, measures: view.measures.filter((m) => isNode(m.run, m.a) && isNode(m.run, m.b)) };
   }
 
   /** The first run is the one that gives names, units and first choices. */

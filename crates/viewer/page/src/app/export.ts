@@ -1,5 +1,5 @@
-// Export: the picture as PNG, the run as MP4 or WebM, the values of a plot as CSV. Pictures are put together on a
-// plain canvas: title, time, each run's picture, legend.
+// Export: the picture as PNG, the run as MP4 or WebM, the values of a plot as CSV. Pictures are put together
+// on a plain canvas: title, time, each run's picture, legend.
 
 import type { App } from "./app";
 import { show } from "./dialogs";

@@ -52,7 +52,7 @@ export function measurePanel(app: App, picks: Picks): { element: HTMLElement; up
 
   const update = () => {
     const { measures } = app.view;
-    setText(button, app.tool === "measure" ? "Stop measuring" : "Measure between two nodes");
+    setText(button, app.tool === "measure" ? "Stop measuring" : "Measure a distance");
     button.setAttribute("aria-pressed", String(app.tool === "measure"));
     setText(hint, app.tool !== "measure" ? "" : app.started === null ? "Click the first node." : `From node ${app.started.node}: click the second node.`);
     const key = JSON.stringify(measures);

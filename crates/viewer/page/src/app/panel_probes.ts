@@ -1,5 +1,5 @@
-// Tab "Probes": nodes and elements that the user chose, with values now and over time in one or several plots;
-// distances; the probes of the model.
+// Tab "Probes": nodes and elements that the user chose, with values now and over time in one or several
+// plots; distances; the probes of the model.
 
 import type { Scalar } from "../types";
 import type { App } from "./app";

@@ -97,7 +97,7 @@ export function sectionGroup(app: App, stage: Stage): HTMLElement {
     if (Math.hypot(...wanted) > 0) set(through(app, unitOf(wanted)));
   }, { step: "any", class: "short", "aria-label": `Normal of the section, ${"xyz"[axis]}` }));
   const normals = h("div", { class: "row" }, h("span", { class: "label" }, "Normal"), h("div", { class: "inline" }, ...normal));
-  const rows = [row("Place", slider), h("div", { class: "row" }, h("span", { class: "label" }), h("div", { class: "inline" }, place, unit, flip, facing)), normals,
+  const rows = [row("Place", slider), h("div", { class: "row" }, h("span", { class: "label" }), h("div", { class: "inline" }, place, unit)), normals, h("div", { class: "row" }, h("span", { class: "label" }), h("div", { class: "inline" }, flip, facing)),
     h("p", { class: "quiet" }, "In the picture: drag the handle to move the plane, the tip of the arrow to tilt it. What lies beyond the arrow is cut away.")];
 
   const update = () => {

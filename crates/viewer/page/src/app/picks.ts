@@ -1,5 +1,5 @@
-// What is done with what was picked in a picture: probes, distances, parts that are hidden. Clicks do what the
-// tool says; the menu of a right click, or of a long touch, offers all of it.
+// What is done with what was picked in a picture: probes, distances, parts that are hidden. Clicks do what
+// the tool says; the menu of a right click, or of a long touch, offers all of it.
 
 import type { Pick } from "../viewport/viewport";
 import type { App } from "./app";

@@ -36,7 +36,7 @@ export function toolbar(app: App, actions: { export: () => void; help: () => voi
 export function pictureTools(app: App, stage: Stage): HTMLElement {
   const mesh = iconButton(icons.mesh, "Mesh lines", () => app.picture({ lines: !app.view.picture.lines }));
   const arrows = iconButton(icons.arrows, "Arrows of contact forces", () => app.picture({ arrows: !app.view.picture.arrows }));
-  const measure = iconButton(icons.measure, "Measure between two nodes", () => app.use(app.tool === "measure" ? "node" : "measure"));
+  const measure = iconButton(icons.measure, "Measure a distance", () => app.use(app.tool === "measure" ? "node" : "measure"));
   const section = iconButton(icons.section, "Section", () => toggleSection(app, stage));
   const space = app.run.dimension === 3;
   const look = h("select", { "aria-label": "Look from", title: "Look from", class: "look", onchange: () => {

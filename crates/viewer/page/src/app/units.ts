@@ -1,4 +1,5 @@
-// Units of files of measurements, to base units: products and quotients of units with prefixes, as in kN/mm^2.
+// Units of files of measurements, to base units: products and quotients of units with prefixes, as in
+// kN/mm^2.
 
 export interface Unit {
   /** A number in this unit times the factor is in base units. */

@@ -1,5 +1,6 @@
-// Cut faces of a section: triangles that come with the frame, one set for each plane, coloured as the skin is.
-// Each plane belongs to the mirror images that it cuts. Colours are not shaded: they are those of the legend.
+// Cut faces of a section: triangles that come with the frame, one set for each plane, coloured as the skin
+// is. Each plane belongs to the mirror images that it cuts. Colours are not shaded: they are those of the
+// legend.
 
 import { type BufferGeometry, type RawShaderMaterial } from "three";
 import type { Sections, Vector } from "../types";

@@ -1,6 +1,6 @@
-// The plane of a section as it is drawn over the bodies, and moved: its outline around the bodies, a handle in
-// its middle, and an arrow to the side that is cut away. Dragging the handle moves the plane along its normal,
-// dragging the arrow's tip tilts it.
+// The plane of a section as it is drawn over the bodies, and moved: its outline around the bodies, a handle
+// in its middle, and an arrow to the side that is cut away. Dragging the handle moves the plane along its
+// normal, dragging the arrow's tip tilts it.
 
 import type { Vector } from "../types";
 import { along, type Basis, cross, dot } from "./camera";

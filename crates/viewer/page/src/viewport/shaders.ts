@@ -82,12 +82,53 @@ vec3 colourOf(vec2 value) {
 }
 `;
 
+/**
+ * Mirror planes, on which the surface continues in its image. Normals of corners (`SMOOTH`): the mean of the facets
+ * around the node that have a small angle to the own one, as in pictures (`shade.rs`).
+ */
+const SMOOTH_VERTEX = /* glsl */ `
+uniform vec3 halved;
+uniform vec3 origin;
+uniform float onPlane;
+// On which mirror planes a node lies.
+bvec3 onPlanes(vec3 x) {
+  vec3 away = abs(x + origin);
+  return bvec3(halved.x > 0.5 && away.x < onPlane, halved.y > 0.5 && away.y < onPlane, halved.z > 0.5 && away.z < onPlane);
+}
+bool isShared(bvec3 a, bvec3 b) { return (a.x && b.x) || (a.y && b.y) || (a.z && b.z); }
+#ifdef SMOOTH
+uniform usampler2D starts;
+uniform usampler2D around;
+out vec3 smoothed;
+vec3 normalOf(uvec4 raw) {
+  uvec4 n = raw & 0x7fffffffu;
+  vec3 normal = cross(place(int(n.z)) - place(int(n.x)), place(int(n.w)) - place(int(n.y)));
+  float size = length(normal);
+  return size > 0.0 ? normal / size : vec3(0.0);
+}
+vec3 normalAt(uvec4 raw, int node) {
+  vec3 own = normalOf(raw);
+  vec3 sum = vec3(0.0);
+  int first = int(texelFetch(starts, at(node), 0).x);
+  int last = min(int(texelFetch(starts, at(node + 1), 0).x), first + 32);
+  for (int i = first; i < last; i++) {
+    vec3 other = normalOf(texelFetch(facets, at(int(texelFetch(around, at(i), 0).x)), 0));
+    if (dot(own, other) > 0.866) sum += other;
+  }
+  bvec3 there = onPlanes(place(node));
+  for (int k = 0; k < 3; k++) if (there[k] && abs(own[k]) < 0.26) sum[k] = 0.0;
+  return length(sum) > 0.0 ? sum : own;
+}
+#endif
+`;
+
 export const SKIN_VERTEX = /* glsl */ `${COMMON}${VALUE}
 uniform usampler2D facets;
 uniform usampler2D sources;
 uniform usampler2D parts;
 uniform int nodeRows;
 uniform int firstRow;
+${SMOOTH_VERTEX}
 out vec2 corner;
 flat out int flags;
 #if defined(SPACE) || defined(CLIP)
@@ -105,11 +146,24 @@ void main() {
   uvec4 nodes = raw & 0x7fffffffu;
   uvec4 outline = raw >> 31;
   int node = int(own < 2 ? (own == 0 ? nodes.x : nodes.y) : (own == 2 ? nodes.z : nodes.w));
+  // Where the body continues in its mirror image it has neither an outline nor a facet.
+  bool isInside = false;
+  if (dot(halved, halved) > 0.0) {
+    bvec3 a = onPlanes(place(int(nodes.x))), b = onPlanes(place(int(nodes.y))), c = onPlanes(place(int(nodes.z))), d = onPlanes(place(int(nodes.w)));
+    if (isShared(a, b)) outline.x = 0u;
+    if (isShared(b, c)) outline.y = 0u;
+    if (isShared(c, nodes.z == nodes.w ? a : d)) outline.z = 0u;
+    if (isShared(d, a)) outline.w = 0u;
+    isInside = (a.x && b.x && c.x && d.x) || (a.y && b.y && c.y && d.y) || (a.z && b.z && c.z && d.z);
+  }
   flags = int(outline.x | outline.y << 1 | outline.z << 2 | outline.w << 3) | (nodes.z == nodes.w ? 16 : 0);
   corner = vec2(own == 1 || own == 2 ? 1.0 : 0.0, own >= 2 ? 1.0 : 0.0);
   vec4 x = modelViewMatrix * vec4(place(node), 1.0);
 #if defined(SPACE) || defined(CLIP)
   seen = x.xyz;
+#endif
+#ifdef SMOOTH
+  smoothed = mat3(modelViewMatrix) * normalAt(raw, node);
 #endif
   int source = facet;
 #ifdef COARSE
@@ -135,7 +189,7 @@ void main() {
   part = int(texelFetch(parts, at(source), 0).x);
 #endif
 #endif
-  gl_Position = projectionMatrix * x;
+  gl_Position = isInside ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * x;
 }
 `;
 
@@ -173,19 +227,26 @@ vec2 linesOf() {
 /** Lines on a colour: ink, on dark colours light. */
 const LINE_INK = /* glsl */ `
 uniform vec3 ink;
-vec3 lined(vec3 c, float dark, float light) {
-  float isDark = 1.0 - smoothstep(0.14, 0.3, dot(c, vec3(0.299, 0.587, 0.114)));
+float darkness(vec3 c) { return 1.0 - smoothstep(0.14, 0.3, dot(c, vec3(0.299, 0.587, 0.114))); }
+vec3 lined(vec3 c, float isDark, float dark, float light) {
   return mix(c, mix(ink, vec3(1.0), isDark), mix(dark, light, isDark));
 }
 `;
 
-/** Flat shading by the plane in which the neighbouring pixels lie; both sides are lit. Light and brightness are those of pictures (`shade.rs`). */
+/** Shading by the normal, or by the plane in which the neighbouring pixels lie; both sides are lit. Light and brightness are those of pictures (`shade.rs`). */
 const SHADE = /* glsl */ `
+#ifdef SMOOTH
+in vec3 smoothed;
+#endif
 float shade() {
   vec3 normal = cross(dFdx(seen), dFdy(seen));
   float size = length(normal);
   if (!(size > 0.0)) return 1.0;
   normal *= (normal.z < 0.0 ? -1.0 : 1.0) / size;
+#ifdef SMOOTH
+  float reach = length(smoothed);
+  if (reach > 0.0) normal = smoothed * (dot(smoothed, normal) < 0.0 ? -1.0 : 1.0) / reach;
+#endif
   return 0.74 + 0.28 * max(dot(normal, vec3(-0.25, 0.5, 0.8291562)), 0.0);
 }
 `;
@@ -230,16 +291,17 @@ void main() {
 #ifdef SPACE
   c *= shade();
 #endif
+  float isDark = darkness(c);
 #ifdef ISO
   float iso = isoOf(value);
-  c = lined(c, 0.8 * iso, 0.7 * iso);
+  c = lined(c, isDark, 0.8 * iso, 0.7 * iso);
 #endif
 #if defined(LINES) || defined(OUTLINE)
   vec2 line = linesOf();
 #ifdef LINES
-  c = lined(c, 0.55 * line.x, 0.22 * line.x);
+  c = lined(c, isDark, 0.55 * line.x, 0.22 * line.x);
 #endif
-  c = lined(c, 0.85 * line.y, 0.55 * line.y);
+  c = lined(c, isDark, 0.85 * line.y, 0.55 * line.y);
 #endif
   cut();
   colour = vec4(c, 1.0);

@@ -13,8 +13,20 @@ import { Table } from "./store";
 /** What colours stand for. */
 export type Colouring = "CELL" | "NODE" | "CORNER" | "PART";
 
-/** More facets than this have no outlines: finding them would take long. */
+/** More facets than this have neither outlines nor smooth shading: finding neighbours would take long. */
 const MOST_OUTLINED = 1_500_000;
+
+/** For each node the facets that have it, one node after the other, and where those of each begin. */
+function facetsAround(facets: Uint32Array, nodes: number): { starts: Uint32Array; around: Uint32Array } {
+  const starts = new Uint32Array(nodes + 1);
+  const isCorner = (i: number): boolean => (i & 3) !== 3 || facets[i] !== facets[i - 1];
+  for (let i = 0; i < facets.length; i++) if (isCorner(i)) starts[facets[i]! + 1]!++;
+  for (let n = 0; n < nodes; n++) starts[n + 1]! += starts[n]!;
+  const next = starts.slice();
+  const around = new Uint32Array(starts[nodes]!);
+  for (let i = 0; i < facets.length; i++) if (isCorner(i)) around[next[facets[i]!]!++] = i >> 2;
+  return { starts, around };
+}
 
 interface Level {
   corners: Table;
@@ -24,6 +36,16 @@ interface Level {
   geometry: BufferGeometry;
   triangles: number;
   isOutlined: boolean;
+  /** Facets around nodes, for smooth shading of the whole skin in 3D. */
+  around: { starts: Table; around: Table } | null;
+}
+
+function aroundTables(facets: Uint32Array, nodes: number): NonNullable<Level["around"]> {
+  const found = facetsAround(facets, nodes);
+  const tables = { starts: new Table("index"), around: new Table("index") };
+  tables.starts.set(found.starts);
+  tables.around.set(found.around);
+  return tables;
 }
 
 export class Skin {
@@ -66,7 +88,8 @@ export class Skin {
         table = new Table("index");
         table.set(sources);
       }
-      this.levels.push({ corners, sources: table, facets, sourceOf: sources, geometry: numbered(null), triangles: 0, isOutlined });
+      this.levels.push({ corners, sources: table, facets, sourceOf: sources, geometry: numbered(null), triangles: 0, isOutlined, around: null });
+      if (isOutlined && !this.stage.isPlane) this.levels.at(-1)!.around = aroundTables(facets, topology.nodeNumbers.length);
     }
     this.setHidden(hidden);
   }
@@ -102,6 +125,8 @@ export class Skin {
     return {
       ...this.stage.shared,
       facets: { value: level.corners.texture },
+      starts: { value: level.around?.starts.texture ?? null },
+      around: { value: level.around?.around.texture ?? null },
       sources: { value: level.sources?.texture ?? null },
       parts: { value: this.parts.texture },
       halfLine: this.halfLine,
@@ -115,7 +140,7 @@ export class Skin {
     if (this.stage.isCut) defines.push("CLIP");
     if (iso && (colouring === "NODE" || colouring === "CORNER")) defines.push("ISO");
     if (this.stage.shared.scale.value !== 1) defines.push("SCALED");
-    if (!this.stage.isPlane && colouring !== "PICK") defines.push("SPACE");
+    if (!this.stage.isPlane && colouring !== "PICK") defines.push("SPACE", ...(level.around !== null ? ["SMOOTH"] : []));
     if (level.sources !== null) defines.push("COARSE");
     if (lines) defines.push("LINES");
     if (level.isOutlined) defines.push("OUTLINE");
@@ -161,6 +186,8 @@ export class Skin {
     for (const level of this.levels) {
       level.corners.dispose();
       level.sources?.dispose();
+      level.around?.starts.dispose();
+      level.around?.around.dispose();
       level.geometry.dispose();
     }
     this.levels = [];

@@ -83,6 +83,10 @@ export class Stage {
     /** Added to the numbers of facets where they are written as colours. */
     firstRow: { value: 0 },
     isoSteps: { value: 10 },
+    /** 1 for each axis across whose plane the model is mirrored; the tables' origin; what counts as on the plane, m. */
+    halved: { value: new Vector3() },
+    origin: { value: new Vector3() },
+    onPlane: { value: 0 },
   };
   theme: Theme = THEMES.light;
   /** Whether bodies are cut by `shared.clip`. */
@@ -128,6 +132,8 @@ export class Stage {
     const signs = imageSigns(mirror);
     this.imageCount = signs.length;
     this.signs = signs;
+    this.shared.halved.value.set(...([0, 1, 2].map((k) => (mirror[k] === true ? 1 : 0)) as Vector));
+    this.shared.origin.value.set(...origin);
     this.images.forEach((group, i) => {
       const sign = signs[i];
       group.visible = sign !== undefined;

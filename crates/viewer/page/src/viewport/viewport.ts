@@ -528,6 +528,7 @@ export class Viewport {
     shared.range.value.set(low, high);
     const origin = topology?.origin ?? [0, 0, 0];
     const signs = this.stage.setImages(current.mirror, origin);
+    if (this.box !== null) shared.onPlane.value = 1e-4 * Math.max(...[0, 1, 2].map((k) => this.box![1][k]! - this.box![0][k]!));
     const all = this.box === null ? [] : corners(this.box, signs, origin);
     const far = all.reduce((most, corner) => Math.max(most, Math.hypot(...corner.map((value, k) => value - this.rig.camera.target[k]!))), 0);
     // Walls may be larger than the bodies.

@@ -91,14 +91,19 @@ export class Pane {
     this.canvas.addEventListener("pointerleave", () => (this.pointer = null));
     // a drag with the right button moves the picture: only one that stays where it is opens the menu
     let right: { x: number; y: number } | null = null;
-    this.canvas.addEventListener("pointerdown", (event) => (right = event.button === 2 || event.pointerType === "touch" ? { x: event.clientX, y: event.clientY } : null));
+    let pointer = "";
+    this.canvas.addEventListener("pointerdown", (event) => {
+      pointer = event.pointerType;
+      right = event.button === 2 ? { x: event.clientX, y: event.clientY } : null;
+    });
     const menu = (x: number, y: number) => this.onMenu(this.at(x, y), x, y);
     this.canvas.addEventListener("pointerup", (event) => {
       if (event.button === 2 && right !== null && Math.hypot(event.clientX - right.x, event.clientY - right.y) <= 4) menu(event.clientX, event.clientY);
     });
     this.canvas.addEventListener("contextmenu", (event) => {
       // of a mouse the menu comes when the button is let go, of a touch or of the key at once
-      if (event instanceof PointerEvent && event.pointerType === "mouse") return;
+      if (event.button === 2 && pointer === "mouse" && !event.ctrlKey) return;
+      this.down = null;
       const box = this.canvas.getBoundingClientRect();
       menu(event.clientX || box.left + 0.5 * box.width, event.clientY || box.top + 0.5 * box.height);
     });

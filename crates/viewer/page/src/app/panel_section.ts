@@ -28,7 +28,7 @@ function through(app: App, normal: Vector): SectionPlane {
   return { normal, offset: 0.5 * (low + high) };
 }
 
-/** The axis to which the camera looks most. */
+/** Switches a section off, or on: across the axis along which the camera looks most, the side of the camera cut away. */
 export function toggleSection(app: App, stage: Stage): void {
   if (app.run.dimension !== 3) return;
   const { section } = app.view.picture;
@@ -56,7 +56,10 @@ function nameOf(section: SectionPlane | null): string {
 export function sectionGroup(app: App, stage: Stage): HTMLElement {
   const now = () => app.view.picture.section;
   const set = (section: SectionPlane | null) => app.picture({ section });
+  // any plane stays chosen where its normal is an axis
+  let isFree = false;
   const kind = choice([["none", "none"], ["x", "across x"], ["y", "across y"], ["z", "across z"], ["free", "any plane"]], nameOf(now()), (value) => {
+    isFree = value === "free";
     if (value === "none") set(null);
     else if (value === "free") set(now() ?? through(app, unitOf([1, 1, 1])));
     else set(through(app, AXES[value]!));
@@ -103,10 +106,10 @@ export function sectionGroup(app: App, stage: Stage): HTMLElement {
   const update = () => {
     const plane = now();
     for (const one of rows) one.hidden = plane === null;
-    const name = nameOf(plane);
-    if (document.activeElement !== kind || plane === null) kind.value = name;
+    const name = plane !== null && isFree ? "free" : nameOf(plane);
+    if (kind.value !== name) kind.value = name;
     if (plane === null) return;
-    normals.hidden = name !== "free" && kind.value !== "free";
+    normals.hidden = name !== "free";
     const [low, high] = reach(app, plane.normal);
     slider.min = String(low);
     slider.max = String(high);

@@ -211,7 +211,13 @@ vec2 linesOf() {
   vec4 width = 1.0 / max(slope, vec4(1e-12));
   vec4 far = side * width;
   // Lines closer together than some pixels fade away: otherwise they cover the colours.
-  vec4 fade = smoothstep(vec4(4.0), vec4(14.0), width / pixel);
+#ifdef FAN
+  // The middle of a polygon of a section lies half as far away as its other sides.
+  vec4 wide = 2.0 * width / pixel;
+#else
+  vec4 wide = width / pixel;
+#endif
+  vec4 fade = smoothstep(vec4(4.0), vec4(14.0), wide);
   vec4 near = clamp(halfLine + 0.5 - far, 0.0, 1.0) * fade;
 #ifdef FAN
   // Of a triangle of a section only the first side is one of the polygon.
@@ -219,7 +225,7 @@ vec2 linesOf() {
 #endif
   ivec4 bits = ivec4(flags & 1, flags & 2, flags & 4, flags & 8);
   vec4 marked = vec4(notEqual(bits, ivec4(0)));
-  vec4 border = clamp(halfOutline + 0.5 - far, 0.0, 1.0) * marked * smoothstep(vec4(5.0), vec4(14.0), width / pixel);
+  vec4 border = clamp(halfOutline + 0.5 - far, 0.0, 1.0) * marked * smoothstep(vec4(5.0), vec4(14.0), wide);
   return vec2(max(max(near.x, near.y), max(near.z, near.w)), max(max(border.x, border.y), max(border.z, border.w)));
 }
 `;

@@ -113,10 +113,17 @@ impl Section {
     }
 }
 
+/// A node closer to the plane than this part of the largest height lies in it: a plane through a face of
+/// elements cuts all of them there, whatever rounding says.
+const IN_PLANE: f64 = 1e-9;
+
 /// Heights of places over a plane, m.
 pub(super) fn heights(plane: &Plane, places: impl Iterator<Item = [f64; 3]>) -> Vec<f64> {
     let (normal, offset) = (plane.normal(), plane.offset());
-    places.map(|x| normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] - offset).collect()
+    let mut heights: Vec<f64> = places.map(|x| normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] - offset).collect();
+    let largest = heights.iter().filter(|height| height.is_finite()).fold(0.0f64, |most, height| most.max(height.abs()));
+    heights.iter_mut().filter(|height| height.abs() < IN_PLANE * largest).for_each(|height| *height = 0.0);
+    heights
 }
 
 /// Nodes of a cell; none if it is no solid, or has not as many as its kind.

@@ -295,6 +295,17 @@ fn the_description_says_what_the_model_is_and_how_it_wants_to_be_shown() {
     let description = ResultView::open(&folder).unwrap().description().unwrap();
     assert_eq!((description.dimension, description.energy_unit, description.arrow_unit), (3, "J", "N"));
     assert_eq!(description.camera.unwrap()["from"][1], -1.0);
+
+    // Rigid bodies alone are shown in the colours of their parts, unless the model says otherwise.
+    let rigid = SPACE.replace("elements = [3, 3, 3] }", "elements = [3, 3, 3] }, rigid = true");
+    let chosen = rigid.replace("pictures = false", "pictures = false, picture_field = \"velocity\"");
+    for (model, scalar) in [(rigid, None), (chosen, Some("velocity".to_string()))] {
+        let folder = fresh("view-description-rigid");
+        run(&model, &folder);
+        let description = ResultView::open(&folder).unwrap().description().unwrap();
+        assert!(description.parts.iter().all(|part| part.is_rigid));
+        assert_eq!(description.scalar, scalar);
+    }
 }
 
 #[test]

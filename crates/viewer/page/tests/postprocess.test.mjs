@@ -264,3 +264,33 @@ test("measurements are compared with a plot in their units; what does not fit is
   assert.equal(await plot.locator(".plot-list li", { hasText: "measured:" }).count(), 1);
   await done();
 });
+
+test("units of measurements are products and quotients with prefixes", async () => {
+  const { page, done } = await pageAt(server.address + "#t=2e-5&tab=probes&field=von_mises&probes=0:e0");
+  const plot = page.locator(".tab-body .plot").first();
+  await plot.locator(".u-over").waitFor();
+  for (const [unit, number, shown] of [["N/mm^2", 250, "250 MPa"], ["kN/cm²", 12, "120 MPa"], ["psi", 1e4, "68.95 MPa"], ["kg/(m", 1, null], ["J/m^3", 3e8, "300 MPa"]]) {
+    const path = join(folder, "units.csv");
+    writeFileSync(path, `time [us],s [${unit}]\n0,${number}\n1000,${number}\n`);
+    await plot.locator("input[type=file]").setInputFiles(path);
+    if (shown === null) {
+      await until(async () => /has the unit kg\/\(m, which is not known/.test(await text(page, ".plot-said")), "an unknown unit");
+      continue;
+    }
+    await until(async () => (await plot.locator(".plot-list li", { hasText: "measured: s" }).locator(".value").textContent().catch(() => "")) === shown, `${number} ${unit} is ${shown}`);
+  }
+  await done();
+});
+
+test("a section goes with a comparison of two runs, with mirror images, and with magnified displacements", async () => {
+  const two = await view([run, run]);
+  const { page, done } = await pageAt(`${two.address}#t=2e-5&field=velocity&mirror=110&scale=3&section=1,0.5,0,0.001`);
+  await until(async () => (await coloured(page)) > 400, "bodies");
+  const requested = await page.evaluate(() => performance.getEntriesByType("resource").map((entry) => entry.name).filter((name) => name.includes("section=")));
+  assert.ok(requested.some((name) => name.includes("/runs/0/")) && requested.some((name) => name.includes("/runs/1/")));
+  // two mirror planes across which the normal changes: four planes
+  assert.equal(decodeURIComponent(requested[0]).split(";").length, 4);
+  assert.match(requested[0], /scale=3/);
+  await done();
+  await two.kill();
+});

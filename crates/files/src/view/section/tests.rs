@@ -96,6 +96,12 @@ fn sections_of_the_unit_cube_have_the_area_and_centroid_of_closed_forms() {
 fn planes_through_nodes_cut_once_and_planes_beside_the_body_nothing() {
     for kind in SOLIDS {
         let (cells, places) = block(kind, [2, 2, 2]);
+        let (_, mut shaken) = block(kind, [2, 2, 2]);
+        for (place, sign) in shaken.iter_mut().zip([1.0, -1.0].into_iter().cycle()) {
+            place[0] += 1e-16 * sign;
+        }
+        let (_, area, _) = measured(&section(&cells, &shaken, [-1.0, 0.0, 0.0], 0.0), &shaken);
+        assert!((area - 1.0).abs() < 1e-12, "{kind:?} at its outside: {area}");
         for offset in [0.5, 1.0] {
             let (_, area, _) = measured(&section(&cells, &places, [1.0, 0.0, 0.0], offset), &places);
             assert!((area - 1.0).abs() < 1e-12, "{kind:?} at {offset}: {area}");

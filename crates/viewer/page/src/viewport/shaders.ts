@@ -95,7 +95,8 @@ bvec3 onPlanes(vec3 x) {
   vec3 away = abs(x + origin);
   return bvec3(halved.x > 0.5 && away.x < onPlane, halved.y > 0.5 && away.y < onPlane, halved.z > 0.5 && away.z < onPlane);
 }
-bool isShared(bvec3 a, bvec3 b) { return (a.x && b.x) || (a.y && b.y) || (a.z && b.z); }
+// Whether two nodes lie on one plane, other than those in which the whole facet lies.
+bool isShared(bvec3 a, bvec3 b, bvec3 whole) { return (a.x && b.x && !whole.x) || (a.y && b.y && !whole.y) || (a.z && b.z && !whole.z); }
 #ifdef SMOOTH
 uniform usampler2D starts;
 uniform usampler2D around;
@@ -146,15 +147,19 @@ void main() {
   uvec4 nodes = raw & 0x7fffffffu;
   uvec4 outline = raw >> 31;
   int node = int(own < 2 ? (own == 0 ? nodes.x : nodes.y) : (own == 2 ? nodes.z : nodes.w));
-  // Where the body continues in its mirror image it has neither an outline nor a facet.
+  // Where the body continues in its mirror image it has neither an outline nor a facet; a section may lie
+  // there.
   bool isInside = false;
   if (dot(halved, halved) > 0.0) {
     bvec3 a = onPlanes(place(int(nodes.x))), b = onPlanes(place(int(nodes.y))), c = onPlanes(place(int(nodes.z))), d = onPlanes(place(int(nodes.w)));
-    if (isShared(a, b)) outline.x = 0u;
-    if (isShared(b, c)) outline.y = 0u;
-    if (isShared(c, nodes.z == nodes.w ? a : d)) outline.z = 0u;
-    if (isShared(d, a)) outline.w = 0u;
-    isInside = (a.x && b.x && c.x && d.x) || (a.y && b.y && c.y && d.y) || (a.z && b.z && c.z && d.z);
+    bvec3 whole = bvec3(a.x && b.x && c.x && d.x, a.y && b.y && c.y && d.y, a.z && b.z && c.z && d.z);
+    if (isShared(a, b, whole)) outline.x = 0u;
+    if (isShared(b, c, whole)) outline.y = 0u;
+    if (isShared(c, nodes.z == nodes.w ? a : d, whole)) outline.z = 0u;
+    if (isShared(d, a, whole)) outline.w = 0u;
+#ifndef FAN
+    isInside = any(whole);
+#endif
   }
   flags = int(outline.x | outline.y << 1 | outline.z << 2 | outline.w << 3) | (nodes.z == nodes.w ? 16 : 0);
   corner = vec2(own == 1 || own == 2 ? 1.0 : 0.0, own >= 2 ? 1.0 : 0.0);

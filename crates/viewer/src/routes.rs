@@ -16,7 +16,7 @@ use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
 use axum::routing::get;
 use embate_files::results::ResultsError;
-use embate_files::view::{FrameRequest, ModelView, ResultView, Series};
+use embate_files::view::{FrameRequest, ModelView, ProbePlace, RangeOf, ResultView, SectionRequest, Series};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -130,6 +130,10 @@ impl Refusal {
         Self { status: StatusCode::NOT_FOUND, code: "", text: text.into() }
     }
 
+    fn unclear(text: String) -> Self {
+        Self { status: StatusCode::BAD_REQUEST, code: "", text }
+    }
+
     pub(crate) fn forbidden(text: &str) -> Self {
         Self { status: StatusCode::FORBIDDEN, code: "", text: text.into() }
     }
@@ -183,6 +187,7 @@ pub(crate) fn router(shown: Arc<Shown>) -> Router {
             .route("/api/runs/{run}/history", get(history))
             .route("/api/runs/{run}/range", get(range))
             .route("/api/runs/{run}/probe", get(probe))
+            .route("/api/runs/{run}/track", get(track))
             .route("/api/runs/{run}/topology/{topology}", get(topology))
             .route("/api/runs/{run}/frames/{frame}", get(frame))
             .route("/api/model", get(model))
@@ -252,11 +257,34 @@ async fn run(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usiz
 #[derive(Deserialize)]
 struct Wanted {
     rows: Option<usize>,
-    scalar: Option<String>,
-    arrows: Option<u8>,
     node: Option<usize>,
     cell: Option<usize>,
+    inside: Option<u8>,
+    scalar: Option<String>,
+    averaged: Option<u8>,
+    arrows: Option<u8>,
+    glyphs: Option<String>,
+    section: Option<String>,
+    scale: Option<f64>,
     since: Option<usize>,
+}
+
+impl Wanted {
+    fn place(&self) -> Result<ProbePlace, Refusal> {
+        let place = self.node.map(ProbePlace::Node).or(self.cell.map(ProbePlace::Cell));
+        place.ok_or(Refusal::nothing("this needs a node or a cell"))
+    }
+}
+
+/// The request of a frame, of an address or of a message.
+pub(crate) fn frame_request(
+    scalar: Option<String>,
+    [averaged, arrows]: [bool; 2],
+    glyphs: Option<String>,
+    section: Option<(&str, f64)>,
+) -> Result<FrameRequest, String> {
+    let section = section.map(|(planes, scale)| SectionRequest::read(planes, scale)).transpose()?;
+    Ok(FrameRequest { scalar, averaged, arrows, glyphs, section })
 }
 
 /// What is known of a model before it runs, when that is something else than the page has seen.
@@ -283,10 +311,11 @@ async fn history(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, 
 
 async fn range(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
     beside(move || {
+        let of = RangeOf { inside: wanted.inside == Some(1), averaged: wanted.averaged == Some(1) };
         let scalar = wanted.scalar.unwrap_or_default();
         let (range, frames) = match shown.model(run) {
-            Some(model) => model.range(&scalar),
-            None => shown.run(run)?.range(&scalar)?,
+            Some(model) => model.range(&scalar, of),
+            None => shown.run(run)?.range(&scalar, of)?,
         };
         data(&json!({ "range": range, "frames": frames }))
     })
@@ -295,13 +324,23 @@ async fn range(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, us
 
 async fn probe(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
     beside(move || {
-        let place = wanted.node.or(wanted.cell).ok_or(Refusal::nothing("a probe needs a node or a cell"))?;
-        let scalar = wanted.scalar.unwrap_or_default();
+        let (place, scalar) = (wanted.place()?, wanted.scalar.unwrap_or_default());
         let probed = match shown.model(run) {
             Some(model) => model.probe(&scalar, place),
             None => shown.run(run)?.probe(&scalar, place)?,
         };
         data(&json!(probed.ok_or(Refusal::nothing("there is no such node, cell or field"))?))
+    })
+    .await
+}
+
+async fn track(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
+    beside(move || {
+        let track = match shown.model(run) {
+            Some(model) => model.track(wanted.place()?),
+            None => shown.run(run)?.track(wanted.place()?)?,
+        };
+        data(&json!(track.ok_or(Refusal::nothing("there is no such node or cell"))?))
     })
     .await
 }
@@ -325,7 +364,9 @@ async fn frame(
     Query(wanted): Query<Wanted>,
 ) -> Answer {
     beside(move || {
-        let frame_request = FrameRequest { scalar: wanted.scalar, arrows: wanted.arrows == Some(1) };
+        let Wanted { scalar, averaged, arrows, glyphs, section, scale, .. } = wanted;
+        let section = section.as_deref().map(|planes| (planes, scale.unwrap_or(1.0)));
+        let frame_request = frame_request(scalar, [averaged, arrows].map(|on| on == Some(1)), glyphs, section).map_err(Refusal::unclear)?;
         if let Some(model) = shown.model(run) {
             return bytes(model.frame(&frame_request).bytes());
         }

@@ -6,6 +6,7 @@
 
 use crate::connections::Patience;
 use crate::live::{Live, Order, PAUSE};
+use crate::routes::frame_request;
 use crate::server;
 use axum::body::Bytes;
 use axum::extract::ws::{Message, WebSocket};
@@ -26,7 +27,19 @@ const PROGRESS: Duration = Duration::from_millis(150);
 enum Said {
     Seen { seen: bool },
     Command { command: String },
-    FrameRequest { scalar: Option<String>, arrows: bool },
+    FrameRequest(Wish),
+}
+
+/// What frames are to hold.
+#[derive(Deserialize)]
+struct Wish {
+    scalar: Option<String>,
+    arrows: bool,
+    #[serde(default)]
+    averaged: bool,
+    glyphs: Option<String>,
+    section: Option<String>,
+    scale: Option<f64>,
 }
 
 /// What a viewer has been reported.
@@ -153,8 +166,12 @@ impl Viewer {
                 self.is_ready |= seen;
                 self.live.change(|shared| shared.is_seen |= seen);
             }
-            Ok(Said::FrameRequest { scalar, arrows }) => {
-                self.frame_request = FrameRequest { scalar, arrows };
+            Ok(Said::FrameRequest(Wish { scalar, arrows, averaged, glyphs, section, scale })) => {
+                let section = section.as_deref().map(|planes| (planes, scale.unwrap_or(1.0)));
+                match frame_request(scalar, [averaged, arrows], glyphs, section) {
+                    Ok(wanted) => self.frame_request = wanted,
+                    Err(text) => return refused(&text),
+                }
                 self.live.frame_request(self.number, Some(self.frame_request.clone()));
                 // What is on its way is of the wish before.
                 self.frame = 0;

@@ -141,6 +141,24 @@ impl Bodies {
         Topology { id, nodes, facets, bars, level, gone }
     }
 
+    /// How many nodes there are.
+    pub(super) fn nodes(&self) -> usize {
+        self.initial.len()
+    }
+
+    /// Where a node is at the beginning, m.
+    pub(super) fn initial(&self, node: usize) -> Option<[f64; 3]> {
+        self.initial.get(node).copied()
+    }
+
+    /// A place of a node as it is shown, m: with the displacement times a factor.
+    pub(super) fn scaled(&self, node: u32, now: [f64; 3], scale: f64) -> [f64; 3] {
+        match self.initial.get(node as usize) {
+            Some(initial) if scale != 1.0 => [0, 1, 2].map(|k| initial[k] + scale * (now[k] - initial[k])),
+            _ => now,
+        }
+    }
+
     /// Initial places from the origin, m.
     fn places(&self, nodes: &[u32]) -> Vec<f32> {
         let place = |&node: &u32| [0, 1, 2].map(|k| (self.initial[node as usize][k] - self.origin[k]) as f32);

@@ -50,8 +50,13 @@ impl Container {
     /// Puts a value into the head. What JSON has no form for (numbers that are not finite) is `null`.
     #[must_use]
     pub fn with(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.head.insert(key.into(), value.into());
+        self.head(key, value);
         self
+    }
+
+    /// The same, in place.
+    pub(super) fn head(&mut self, key: &str, value: impl Into<Value>) {
+        self.head.insert(key.into(), value.into());
     }
 
     /// Adds an array of single precision.

@@ -158,7 +158,10 @@ impl RunDescription {
             self.title.clone_from(title);
         }
         self.scalars = ScalarDescription::of(kinds);
-        self.scalar = ScalarDescription::first(kinds, &appearance.field);
+        // Rigid bodies have neither stress nor strain: their parts say more than how far they have come.
+        let are_rigid = !self.parts.is_empty() && self.parts.iter().all(|part| part.is_rigid);
+        let is_chosen = !appearance.field.is_empty();
+        self.scalar = ScalarDescription::first(kinds, &appearance.field).filter(|_| is_chosen || !are_rigid);
         self.has_arrows = kinds.iter().any(|kind| kind.name == "contact_force");
     }
 

@@ -4,20 +4,23 @@
 //! Files are read when they are asked for (`vtu::read`, `results`); what a whole run must be read for (the
 //! range of a scalar) is kept.
 
-use super::bodies::{Bodies, Topology};
+use super::bodies::Bodies;
 use super::container::Container;
 use super::describe::{Column, FrameTime, PartDescription, RunDescription};
-use super::frame::{self, FrameRequest, range};
+use super::frame;
+use super::request::FrameRequest;
+use super::values::{RangeOf, joined, range_of};
 use crate::picture::field::Scalar;
 use crate::plain;
 use crate::results::{Appearance, History, Provenance, ResultsError, read_json, unit};
 use crate::vtu::read::VtuReader;
-use embate_solver::output::{Cells, FieldKind, Location, Outline};
+use embate_solver::output::{Cells, FieldKind, Frame, Outline};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
 
 /// More obstacles than any model has.
 const OBSTACLES: usize = 1 << 16;
@@ -25,13 +28,15 @@ const OBSTACLES: usize = 1 << 16;
 /// A folder of results.
 #[derive(Debug)]
 pub struct ResultView {
-    path: PathBuf,
-    bodies: Arc<Bodies>,
-    kinds: Vec<&'static FieldKind>,
+    pub(super) path: PathBuf,
+    pub(super) bodies: Arc<Bodies>,
+    pub(super) kinds: Vec<&'static FieldKind>,
     appearance: Appearance,
-    nodes: usize,
+    pub(super) nodes: usize,
     /// Range of each scalar that was asked for.
-    ranges: Mutex<BTreeMap<String, Ranged>>,
+    ranges: Mutex<BTreeMap<(String, RangeOf), Ranged>>,
+    /// The frame that was read last: a plane that is moved through it does not read it again.
+    newest: Mutex<Option<Arc<Kept>>>,
 }
 
 /// Range of a scalar, and over how many frames.
@@ -57,17 +62,15 @@ impl Series {
     }
 }
 
-/// A scalar at a node or in a cell over the frames.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Probed {
-    /// s.
-    pub times: Vec<f64>,
-    /// `null` where there is none: the cell was eroded, the field has no value there.
-    pub values: Vec<Option<f64>>,
-    /// SI.
-    pub unit: &'static str,
-    /// Name for people.
-    pub label: String,
+/// A frame that was read, and what of it.
+#[derive(Debug)]
+struct Kept {
+    number: usize,
+    /// Of its file: when it was written, and its bytes.
+    stamp: (Option<SystemTime>, u64),
+    fields: Vec<&'static str>,
+    frame: Frame,
+    gone: Vec<u32>,
 }
 
 impl ResultView {
@@ -94,14 +97,14 @@ impl ResultView {
         let displacement: Vec<_> = kinds.iter().copied().filter(|kind| kind.name == "displacement").collect();
         let frame = reader.frame(dimension, &displacement)?;
         let bodies = Arc::new(Bodies::new(cells, &frame));
-        Ok(Self { path: path.into(), bodies, kinds, appearance, nodes: reader.nodes, ranges: Mutex::default() })
+        Ok(Self { path: path.into(), bodies, kinds, appearance, nodes: reader.nodes, ranges: Mutex::default(), newest: Mutex::default() })
     }
 
     /// A folder into which a run begins to write: what it will hold is known, its frames are read as they
     /// come.
     #[must_use]
     pub fn begun(path: &Path, bodies: Arc<Bodies>, kinds: Vec<&'static FieldKind>, appearance: Appearance, nodes: usize) -> Self {
-        Self { path: path.into(), bodies, kinds, appearance, nodes, ranges: Mutex::default() }
+        Self { path: path.into(), bodies, kinds, appearance, nodes, ranges: Mutex::default(), newest: Mutex::default() }
     }
 
     /// The folder.
@@ -173,24 +176,36 @@ impl ResultView {
     /// [`ResultsError::Unreadable`], what the system says.
     pub fn frame(&self, number: usize, frame_request: &FrameRequest) -> Result<Option<Container>, ResultsError> {
         let Some(file) = self.file("frame", number) else { return Ok(None) };
-        let mut reader = VtuReader::open(&file)?;
-        self.check(&reader)?;
-        let topology = self.topology(&mut reader)?;
-        let scalar =
-            frame_request.scalar.as_deref().and_then(|name| Scalar::of(self.kinds.iter().copied(), name)).map(|scalar| scalar.kind.name);
-        let is_wanted = |kind: &&&FieldKind| Some(kind.name) == scalar || (frame_request.arrows && kind.name == "contact_force");
+        let scalar = frame_request.scalar.as_deref().and_then(|name| Scalar::of(self.kinds.iter().copied(), name));
+        let named = [scalar.map(|scalar| scalar.kind.name), frame_request.glyphs.as_deref()];
+        let is_wanted = |kind: &&&FieldKind| named.contains(&Some(kind.name)) || (frame_request.arrows && kind.name == "contact_force");
         let wanted: Vec<_> = self.kinds.iter().filter(is_wanted).copied().collect();
-        let shown = reader.frame(self.bodies.dimension, &wanted)?;
+        let kept = self.read(number, &file, &wanted)?;
+        let topology = self.bodies.without(&kept.gone);
         let outlines = self.outlines(number)?;
-        Ok(Some(frame::frame(&self.bodies, &topology, &shown, &outlines, frame_request).with("frame", number)))
+        Ok(Some(frame::frame(&self.bodies, &topology, &kept.frame, &outlines, frame_request).with("frame", number)))
     }
 
-    fn topology(&self, reader: &mut VtuReader) -> Result<Arc<Topology>, ResultsError> {
-        Ok(self.bodies.without(&reader.gone()?))
+    /// A frame with some fields: that which was read last, or from its file.
+    fn read(&self, number: usize, file: &Path, wanted: &[&'static FieldKind]) -> Result<Arc<Kept>, ResultsError> {
+        let data = std::fs::metadata(file).map_err(ResultsError::file("read", file))?;
+        let stamp = (data.modified().ok(), data.len());
+        let fields: Vec<_> = wanted.iter().map(|kind| kind.name).collect();
+        let newest = || self.newest.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(kept) = newest().clone().filter(|kept| (kept.number, &kept.stamp, &kept.fields) == (number, &stamp, &fields)) {
+            return Ok(kept);
+        }
+        let mut reader = VtuReader::open(file)?;
+        self.check(&reader)?;
+        let gone = reader.gone()?;
+        let frame = reader.frame(self.bodies.dimension, wanted)?;
+        let kept = Arc::new(Kept { number, stamp, fields, frame, gone });
+        *newest() = Some(kept.clone());
+        Ok(kept)
     }
 
     /// Whether a file is of these bodies.
-    fn check(&self, reader: &VtuReader) -> Result<(), ResultsError> {
+    pub(super) fn check(&self, reader: &VtuReader) -> Result<(), ResultsError> {
         reader.has(self.nodes, self.bodies.cells.len())
     }
 
@@ -222,13 +237,14 @@ impl ResultView {
         Ok(Series::of(&columns, values, self.is_of_whole_bodies()))
     }
 
-    /// Smallest and largest value of a scalar on what is seen in all frames, and how many these are.
+    /// Smallest and largest value of a scalar in all frames, and how many these are.
     ///
     /// # Errors
     /// As [`ResultView::frame`].
-    pub fn range(&self, name: &str) -> Result<Ranged, ResultsError> {
+    pub fn range(&self, name: &str, of: RangeOf) -> Result<Ranged, ResultsError> {
         let frames = frames(&self.path)?;
-        if let Some((range, count)) = self.ranges.lock().unwrap_or_else(PoisonError::into_inner).get(name)
+        let key = (name.to_string(), of);
+        if let Some((range, count)) = self.ranges.lock().unwrap_or_else(PoisonError::into_inner).get(&key)
             && *count == frames.len()
         {
             return Ok((*range, *count));
@@ -238,44 +254,15 @@ impl ResultView {
             for (_, file) in &frames {
                 let mut reader = VtuReader::open(file)?;
                 self.check(&reader)?;
-                let topology = self.topology(&mut reader)?;
+                let topology = self.bodies.without(&reader.gone()?);
                 let places = if scalar.at_nodes() { self.nodes } else { self.bodies.cells.len() };
-                let values = reader.values(scalar.kind, 0..places)?;
-                let width = scalar.kind.width();
-                let value = |&place: &u32| {
-                    values.get(width * place as usize..width * (place as usize + 1)).map_or(f32::NAN, |own| scalar.scalar(own) as f32)
-                };
-                let cells = topology.facets.iter().map(|facet| &facet.cell).chain(topology.bars.iter().map(|bar| &bar.cell));
-                let seen: Vec<f32> =
-                    if scalar.at_nodes() { topology.nodes.iter().map(value).collect() } else { cells.map(value).collect() };
-                let own = range(&seen);
-                whole = whole.zip(own).map(|(a, b)| [a[0].min(b[0]), a[1].max(b[1])]).or(whole).or(own);
+                let tuples = reader.values(scalar.kind, 0..places)?;
+                let values: Vec<f64> = tuples.chunks_exact(scalar.kind.width()).map(|tuple| scalar.scalar(tuple)).collect();
+                whole = joined(whole, range_of(&self.bodies, &topology, scalar, &values, of));
             }
         }
-        self.ranges.lock().unwrap_or_else(PoisonError::into_inner).insert(name.into(), (whole, frames.len()));
+        self.ranges.lock().unwrap_or_else(PoisonError::into_inner).insert(key, (whole, frames.len()));
         Ok((whole, frames.len()))
-    }
-
-    /// A scalar at a node or in a cell, in all frames; none where there is no such scalar or place.
-    ///
-    /// # Errors
-    /// As [`ResultView::frame`].
-    pub fn probe(&self, name: &str, place: usize) -> Result<Option<Probed>, ResultsError> {
-        let Some(scalar) = Scalar::of(self.kinds.iter().copied(), name) else { return Ok(None) };
-        let is_cell = scalar.kind.location == Location::Cell;
-        if place >= if is_cell { self.bodies.cells.len() } else { self.nodes } {
-            return Ok(None);
-        }
-        let mut probed = Probed { unit: scalar.kind.unit, label: scalar.label(), ..Probed::default() };
-        for (FrameTime { time, .. }, file) in frames(&self.path)? {
-            let mut reader = VtuReader::open(&file)?;
-            let is_gone = is_cell && reader.gone()?.binary_search(&(place as u32)).is_ok();
-            let own = reader.values(scalar.kind, place..place + 1)?;
-            let value = (!own.is_empty() && !is_gone).then(|| scalar.scalar(&own)).filter(|value| value.is_finite());
-            probed.times.push(time);
-            probed.values.push(value);
-        }
-        Ok(Some(probed))
     }
 }
 

@@ -1,68 +1,108 @@
-//! A frame as a page gets it: places of the nodes that are seen, one scalar, contact forces, obstacles. Taken
-//! piece by piece from what is shown, a file that was read or a simulation between two steps; of a model in
-//! 3D no more than its skin is asked for.
+//! A frame as a page gets it: places of the nodes that are seen, one scalar, contact forces, glyphs,
+//! sections, obstacles. Taken piece by piece from what is shown, a file that was read or a simulation between
+//! two steps; of a model in 3D no more than its skin is asked for, unless it is cut or averaged.
 
-use super::bodies::{self, Bodies, Topology, ranges};
+use super::bodies::{self, Bodies, Topology};
 use super::container::Container;
+use super::glyphs;
+use super::request::{FrameRequest, SectionRequest};
+use super::section::{Section, heights};
+use super::values::{Colours, joined, range, taken};
 use crate::outline::{LineReader, Surface};
-use crate::picture::field::Scalar;
-use embate_solver::output::{Location, Outline, Shown};
+use embate_solver::output::{Outline, Shown};
 use serde_json::{Value, json};
-
-/// What a page wants to see of a frame.
-#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct FrameRequest {
-    /// `von_mises`, `velocity` (its size), `stress.xy`; none: no colours.
-    pub scalar: Option<String>,
-    /// Contact forces.
-    pub arrows: bool,
-}
 
 /// What is shown on a topology that has its cells; `outlines`: the obstacles as they are drawn. A scalar that
 /// is not shown has no values.
 #[must_use]
 pub fn frame(bodies: &Bodies, topology: &Topology, shown: &dyn Shown, outlines: &[Outline], frame_request: &FrameRequest) -> Container {
-    let kinds = shown.kinds();
     let mut container = Container::default().with("topology", topology.id).with("time", shown.time());
-    let nodes = || topology.nodes.iter().copied();
-    let places = taken(nodes(), shown.dimension(), |range, room| shown.coordinates(range, room));
+    let places = taken(topology.nodes.iter().copied(), shown.dimension(), |range, room| shown.coordinates(range, room));
     let origin = bodies.origin;
     let place = |own: &[f64]| -> [f32; 3] { std::array::from_fn(|d| own.get(d).map_or(0.0, |x| (x - origin[d]) as f32)) };
     container.floats("positions", places.chunks_exact(shown.dimension().max(1)).flat_map(place).collect());
 
-    let scalar = frame_request.scalar.as_deref().and_then(|name| Some((name, Scalar::of(kinds.iter().copied(), name)?)));
-    let values = scalar.map(|(_, scalar)| {
-        let field = kinds.iter().position(|kind| kind.name == scalar.kind.name).expect("the scalar is of one of the fields");
-        let take = |range, room: &mut Vec<f64>| shown.values(field, range, room);
-        let width = scalar.kind.width();
-        let tuples = match scalar.kind.location {
-            Location::Node => taken(nodes(), width, take),
-            Location::Cell => {
-                let mut tuples = taken(topology.facets.iter().map(|facet| facet.cell), width, take);
-                tuples.extend(taken(topology.bars.iter().map(|bar| bar.cell), width, take));
-                tuples
-            }
-        };
-        tuples.chunks_exact(width).map(|tuple| scalar.scalar(tuple) as f32).collect::<Vec<f32>>()
-    });
-    let range = values.as_deref().and_then(range);
-    let mut container =
-        container.with("scalar", scalar.map(|(name, _)| name)).with("range", range.map_or(Value::Null, |range| json!(range)));
-    container.floats("values", values.unwrap_or_default());
-
-    if let Some(field) = kinds.iter().position(|kind| kind.name == "contact_force").filter(|_| frame_request.arrows) {
-        let width = kinds[field].width();
-        let forces = taken(nodes(), width, |range, room| shown.values(field, range, room));
-        let acting = (0..)
-            .zip(forces.chunks_exact(width))
-            .filter(|(_, force)| force.iter().any(|f| *f != 0.0) && force.iter().all(|f| f.is_finite()));
-        let (own, arrows): (Vec<u32>, Vec<[f32; 3]>) =
-            acting.map(|(node, force)| (node, std::array::from_fn(|d| force.get(d).map_or(0.0, |f| *f as f32)))).unzip();
-        container.indices("arrow_nodes", own);
-        container.floats("arrows", arrows.into_flattened());
+    let colours = Colours::of(bodies, topology, shown, frame_request);
+    let values = colours.as_ref().map(|colours| colours.seen(topology, shown)).unwrap_or_default();
+    let mut whole = range(values.iter().copied());
+    container.floats("values", values);
+    if let Some(section_request) = frame_request.section.as_ref().filter(|_| bodies.dimension == 3) {
+        let inside = add_sections(&mut container, bodies, topology, shown, colours.as_ref(), section_request);
+        whole = joined(whole, inside);
+    }
+    if frame_request.arrows {
+        add_arrows(&mut container, topology, shown);
+    }
+    if let Some(name) = &frame_request.glyphs {
+        glyphs::add(&mut container, topology, shown, name);
     }
     add_obstacles(&mut container, outlines, origin);
     container
+        .with("scalar", colours.as_ref().map(|colours| colours.name))
+        .with("location", colours.as_ref().map(Colours::location))
+        .with("range", whole.map_or(Value::Null, |range| json!(range)))
+}
+
+/// Contact forces, of the nodes that have one.
+fn add_arrows(container: &mut Container, topology: &Topology, shown: &dyn Shown) {
+    let kinds = shown.kinds();
+    let Some(field) = kinds.iter().position(|kind| kind.name == "contact_force") else { return };
+    let width = kinds[field].width();
+    let forces = taken(topology.nodes.iter().copied(), width, |range, room| shown.values(field, range, room));
+    let acting =
+        (0..).zip(forces.chunks_exact(width)).filter(|(_, force)| force.iter().any(|f| *f != 0.0) && force.iter().all(|f| f.is_finite()));
+    let (own, arrows): (Vec<u32>, Vec<[f32; 3]>) =
+        acting.map(|(node, force)| (node, std::array::from_fn(|d| force.get(d).map_or(0.0, |f| *f as f32)))).unzip();
+    container.indices("arrow_nodes", own);
+    container.floats("arrows", arrows.into_flattened());
+}
+
+/// What planes cut of the bodies, one plane after the other; the range of the values.
+fn add_sections(
+    container: &mut Container,
+    bodies: &Bodies,
+    topology: &Topology,
+    shown: &dyn Shown,
+    colours: Option<&Colours<'_>>,
+    section_request: &SectionRequest,
+) -> Option<[f32; 2]> {
+    let mut coordinates = Vec::new();
+    shown.coordinates(0..shown.nodes(), &mut coordinates);
+    let scale = section_request.scale();
+    let places: Vec<[f64; 3]> =
+        (0..).zip(coordinates.as_chunks().0).map(|(node, now): (u32, &[f64; 3])| bodies.scaled(node, *now, scale)).collect();
+    let origin = bodies.origin;
+    let (mut heads, mut points, mut nodes, mut values) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut facets, mut cells, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+    for plane in &section_request.planes {
+        let section = Section::new(&bodies.cells, topology.gone(), &heights(plane, places.iter().copied()));
+        let along = |k: usize| {
+            let own = section.points.iter().map(|point| point.between(point.nodes.map(|node| places[node as usize][k] - origin[k])));
+            section.with_middles(own.collect())
+        };
+        let [x, y, z] = [0, 1, 2].map(along);
+        let first = (points.len() / 3) as u32;
+        points.extend(x.iter().zip(&y).zip(&z).flat_map(|((x, y), z)| [*x as f32, *y as f32, *z as f32]));
+        nodes.extend(section.points.iter().map(|point| point.nodes[usize::from(point.share > 0.5)]));
+        nodes.extend(section.polygons.iter().map(|_| u32::MAX));
+        let before = cells.len();
+        for (corners, polygon) in section.triangles() {
+            facets.extend(corners.map(|corner| first + corner));
+            cells.push(polygon.cell);
+            parts.push(polygon.part);
+        }
+        values.extend(colours.map(|colours| colours.cut(&section, bodies, shown)).unwrap_or_default());
+        heads.push(json!({ "normal": plane.normal(), "offset": plane.offset(), "facets": cells.len() - before }));
+    }
+    let inside = range(values.iter().copied());
+    container.head("sections", heads);
+    container.floats("section_points", points);
+    container.indices("section_nodes", nodes);
+    container.indices("section_facets", facets);
+    container.indices("section_cells", cells);
+    container.indices("section_parts", parts);
+    container.floats("section_values", values);
+    inside
 }
 
 /// Cells that were eroded, ascending.
@@ -111,31 +151,6 @@ fn add_obstacles(container: &mut Container, outlines: &[Outline], origin: [f64; 
     container.indices("obstacle_facet_of", facet_of);
 }
 
-/// Numbers of some places (ascending, more than once where they are named so), `width` of each; not a number
-/// where nothing is given.
-fn taken(places: impl Iterator<Item = u32> + Clone, width: usize, take: impl Fn(std::ops::Range<usize>, &mut Vec<f64>)) -> Vec<f64> {
-    let mut numbers = Vec::new();
-    let mut room = Vec::new();
-    let mut wanted = places.clone().peekable();
-    for range in ranges(places) {
-        take(range.clone(), &mut room);
-        while let Some(place) = wanted.next_if(|&place| (place as usize) < range.end) {
-            let at = width * (place as usize - range.start);
-            match room.get(at..at + width) {
-                Some(own) => numbers.extend(own),
-                None => numbers.extend(std::iter::repeat_n(f64::NAN, width)),
-            }
-        }
-    }
-    numbers
-}
-
-/// Smallest and largest finite value.
-pub(super) fn range(values: &[f32]) -> Option<[f32; 2]> {
-    let finite = || values.iter().copied().filter(|value| value.is_finite());
-    finite().reduce(f32::min).zip(finite().reduce(f32::max)).map(|(low, high)| [low, high])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,11 +188,15 @@ mod tests {
         own.chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect()
     }
 
+    fn request(scalar: &str) -> FrameRequest {
+        FrameRequest { scalar: Some(scalar.into()), arrows: true, ..FrameRequest::default() }
+    }
+
     fn made(scalar: &str, gone: &[u32]) -> Container {
         let (cells, shown) = shown();
         let bodies = Bodies::new(cells, &shown);
         let outlines = [Outline::line("wall", [[0.0, -1.0], [1.0, -1.0], [2.0, -2.0]])];
-        frame(&bodies, &bodies.without(gone), &shown, &outlines, &FrameRequest { scalar: Some(scalar.into()), arrows: true })
+        frame(&bodies, &bodies.without(gone), &shown, &outlines, &request(scalar))
     }
 
     #[test]

@@ -8,18 +8,27 @@
 //! ([`RunDescription`]).
 
 mod arrays;
+mod averages;
 mod bodies;
 mod container;
 mod describe;
 mod folder;
 mod frame;
+mod glyphs;
 mod levels;
 mod model;
+mod probe;
+mod request;
+mod section;
+mod values;
 
 pub use arrays::{FrameArrays, frame_files};
 pub use bodies::{Bodies, Topology};
 pub use container::Container;
 pub use describe::{Column, FrameTime, PartDescription, RunDescription, ScalarDescription, Warned};
-pub use folder::{Probed, Ranged, ResultView, Series};
-pub use frame::{FrameRequest, frame, gone, outlines};
+pub use folder::{Ranged, ResultView, Series};
+pub use frame::{frame, gone, outlines};
 pub use model::ModelView;
+pub use probe::{ProbePlace, Probed, Track};
+pub use request::{FrameRequest, Plane, SectionRequest};
+pub use values::RangeOf;

@@ -4,13 +4,16 @@
 use super::bodies::Bodies;
 use super::container::Container;
 use super::describe::{FrameTime, PartDescription, RunDescription, Warned};
-use super::folder::{Probed, Ranged};
-use super::frame::{self, FrameRequest};
+use super::folder::Ranged;
+use super::frame;
+use super::probe::{self, ProbePlace, Probed, Track};
+use super::request::FrameRequest;
+use super::values::{RangeOf, range_of};
 use crate::model_file::{Diagnostic, Diagnostics};
 use crate::picture::field::Scalar;
 use crate::preview::{KINDS, Preview};
 use crate::results::Appearance;
-use embate_solver::output::Frame;
+use embate_solver::output::{Frame, Location};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
@@ -68,23 +71,34 @@ impl ModelView {
 
     /// Smallest and largest value of a scalar.
     #[must_use]
-    pub fn range(&self, name: &str) -> Ranged {
-        let all = self.scalars(name).map(|values| values.into_iter().map(|value| value as f32).collect::<Vec<f32>>());
-        (all.and_then(|values| frame::range(&values)), 1)
+    pub fn range(&self, name: &str, of: RangeOf) -> Ranged {
+        let found = self.scalars(name).and_then(|(scalar, values)| range_of(&self.bodies, &self.bodies.without(&[]), scalar, &values, of));
+        (found, 1)
     }
 
     /// A scalar at a node or in a cell; none where there is no such scalar or place.
     #[must_use]
-    pub fn probe(&self, name: &str, place: usize) -> Option<Probed> {
-        let scalar = Scalar::of(self.frame.fields.iter().map(|field| field.kind), name)?;
-        let value = *self.scalars(name)?.get(place)?;
-        Some(Probed { times: vec![0.0], values: vec![Some(value)], unit: scalar.kind.unit, label: scalar.label() })
+    pub fn probe(&self, name: &str, place: ProbePlace) -> Option<Probed> {
+        let (scalar, values) = self.scalars(name)?;
+        let own = probe::places(&self.bodies, place, scalar.kind.location == Location::Cell)?;
+        let found: Vec<f64> = own.iter().filter_map(|&place| values.get(place)).copied().filter(|value| value.is_finite()).collect();
+        let mean = (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64);
+        Some(Probed { times: vec![0.0], values: vec![mean], unit: scalar.kind.unit, label: scalar.label() })
     }
 
-    fn scalars(&self, name: &str) -> Option<Vec<f64>> {
+    /// Where a node, or the middle of an element, is; none where there is no such place.
+    #[must_use]
+    pub fn track(&self, place: ProbePlace) -> Option<Track> {
+        let nodes = probe::places(&self.bodies, place, false).filter(|nodes| !nodes.is_empty())?;
+        let initial = probe::initial(&self.bodies, &nodes);
+        Some(Track { times: vec![0.0], initial, positions: vec![initial] })
+    }
+
+    /// A scalar, and its values at all nodes or cells.
+    fn scalars(&self, name: &str) -> Option<(Scalar, Vec<f64>)> {
         let scalar = Scalar::of(self.frame.fields.iter().map(|field| field.kind), name)?;
         let field = self.frame.fields.iter().find(|field| field.kind == scalar.kind)?;
-        Some(field.values.chunks_exact(field.kind.width()).map(|own| scalar.scalar(own)).collect())
+        Some((scalar, field.values.chunks_exact(field.kind.width()).map(|own| scalar.scalar(own)).collect()))
     }
 }
 

@@ -285,6 +285,16 @@ impl VtuReader {
         Ok(frame)
     }
 
+    /// Position of a node, m; that of a node that is not there is not a number.
+    pub(crate) fn place(&mut self, node: usize) -> Result<[f64; 3], ResultsError> {
+        let tag = self.expected("Points", "Points")?;
+        if tag.components != 3 || node >= self.nodes {
+            return Ok([f64::NAN; 3]);
+        }
+        let own = self.floats(&tag, self.nodes, node..node + 1)?;
+        Ok(std::array::from_fn(|d| own.get(d).copied().unwrap_or(f64::NAN)))
+    }
+
     /// Values of a field at some nodes or cells; empty where it is not there, or no such place.
     pub(crate) fn values(&mut self, kind: &FieldKind, wanted: Range<usize>) -> Result<Vec<f64>, ResultsError> {
         let places = if kind.location == Location::Node { self.nodes } else { self.cells };

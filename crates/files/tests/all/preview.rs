@@ -4,7 +4,7 @@ use embate_files::PathPolicy;
 use embate_files::picture::model_png;
 use embate_files::preview::{Glyph, Preview};
 use embate_files::results::film_settings;
-use embate_files::view::{FrameRequest, ModelView};
+use embate_files::view::{FrameRequest, ModelView, ProbePlace, RangeOf};
 use embate_solver::simulation::{Options, Simulation};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -193,11 +193,13 @@ fn states_of_a_file_have_numbers_and_bodies_of_their_own() {
     let folder = written("states", PLANE);
     let first = ModelView::new(&folder, read(&folder), None);
     assert_eq!((first.version, first.description().elements, first.bodies().without(&[]).id), (1, 2000, 0));
-    let range = first.range("element_quality").0.unwrap();
+    let range = first.range("element_quality", RangeOf::default()).0.unwrap();
     // Squares in the block, 0.5 x 0.995 mm in the plate.
     assert!((range[0] - 0.5 / 0.995).abs() < 1e-4 && (range[1] - 1.0).abs() < 1e-4, "{range:?}");
-    let probed = first.probe("stable_step", 0).unwrap();
-    assert!(probed.unit == "s" && probed.values[0].unwrap() > 0.0 && first.probe("stable_step", 2000).is_none());
+    let probed = first.probe("stable_step", ProbePlace::Cell(0)).unwrap();
+    assert!(probed.unit == "s" && probed.values[0].unwrap() > 0.0 && first.probe("stable_step", ProbePlace::Cell(2000)).is_none());
+    let corner = first.track(ProbePlace::Node(0)).unwrap();
+    assert_eq!((corner.positions.len(), corner.positions[0]), (1, corner.initial));
     fs::write(folder.join("model.toml"), PLANE.replace("elements = [40, 20]", "elements = [20, 20]")).unwrap();
     let second = ModelView::new(&folder, read(&folder), Some(&first));
     assert_eq!((second.version, second.description().elements, second.bodies().without(&[]).id), (2, 1600, 1));

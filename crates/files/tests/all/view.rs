@@ -4,7 +4,7 @@
 use embate_files::checkpoint::Origin;
 use embate_files::model_file;
 use embate_files::results::{Checkpoints, History, Recorder, ResultFolder, ResultsError};
-use embate_files::view::{Bodies, FrameRequest, ResultView, frame, gone, outlines};
+use embate_files::view::{Bodies, FrameRequest, ProbePlace, RangeOf, ResultView, SectionRequest, frame, gone, outlines};
 use embate_solver::output::{Frame, Shown};
 use embate_solver::simulation::{Control, Observer, ObserverError, Options, Progress, Simulation, State};
 use serde_json::Value;
@@ -77,7 +77,7 @@ fn run(text: &str, folder: &Path) -> (Vec<Frame>, Simulation) {
 }
 
 fn frame_request(scalar: &str) -> FrameRequest {
-    FrameRequest { scalar: Some(scalar.into()), arrows: true }
+    FrameRequest { scalar: Some(scalar.into()), arrows: true, ..FrameRequest::default() }
 }
 
 /// Head of a container.
@@ -134,8 +134,125 @@ fn eroded_cells_have_gone_from_the_topology_of_their_frame() {
     assert_eq!(array(&bytes, "facets").len(), 4 * (simulation.elements() - gone(&frames[last]).len()));
     // A cell has values until it is gone.
     let lost = gone(&frames[last])[0] as usize;
-    let probed = view.probe("von_mises", lost).unwrap().unwrap();
+    let probed = view.probe("von_mises", ProbePlace::Cell(lost)).unwrap().unwrap();
     assert!(probed.values[0].is_some() && probed.values[last].is_none() && probed.times.len() == frames.len());
+}
+
+fn floats(bytes: &[u8], name: &str) -> Vec<f64> {
+    array(bytes, name).iter().map(|four| f64::from(f32::from_le_bytes(*four))).collect()
+}
+
+fn indices(bytes: &[u8], name: &str) -> Vec<usize> {
+    array(bytes, name).iter().map(|four| u32::from_le_bytes(*four) as usize).collect()
+}
+
+/// Corners of each triangle of a section from the middle of the bodies, m, and its area.
+fn triangles(bytes: &[u8]) -> Vec<([[f64; 3]; 3], f64)> {
+    let points = floats(bytes, "section_points");
+    let corners = indices(bytes, "section_facets");
+    let triangle = |own: &[usize; 3]| {
+        let corners = own.map(|corner| [0, 1, 2].map(|k| points[3 * corner + k]));
+        let [u, v] = [1, 2].map(|c| [0, 1, 2].map(|k| corners[c][k] - corners[0][k]));
+        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        (corners, 0.5 * n.iter().map(|n| n * n).sum::<f64>().sqrt())
+    };
+    corners.as_chunks().0.iter().map(triangle).collect()
+}
+
+#[test]
+fn sections_of_a_frame_have_the_area_of_the_bodies_and_the_values_inside() {
+    let folder = fresh("view-section");
+    let (frames, simulation) = run(SPACE, &folder);
+    let view = ResultView::open(&folder).unwrap();
+    let cells = simulation.cells();
+    let section = |number: usize, planes: &str, scale: f64, scalar: &str, averaged: bool| {
+        let section = Some(SectionRequest::read(planes, scale).unwrap());
+        view.frame(number, &FrameRequest { scalar: Some(scalar.into()), averaged, section, ..FrameRequest::default() })
+            .unwrap()
+            .unwrap()
+            .bytes()
+    };
+    // Both cubes of 10 mm at z = 4 mm, and the first one alone along its diagonal plane.
+    let bytes = section(0, "0,0,1,0.004;1,-1,0,0", 1.0, "velocity.x", false);
+    let heads = head(&bytes)["sections"].as_array().unwrap().clone();
+    let count = heads[0]["facets"].as_u64().unwrap() as usize;
+    let all = triangles(&bytes);
+    let parts = indices(&bytes, "section_parts");
+    let area = |range: std::ops::Range<usize>| range.map(|k| all[k].1).sum::<f64>();
+    assert!((area(0..count) - 2e-4).abs() < 1e-9, "{}", area(0..count));
+    let first: f64 = (count..all.len()).filter(|&k| parts[k] == 0).map(|k| all[k].1).sum();
+    assert!((first - 2f64.sqrt() * 1e-4).abs() < 1e-9, "{first}");
+    // Colours are those of the cells, and of the nodes in between; the range has what is seen inside.
+    let last = frames.len() - 1;
+    let bytes = section(last, "1,0.2,0.1,0.009", 1.0, "stress.xx", false);
+    let place = frames[last].kinds().iter().position(|kind| kind.name == "stress").unwrap();
+    let stress = |cell: usize| f64::from(frames[last].fields[place].values[6 * cell] as f32);
+    let (values, own) = (floats(&bytes, "section_values"), indices(&bytes, "section_cells"));
+    assert!(values.len() == own.len() && values.iter().zip(&own).all(|(value, &cell)| *value == stress(cell)));
+    let [low, high] = [0, 1].map(|end| head(&bytes)["range"][end].as_f64().unwrap());
+    assert!(values.iter().all(|value| (low..=high).contains(value)));
+    // Averaged, they lie between those of the cells that meet.
+    let bytes = section(last, "1,0.2,0.1,0.009", 1.0, "stress.xx", true);
+    assert_eq!(head(&bytes)["location"], "corner");
+    let corners = indices(&bytes, "section_facets");
+    let values = floats(&bytes, "section_values");
+    assert_eq!(values.len(), floats(&bytes, "section_points").len() / 3);
+    let all: Vec<f64> = (0..cells.len()).map(stress).collect();
+    let (least, most) = (all.iter().copied().fold(f64::INFINITY, f64::min), all.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+    assert!(corners.iter().all(|&corner| values[corner] >= least && values[corner] <= most));
+    // All that moves as a whole: magnified displacements move the section with the bodies.
+    let (once, twice) = (section(last, "0,0,1,0.005", 1.0, "velocity.x", false), section(last, "0,0,1,0.005", 40.0, "velocity.x", false));
+    assert!(triangles(&twice).len() >= triangles(&once).len() && floats(&once, "section_points") != floats(&twice, "section_points"));
+    // A section of cells that have gone, or of 2D, is empty; the inside has a range of its own.
+    let inside = view.range("stress.xx", RangeOf { inside: true, averaged: false }).unwrap().0.unwrap();
+    let skin = view.range("stress.xx", RangeOf::default()).unwrap().0.unwrap();
+    let averaged = view.range("stress.xx", RangeOf { inside: true, averaged: true }).unwrap().0.unwrap();
+    assert!(inside[0] <= skin[0] && inside[1] >= skin[1] && averaged[0] >= inside[0] && averaged[1] <= inside[1]);
+}
+
+#[test]
+fn a_track_is_where_the_node_is_and_probes_of_elements_are_the_means_of_their_nodes() {
+    let folder = fresh("view-track");
+    let (frames, simulation) = run(SPACE, &folder);
+    let view = ResultView::open(&folder).unwrap();
+    let track = view.track(ProbePlace::Node(5)).unwrap().unwrap();
+    assert!(track.positions.iter().zip(&frames).all(|(place, frame)| *place == frame.place(5)));
+    assert!(track.initial.iter().zip(frames[0].place(5)).all(|(a, b)| (a - b).abs() < 1e-15));
+    assert!(view.track(ProbePlace::Node(1 << 20)).unwrap().is_none() && view.track(ProbePlace::Cell(1 << 20)).unwrap().is_none());
+    let last = frames.len() - 1;
+    let place = |name: &str| frames[last].kinds().iter().position(|kind| kind.name == name).unwrap();
+    let cells = simulation.cells();
+    let middle = view.track(ProbePlace::Cell(7)).unwrap().unwrap().positions[last];
+    let own: Vec<[f64; 3]> = cells.cell(7).iter().map(|&node| frames[last].place(node as usize)).collect();
+    assert!((0..3).all(|k| (own.iter().map(|place| place[k]).sum::<f64>() / 8.0 - middle[k]).abs() < 1e-15));
+    let velocity = &frames[last].fields[place("velocity")].values;
+    let mean: f64 = cells.cell(7).iter().map(|&node| velocity[3 * node as usize]).sum::<f64>() / 8.0;
+    let probed = view.probe("velocity.x", ProbePlace::Cell(7)).unwrap().unwrap();
+    assert!((probed.values[last].unwrap() - mean).abs() < 1e-12 * mean.abs().max(1.0));
+    let around: Vec<usize> = (0..cells.len()).filter(|&cell| cells.cell(cell).contains(&21)).collect();
+    let stress = &frames[last].fields[place("stress")].values;
+    let mean = around.iter().map(|cell| stress[6 * cell]).sum::<f64>() / around.len() as f64;
+    let probed = view.probe("stress.xx", ProbePlace::Node(21)).unwrap().unwrap();
+    assert!((probed.values[last].unwrap() - mean).abs() <= 1e-9 * mean.abs(), "{:?} {mean}", probed.values[last]);
+}
+
+#[test]
+fn obstacles_are_shown_until_their_death() {
+    for (name, model, array_of) in [("view-death-plane", PLANE, "obstacle_lines"), ("view-death-space", SPACE, "obstacle_facets")] {
+        let folder = fresh(name);
+        let obstacle = if model == PLANE {
+            model.replace("normal = [1, 0] } }", "normal = [1, 0] }, death = \"12 us\" }")
+        } else {
+            let wall = "obstacle = [{ name = \"wall\", plane = { point = [0, 0, -1e-4], normal = [0, 0, 1] }, death = \"12 us\" }]";
+            format!("{model}{wall}")
+        };
+        let (frames, _) = run(&obstacle, &folder);
+        let view = ResultView::open(&folder).unwrap();
+        for (number, shown) in frames.iter().enumerate() {
+            let bytes = view.frame(number, &FrameRequest::default()).unwrap().unwrap().bytes();
+            assert_eq!(array(&bytes, array_of).is_empty(), shown.time > 12e-6, "{name} at {}", shown.time);
+        }
+    }
 }
 
 #[test]
@@ -143,15 +260,18 @@ fn a_probe_is_the_value_in_every_frame_and_the_range_is_over_all_of_them() {
     let folder = fresh("view-probe");
     let (frames, _) = run(SPACE, &folder);
     let view = ResultView::open(&folder).unwrap();
-    let probed = view.probe("velocity.x", 5).unwrap().unwrap();
+    let probed = view.probe("velocity.x", ProbePlace::Node(5)).unwrap().unwrap();
     let place = frames[0].kinds().iter().position(|kind| kind.name == "velocity").unwrap();
     let wanted: Vec<Option<f64>> = frames.iter().map(|frame| Some(frame.fields[place].values[15])).collect();
     assert_eq!((probed.values, probed.unit), (wanted, "m/s"));
-    assert!(view.probe("velocity.x", 1 << 20).unwrap().is_none() && view.probe("smell", 0).unwrap().is_none());
+    assert!(
+        view.probe("velocity.x", ProbePlace::Node(1 << 20)).unwrap().is_none()
+            && view.probe("smell", ProbePlace::Node(0)).unwrap().is_none()
+    );
     // The blocks have no inner nodes with a velocity of their own beyond the first.
-    let (range, count) = view.range("velocity.x").unwrap();
+    let (range, count) = view.range("velocity.x", RangeOf::default()).unwrap();
     assert!(count == frames.len() && range.is_some_and(|[low, high]| low <= 0.0 && high >= 50.0), "{range:?}");
-    assert_eq!(view.range("velocity.x").unwrap().0, range, "what is kept");
+    assert_eq!(view.range("velocity.x", RangeOf::default()).unwrap().0, range, "what is kept");
 }
 
 #[test]
@@ -175,6 +295,17 @@ fn the_description_says_what_the_model_is_and_how_it_wants_to_be_shown() {
     let description = ResultView::open(&folder).unwrap().description().unwrap();
     assert_eq!((description.dimension, description.energy_unit, description.arrow_unit), (3, "J", "N"));
     assert_eq!(description.camera.unwrap()["from"][1], -1.0);
+
+    // Rigid bodies alone are shown in the colours of their parts, unless the model says otherwise.
+    let rigid = SPACE.replace("elements = [3, 3, 3] }", "elements = [3, 3, 3] }, rigid = true");
+    let chosen = rigid.replace("pictures = false", "pictures = false, picture_field = \"velocity\"");
+    for (model, scalar) in [(rigid, None), (chosen, Some("velocity".to_string()))] {
+        let folder = fresh("view-description-rigid");
+        run(&model, &folder);
+        let description = ResultView::open(&folder).unwrap().description().unwrap();
+        assert!(description.parts.iter().all(|part| part.is_rigid));
+        assert_eq!(description.scalar, scalar);
+    }
 }
 
 #[test]
@@ -223,7 +354,7 @@ fn damaged_files_are_reported_by_name_and_the_others_are_shown_all_the_same() {
         let error = view.frame(3, &frame_request("velocity")).unwrap_err().to_string();
         assert!(error.contains("frame-00003.vtu") && error.contains("run the model again"), "{error}");
         assert!(view.frame(4, &frame_request("velocity")).unwrap().is_some());
-        assert!(view.range("velocity").is_err() && view.probe("velocity", 0).is_err());
+        assert!(view.range("velocity", RangeOf::default()).is_err() && view.probe("velocity", ProbePlace::Node(0)).is_err());
     }
     // A frame of another mesh.
     let other = fresh("view-damaged-other");

@@ -6,7 +6,7 @@
 use embate_files::checkpoint::{self, Checkpoint};
 use embate_files::results::{Recorder, ResultFolder};
 use embate_files::threads::Threads;
-use embate_files::view::{FrameRequest, ResultView};
+use embate_files::view::{FrameRequest, ProbePlace, RangeOf, ResultView, SectionRequest};
 use embate_files::{abaqus, gmsh, model_file};
 use embate_solver::archive::Section;
 use embate_solver::model::Model;
@@ -181,8 +181,13 @@ pub fn fields() -> Target {
             fs::write(&files[1 - damaged], &sound).unwrap();
             let Ok(view) = ResultView::open(folder.path()) else { continue };
             for scalar in ["velocity", "stress.xy"] {
-                let _ = [0, 1].map(|number| view.frame(number, &FrameRequest { scalar: Some(scalar.into()), arrows: true }));
-                let _ = (view.probe(scalar, 3), view.range(scalar));
+                let section = SectionRequest::read("1,0.5,0.2,0", 2.0).ok();
+                let request =
+                    FrameRequest { scalar: Some(scalar.into()), averaged: true, arrows: true, glyphs: Some("stress".into()), section };
+                let _ = [0, 1].map(|number| view.frame(number, &request));
+                let _ = [ProbePlace::Node(3), ProbePlace::Cell(3)].map(|place| view.probe(scalar, place));
+                let _ = [false, true].map(|inside| view.range(scalar, RangeOf { inside, averaged: inside }));
+                let _ = view.track(ProbePlace::Cell(3));
             }
             let _ = view.description();
         }

@@ -15,11 +15,13 @@ import { listenToKeys } from "./app/keys";
 import { banners, liveBar } from "./app/livebar";
 import { SidePanel } from "./app/panel";
 import { copyText } from "./app/panel_rest";
+import { Picks } from "./app/picks";
 import { Probes } from "./app/probes";
 import { Requests } from "./app/requests";
 import { Stage } from "./app/stage";
 import { apply, isDark, onSystem } from "./app/theme";
 import { Timeline } from "./app/timeline";
+import { Tracks } from "./app/tracks";
 import { pictureTools, toolbar } from "./app/toolbar";
 
 const root = document.getElementById("app")!;
@@ -66,14 +68,14 @@ function page(served: Runs, requests: Requests): void {
     app.events.emit("theme");
   });
 
-  const probes = new Probes(app);
-  const stage = new Stage(app, probes);
-  const panel = new SidePanel(app, probes);
+  const picks = new Picks(app, new Probes(app, new Tracks(app)));
+  const stage = new Stage(app, picks);
+  const panel = new SidePanel(app, picks, stage);
   const actions = { help, theme, export: () => exportDialog(app, stage, panel), screenshot: () => void savePicture(app, stage), link: () => void copyText(app, app.link(), "Link to this view copied.") };
   fill(root, h("div", { class: "page" },
     toolbar(app, actions), banners(app), liveBar(app),
     h("main", { class: "middle" }, h("div", { class: "stage" }, stage.element, pictureTools(app, stage)), new Timeline(app).element), panel.element));
-  listenToKeys(app, stage, actions);
+  listenToKeys(app, stage, picks, actions);
   app.start();
 }
 

@@ -105,6 +105,13 @@ export interface Probe {
   label: string;
 }
 
+/** Where a node, or the middle of an element, is in all frames, m. */
+export interface Track {
+  times: number[];
+  initial: Vector;
+  positions: Vector[];
+}
+
 export interface ServerError {
   code: string;
   error: string;
@@ -150,6 +157,31 @@ export interface Obstacles {
   facetOf: Uint32Array;
 }
 
+/** What one plane cuts: its triangles among those of all planes. */
+export interface Cut {
+  normal: Vector;
+  /** m */
+  offset: number;
+  first: number;
+  count: number;
+}
+
+/** Cut faces at one instant, in the places where bodies are shown. */
+export interface Sections {
+  /** One for each mirrored normal; the first cuts the model itself. */
+  planes: Cut[];
+  /** x, y, z per point, minus the topology's origin, m. */
+  points: Float32Array;
+  /** The node nearest to each point; 2³² − 1 in the middle of a polygon. */
+  nodes: Uint32Array;
+  /** Three points each: two corners of the polygon, its middle; cell and part of each. */
+  facets: Uint32Array;
+  cells: Uint32Array;
+  parts: Uint32Array;
+  /** Per point, or per triangle where values are those of cells. */
+  values: Float32Array;
+}
+
 /** One instant. */
 export interface Frame {
   /** −1 for a live frame between two output times. */
@@ -159,7 +191,9 @@ export interface Frame {
   time: number;
   step: number | null;
   scalar: string | null;
-  /** Smallest and largest finite value of this frame's skin. */
+  /** Where values are: at nodes, of cells, or at the corners of facets and then bars (averaged). */
+  location: "node" | "cell" | "corner" | null;
+  /** Smallest and largest finite value of this frame's skin and sections. */
   range: [number, number] | null;
   /** x, y, z per skin node, minus the topology's origin, m. */
   positions: Float32Array;
@@ -168,6 +202,11 @@ export interface Frame {
   /** Skin nodes with a contact force, and x, y, z of each force; empty if not asked for. */
   arrowNodes: Uint32Array;
   arrows: Float32Array;
+  /** Per skin node a vector, or per facet three principal values and three unit vectors; empty if not asked for. */
+  glyphVectors: Float32Array;
+  glyphValues: Float32Array;
+  glyphAxes: Float32Array;
+  sections: Sections | null;
   obstacles: Obstacles | null;
 }
 

@@ -3,7 +3,7 @@
 // not fit (a wrong mark, an array outside the buffer, indices outside their table) is refused with a text for
 // people.
 
-import type { Frame, Level, Obstacles, Topology, Vector } from "./types";
+import type { Cut, Frame, Level, Obstacles, Sections, Topology, Vector } from "./types";
 
 /** The bytes are not what the contract says. */
 export class WireError extends Error {
@@ -154,6 +154,27 @@ function decodeObstacles(container: Container): Obstacles | null {
   return { points, lines, lineOf, facets, facetOf };
 }
 
+function decodeSections(container: Container): Sections | null {
+  const heads = container.head["sections"];
+  if (!Array.isArray(heads)) return null;
+  const points = container.f32("section_points");
+  const facets = container.u32("section_facets");
+  const [cells, parts, values, nodes] = [container.u32("section_cells"), container.u32("section_parts"), container.f32("section_values"), container.u32("section_nodes")];
+  const [pointCount, count] = [rows("section_points", points, 3), rows("section_facets", facets, 3)];
+  within("section_facets", facets, pointCount);
+  rows("section_nodes", nodes, 1, pointCount);
+  rows("section_cells", cells, 1, count);
+  rows("section_parts", parts, 1, count);
+  let first = 0;
+  const planes = (heads as Record<string, unknown>[]).map((head): Cut => {
+    const cut = { normal: vector(head["normal"]), offset: Number(head["offset"] ?? 0), first, count: Number(head["facets"] ?? 0) };
+    first += cut.count;
+    return cut;
+  });
+  if (first !== count) throw new WireError(`the planes of the sections have ${first} triangles, array section_facets has ${count}`);
+  return { planes, points, nodes, facets, cells, parts, values };
+}
+
 /** A frame as `api/runs/R/frames/N` answers it or the live connection sends it. */
 export function decodeFrame(buffer: ArrayBuffer): Frame {
   const container = openContainer(buffer);
@@ -166,17 +187,23 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
   rows("arrows", arrows, 3, arrowNodes.length);
   const step = head["step"];
   const scalar = head["scalar"];
+  const location = head["location"];
   return {
     number: Number(head["frame"] ?? -1),
     topology: Number(head["topology"] ?? 0),
     time: Number(head["time"] ?? 0),
     step: typeof step === "number" ? step : null,
     scalar: typeof scalar === "string" ? scalar : null,
+    location: location === "node" || location === "cell" || location === "corner" ? location : null,
     range: range(head["range"]),
     positions,
     values: container.f32("values"),
     arrowNodes,
     arrows,
+    glyphVectors: container.f32("glyph_vectors"),
+    glyphValues: container.f32("glyph_values"),
+    glyphAxes: container.f32("glyph_axes"),
+    sections: decodeSections(container),
     obstacles: decodeObstacles(container),
   };
 }

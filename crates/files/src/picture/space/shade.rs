@@ -9,9 +9,10 @@ pub(super) const SMOOTH: f32 = 0.866;
 /// Where light comes from, in the picture: from above, a little from the left, and from who looks at it.
 /// Length one.
 const LIGHT: [f32; 3] = [-0.25, 0.5, 0.829_156_2];
-/// Brightness without light, and what light adds.
-const AMBIENT: f32 = 0.56;
-const DIRECT: f32 = 0.46;
+/// Brightness without light, and what light adds. The page of `embate view` has the same light and brightness
+/// (`shaders.ts`).
+const AMBIENT: f32 = 0.74;
+const DIRECT: f32 = 0.28;
 
 /// Unit normals of all facets: to the right, upwards, towards the viewer. Not a number where a corner is not,
 /// or where there is no area.
@@ -91,7 +92,7 @@ mod tests {
         assert!(first[0] > first[1] && second[0] > second[1], "turned to the right, away from the light");
         let (first, second) = lit(1.5);
         assert_eq!(first[0], first[1]);
-        assert!(first[1] > second[0] + 0.1);
+        assert!(first[1] > second[0] + 0.05);
     }
 
     #[test]

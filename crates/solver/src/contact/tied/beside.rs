@@ -17,7 +17,7 @@ use crate::tensor::Dim;
 /// How springs of a formulation end at what a tie holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beside {
-    /// At its nodes; they can begin anew.
+    /// At its nodes; they can begin again.
     Nodes,
     /// At the nodes of its segments or facets.
     Surfaces,

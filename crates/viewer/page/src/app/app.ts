@@ -8,12 +8,16 @@ import { Player } from "./player";
 import { Gone, Refusal, type Requests } from "./requests";
 import { FrameStore, Session } from "./session";
 import { firstView, viewOf, viewText, type View } from "./view";
+import { wishOf, type Wish } from "./wish";
 
 /** A text for the user at the top of the picture; `alert` is read aloud at once. */
 export interface Note {
   text: string;
   alert: boolean;
 }
+
+/** What a click in the picture does: a probe of the node or of the element there, or an end of a distance. */
+export type Tool = "node" | "cell" | "measure";
 
 export class App {
   readonly events = new Events();
@@ -24,6 +28,12 @@ export class App {
   readonly player: Player;
   view: View;
   note: Note | null = null;
+  /** What a click in the picture does. */
+  tool: Tool = "node";
+  /** The first node of a distance, until the second is picked. */
+  started: { run: number; node: number } | null = null;
+  /** A plane is being dragged: nothing is read ahead. */
+  isDragging = false;
   private addressTimer = 0;
   private pollTimer = 0;
   private polling = false;
@@ -34,7 +44,7 @@ export class App {
     const runs = this.sessions.map((session) => session.run);
     this.first = firstView(runs);
     const text = location.hash.length > 1 ? location.hash : served.view;
-    this.view = viewOf(text, this.first, runs[0]!);
+    this.view = this.there(viewOf(text, this.first, runs[0]!));
     this.live = served.live && this.sessions[0] ? new Live(this.sessions[0], requests, this.events) : null;
     this.player = new Player(this);
   }
@@ -46,7 +56,7 @@ export class App {
     };
     window.addEventListener("hashchange", () => {
       if (location.hash.slice(1) === viewText(this.view, this.first)) return;
-      this.view = { ...viewOf(location.hash, this.first, this.sessions[0]!.run), playing: false };
+      this.view = { ...this.there(viewOf(location.hash, this.first, this.sessions[0]!.run)), playing: false };
       this.events.emit("view");
       this.events.emit("theme");
       this.player.update();
@@ -60,6 +70,15 @@ export class App {
     this.schedule();
   }
 
+  /** A view without probes and distances at nodes and elements that no run has. */
+  private there(view: View): View {
+    const run = (index: number) => this.sessions.find((session) => session.index === index)?.run;
+    const isNode = (index: number, node: number): boolean => node < (run(index)?.nodes ?? 0);
+    const isCell = (index: number, cell: number): boolean => cell < (run(index)?.elements ?? 0);
+    const probes = view.probes.filter((p) => (p.of === "cell" || isNode(p.run, p.node)) && isCell(p.run, p.cell));
+    return { ...view, probes, measures: view.measures.filter((m) => isNode(m.run, m.a) && isNode(m.run, m.b)) };
+  }
+
   /** The first run is the one that gives names, units and first choices. */
   get run(): Run {
     return this.sessions[0]!.run;
@@ -69,6 +88,10 @@ export class App {
   }
   get isComparison(): boolean {
     return this.sessions.length > 1;
+  }
+  /** What frames of a run are to hold. */
+  wish(session: Session): Wish {
+    return wishOf(this.view, session.run);
   }
   /** Something may still come. */
   get isGoing(): boolean {
@@ -89,6 +112,12 @@ export class App {
   /** Moves the time by hand: leaves playing and following. */
   moveTo(time: number): void {
     this.change({ time: Math.min(Math.max(time, this.player.times()[0] ?? 0), this.player.times().at(-1) ?? time), playing: false, follow: false });
+  }
+
+  use(tool: Tool): void {
+    this.tool = tool;
+    this.started = null;
+    this.events.emit("view");
   }
 
   say(text: string, alert = false): void {

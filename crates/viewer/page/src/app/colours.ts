@@ -32,6 +32,12 @@ function join(a: [number, number] | null, b: [number, number] | null): [number, 
   return a && b ? [Math.min(a[0], b[0]), Math.max(a[1], b[1])] : a ?? b;
 }
 
+/** What the range over a whole run depends on besides the scalar: values inside count where they are seen. */
+export function rangeKind(app: App, session: Session): string {
+  const { averaged, section } = app.wish(session);
+  return (section === null ? "" : "&inside=1") + (averaged ? "&averaged=1" : "");
+}
+
 /** The range of a session's colours under the present view; one for both where it is common. */
 export function colourRange(app: App, session: Session): [number, number] | null {
   const { view } = app;
@@ -43,7 +49,7 @@ export function colourRange(app: App, session: Session): [number, number] | null
   let range: [number, number] | null = null;
   for (const one of sessions) {
     const frame = one.shown?.scalar === scalar.key ? one.shown.range : null;
-    range = join(range, view.range_mode === "frame" ? frame : one.range(scalar.key) ?? frame);
+    range = join(range, view.range_mode === "frame" ? frame : one.range(scalar.key, rangeKind(app, one)) ?? frame);
   }
   if (!range) return null;
   let [low, high] = range;

@@ -14,6 +14,14 @@ const KEYS: [string[], string, string][] = [
   [["←", "→", "↑", "↓"], "on the picture", "turn it, with Shift move it; in the plane move it"],
   [["m"], "", "mesh lines"],
   [["a"], "", "arrows of contact forces"],
+  [["u"], "", "undeformed shape"],
+  [["i"], "", "lines of equal value"],
+  [["v"], "", "values of elements averaged or as they are"],
+  [["c"], "", "section on or off (3D)"],
+  [["[", "]"], "", "move the section by 1 %; with Shift by 10 %"],
+  [["h", "o"], "mouse on a part", "hide it, or show only it"],
+  [["H"], "", "show all parts"],
+  [["d"], "", "measure the distance of two nodes; Escape ends"],
   [["n", "N"], "", "next or previous quantity"],
   [["p"], "", "probes"],
   [["s"], "", "save picture (PNG)"],
@@ -44,7 +52,7 @@ export function show(title: string, content: HTMLElement, buttons: [string, stri
 export function help(): void {
   show("Keys", h("div", {},
     h("dl", { class: "keys" }, ...KEYS.flatMap(([keys, where, text]) => [h("dt", {}, ...keys.map((key) => (key === "…" ? "… " : h("kbd", {}, key))), where), h("dd", {}, text)])),
-    h("p", { class: "quiet" }, "Mouse: drag to turn (in the plane to move), right button or Shift to move, wheel to zoom, click a node for its values. In plots: click to go to a time, drag to magnify, double click for all. Touch: one finger turns, two move and zoom.")),
+    h("p", { class: "quiet" }, "Mouse: drag to turn (in the plane to move), right button or Shift to move, wheel to zoom, click a node for its values, right click for more. In plots: click to go to a time, drag to magnify, double click for all. Touch: one finger turns, two move and zoom, a long touch opens the menu.")),
   [["", "Close"]]);
 }
 

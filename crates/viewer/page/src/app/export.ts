@@ -1,5 +1,5 @@
-// Export: the picture as PNG, the run as WebM, the values of a plot as CSV. Pictures are put together on a
-// plain canvas: title, time, each run's picture, legend.
+// Export: the picture as PNG, the run as MP4 or WebM, the values of a plot as CSV. Pictures are put together
+// on a plain canvas: title, time, each run's picture, legend.
 
 import type { App } from "./app";
 import { show } from "./dialogs";
@@ -30,7 +30,7 @@ function compose(app: App, stage: Stage, canvas: HTMLCanvasElement, unit: number
   panes.forEach((pane, i) => {
     const box = boxes[i]!;
     const [x, y] = [(box.left - left) * unit, (box.top - top + HEAD) * unit];
-    pane.viewport?.draw();
+    pane.viewport?.draw(true);
     if (pane.canvas.width > 0) context.drawImage(pane.canvas, x, y, box.width * unit, box.height * unit);
     context.fillStyle = ink;
     if (panes.length > 1) {
@@ -85,25 +85,39 @@ export async function savePicture(app: App, stage: Stage): Promise<void> {
   }
 }
 
-/** Records the whole run, in so many seconds; `reported` hears how far it is; ends early when `left` says so. */
-export async function film(app: App, stage: Stage, seconds: number, progress: (part: number) => void, left: () => boolean): Promise<Blob> {
-  const type = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((t) => typeof MediaRecorder !== "undefined" && MediaRecorder.isTypeSupported(t));
-  if (!type) throw new Error("this browser cannot record WebM");
+export interface FilmFormat {
+  name: "MP4" | "WebM";
+  ending: "mp4" | "webm";
+  type: string;
+}
+
+/** What this browser can record: MP4 (H.264), which most programs show, and WebM. */
+export function filmFormats(): FilmFormat[] {
+  const first = (types: string[]) => types.find((type) => typeof MediaRecorder !== "undefined" && MediaRecorder.isTypeSupported(type));
+  const mp4 = first(["video/mp4;codecs=avc1.640033", "video/mp4;codecs=avc1.640028", "video/mp4;codecs=avc1.42E01E"]);
+  const webm = first(["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"]);
+  return [...(mp4 ? [{ name: "MP4" as const, ending: "mp4" as const, type: mp4 }] : []), ...(webm ? [{ name: "WebM" as const, ending: "webm" as const, type: webm }] : [])];
+}
+
+/** Records the whole run, in so many seconds; `progress` hears how far it is; ends early when `left` says so. */
+export async function film(app: App, stage: Stage, seconds: number, format: FilmFormat, progress: (part: number) => void, left: () => boolean): Promise<Blob> {
   const before = app.view;
   const canvas = document.createElement("canvas");
   compose(app, stage, canvas, 1);
   const stream = canvas.captureStream(30);
-  const recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 8_000_000 });
+  const recorder = new MediaRecorder(stream, { mimeType: format.type, videoBitsPerSecond: 8_000_000 });
   const pieces: Blob[] = [];
   recorder.ondataavailable = (event) => pieces.push(event.data);
   const stopped = new Promise<void>((done) => (recorder.onstop = () => done()));
+  let broken = "";
+  recorder.onerror = (event) => (broken = (event as ErrorEvent).error?.message ?? "the browser's recorder failed");
   const times = app.player.times();
   const [first, last] = [times[0] ?? 0, times.at(-1) ?? 0];
   recorder.start(500);
   try {
     // a picture at a time, each as long on the screen as its part of the run; recording pauses while a frame
     // is read
-    for (let i = 0; i < times.length && !left(); i++) {
+    for (let i = 0; i < times.length && !left() && broken === ""; i++) {
       recorder.pause();
       app.change({ time: times[i]!, playing: false, follow: false });
       await arrived(app, left);
@@ -117,12 +131,15 @@ export async function film(app: App, stage: Stage, seconds: number, progress: (p
       progress((i + 1) / times.length);
     }
   } finally {
-    recorder.stop();
-    await stopped;
+    if (recorder.state !== "inactive") {
+      recorder.stop();
+      await stopped;
+    }
     for (const track of stream.getTracks()) track.stop();
     app.change({ time: before.time, follow: before.follow });
   }
-  return new Blob(pieces, { type: "video/webm" });
+  if (broken !== "") throw new Error(broken);
+  return new Blob(pieces, { type: format.type.split(";")[0]! });
 }
 
 /** Waits until the frames of the view's time are on the screen. */
@@ -130,22 +147,29 @@ async function arrived(app: App, left: () => boolean): Promise<void> {
   const there = () => app.sessions.every((session) => {
     const frame = session.run.frames[session.nearest(app.view.time)];
     if (!frame) return true;
-    const key = session.key(frame.number, app.view.scalar, app.view.picture.arrows);
-    return session.faults.has(key) || session.shown?.number === frame.number;
+    const key = session.key(frame.number, app.wish(session));
+    return session.faults.has(key) || session.shownKey === key;
   });
   while (!there() && !left()) await new Promise((done) => setTimeout(done, 15));
   await new Promise((done) => requestAnimationFrame(done));
 }
 
+function filmWords(formats: FilmFormat[]): string {
+  if (formats.length === 0) return "This browser can't record films. A run writes animation.gif into its folder.";
+  return `The whole run as it is seen now.${formats.some(({ name }) => name === "MP4") ? "" : " This browser records WebM only; MP4 needs one with an encoder for H.264."}`;
+}
+
 /** The dialog of all exports. */
 export function exportDialog(app: App, stage: Stage, panel: SidePanel): void {
   const length = choice([["3", "3 s"], ["5", "5 s"], ["10", "10 s"], ["20", "20 s"], ["40", "40 s"]], "10", () => {});
+  const formats = filmFormats();
+  const format = choice(formats.map(({ ending, name }): [string, string] => [ending, name]), formats[0]?.ending ?? "", () => {});
   const bar = h("progress", { max: 1, value: 0, hidden: true, "aria-label": "Recording" });
   const said = h("p", { class: "quiet", role: "status" });
   let recording = false;
   let over = false;
   const png = h("button", { type: "button", class: "labelled", onclick: () => void savePicture(app, stage).then(() => setText(said, "Picture saved.")) }, "Save picture");
-  const webm = h("button", { type: "button", class: "labelled", onclick: () => void record() }, "Record film");
+  const start = h("button", { type: "button", class: "labelled", disabled: formats.length === 0, onclick: () => void record() }, "Record film");
   const record = async () => {
     if (recording) {
       over = true;
@@ -154,18 +178,19 @@ export function exportDialog(app: App, stage: Stage, panel: SidePanel): void {
     recording = true;
     over = false;
     bar.hidden = false;
-    webm.textContent = "End here";
+    start.textContent = "End here";
     setText(said, "Recording. Keep this page in front.");
     try {
-      const blob = await film(app, stage, Number(length.value), (part) => (bar.value = part), () => over);
-      save(`${fileName(`${app.run.name}-${app.view.scalar ?? "parts"}`)}.webm`, blob);
+      const chosen = formats.find(({ ending }) => ending === format.value)!;
+      const blob = await film(app, stage, Number(length.value), chosen, (part) => (bar.value = part), () => over);
+      save(`${fileName(`${app.run.name}-${app.view.scalar ?? "parts"}`)}.${chosen.ending}`, blob);
       setText(said, "Film saved.");
     } catch (fault) {
       setText(said, `No film: ${(fault as Error).message}.`);
     }
     recording = false;
     bar.hidden = true;
-    webm.textContent = "Record film";
+    start.textContent = "Record film";
   };
   const plots = panel.plots();
   const csv = h("button", { type: "button", class: "labelled", disabled: plots.length === 0, onclick: () => {
@@ -174,7 +199,7 @@ export function exportDialog(app: App, stage: Stage, panel: SidePanel): void {
   } }, "Save values");
   const { closed } = show("Export", h("div", { class: "export" },
     h("div", {}, h("h3", {}, "Picture (PNG)"), h("p", { class: "quiet" }, "What is on the screen with legend and time, at twice its size."), png),
-    h("div", {}, h("h3", {}, "Film (WebM)"), h("p", { class: "quiet" }, "The whole run as it is seen now."), row("Length", length), webm, bar),
+    h("div", {}, h("h3", {}, "Film"), h("p", { class: "quiet" }, filmWords(formats)), formats.length > 1 && row("Format", format), row("Length", length), start, bar),
     h("div", {}, h("h3", {}, "Values (CSV)"), h("p", { class: "quiet" }, plots.length > 0 ? "The plots that are open, in base units." : "Open a tab with a plot first: Energy, Contacts or Probes."), csv), said), [["", "Close"]]);
   void closed.then(() => (over = true));
 }

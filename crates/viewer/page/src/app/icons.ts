@@ -20,6 +20,8 @@ export const icons = {
   minus: stroke('<path d="M5 12h14"/>'),
   mesh: stroke('<path d="M4 4h16v16H4zM4 12h16M12 4v16"/>'),
   arrows: stroke('<path d="M4 20L13 11M13 17v-6H7M15 9l5-5M20 9V4h-5"/>'),
+  section: stroke('<path d="M4 8l8-4 8 4v8l-8 4-8-4z"/><path d="M8 6v12l8 4V10z" fill="currentColor" fill-opacity=".35"/>'),
+  measure: stroke('<path d="M3 8h18v8H3zM7 8v3M11 8v4M15 8v3M19 8v4"/>'),
   link: stroke('<path d="M10 14a4 4 0 0 0 6 0l3-3a4 4 0 0 0-6-6l-1 1M14 10a4 4 0 0 0-6 0l-3 3a4 4 0 0 0 6 6l1-1"/>'),
   camera: stroke('<path d="M4 8h3l2-3h6l2 3h3v11H4z"/><circle cx="12" cy="13" r="3.5"/>'),
   export: stroke('<path d="M12 4v11M7.5 11L12 15.5 16.5 11M4 20h16"/>'),

@@ -1,6 +1,8 @@
 // Keys of the page. Fields and dialogs keep theirs; the canvas takes the arrow keys to itself.
 
 import type { App } from "./app";
+import { moveSection, toggleSection } from "./panel_section";
+import type { Picks } from "./picks";
 import type { Stage } from "./stage";
 import { DIRECTIONS } from "./toolbar";
 
@@ -11,7 +13,7 @@ export interface Actions {
   link: () => void;
 }
 
-export function listenToKeys(app: App, stage: Stage, actions: Actions): void {
+export function listenToKeys(app: App, stage: Stage, picks: Picks, actions: Actions): void {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     const target = event.target as HTMLElement;
@@ -44,6 +46,23 @@ export function listenToKeys(app: App, stage: Stage, actions: Actions): void {
       case "f": return stage.fit(), true;
       case "m": return app.picture({ lines: !app.view.picture.lines }), true;
       case "a": return app.picture({ arrows: !app.view.picture.arrows }), true;
+      case "u": return app.picture({ undeformed: !app.view.picture.undeformed }), true;
+      case "i": return app.picture({ iso: !app.view.picture.iso }), true;
+      case "v": return app.picture({ averaged: !app.view.picture.averaged }), true;
+      case "c": return toggleSection(app, stage), true;
+      case "[": return moveSection(app, -0.01), true;
+      case "]": return moveSection(app, 0.01), true;
+      case "{": return moveSection(app, -0.1), true;
+      case "}": return moveSection(app, 0.1), true;
+      case "d": return app.use(app.tool === "measure" ? "node" : "measure"), true;
+      case "h": return stage.partAtPointer(false);
+      case "o": return stage.partAtPointer(true);
+      case "H": case "O": return picks.showAll(), true;
+      case "Escape": {
+        if (app.tool === "node") return false;
+        app.use("node");
+        return true;
+      }
       case "n": case "N": {
         const keys = app.run.scalars.map((scalar) => scalar.key);
         const at = keys.indexOf(app.view.scalar ?? "");

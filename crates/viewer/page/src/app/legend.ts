@@ -7,6 +7,7 @@ import { colourBands, colourRange } from "./colours";
 import { h, setText } from "./dom";
 import { digits, scaled, ticks } from "./format";
 import type { Session } from "./session";
+import { isAveraged } from "./wish";
 
 export interface LegendTick {
   /** 0 at the low end, 1 at the high end. */
@@ -33,7 +34,7 @@ export function legendData(app: App, session: Session): LegendData | null {
   for (let i = 0; i < count; i++) {
     list.push(colourAt(app.view.picture.map, (i + 0.5) / count, bands));
   }
-  const title = scalar.label;
+  const title = isAveraged(app.view, session.run) ? `${scalar.label}, averaged` : scalar.label;
   if (scalar.states.length > 0) {
     return { title, unit: "", colours: list, smooth: false, ticks: scalar.states.map((text, i) => ({ at: (i + 0.5) / scalar.states.length, text })) };
   }

@@ -7,6 +7,7 @@ import type { LiveMessage, Progress, Warning } from "../types";
 import type { Events } from "./events";
 import type { Requests } from "./requests";
 import type { Session } from "./session";
+import type { Wish } from "./wish";
 
 export class Live {
   progress: Progress | null = null;
@@ -82,8 +83,8 @@ export class Live {
   }
 
   /** What frames shall hold. */
-  want(scalar: string | null, arrows: boolean): void {
-    const text = JSON.stringify({ scalar, arrows });
+  want(wish: Wish): void {
+    const text = JSON.stringify(wish);
     if (text === this.wanted) return;
     this.wanted = text;
     if (this.connected) this.socket?.send(text);

@@ -1,14 +1,17 @@
 // One picture: the canvas of a run with its title, legend, probes and what is said when it can't be drawn.
 // Keys on the canvas turn and move it; a click without a movement sets a probe.
 
-import type { Frame, Topology } from "../types";
-import { Viewport, type Pick } from "../viewport/viewport";
+import type { Frame, Topology, Vector } from "../types";
+import { Viewport, type Mark, type Pick, type Ruler } from "../viewport/viewport";
 import type { App } from "./app";
-import { colourBands, colourRange, PROBE_COLOURS } from "./colours";
+import { colourBands, colourRange, LINES, PROBE_COLOURS } from "./colours";
 import { h } from "./dom";
+import { quantity } from "./format";
 import { Legend } from "./legend";
+import { measured } from "./panel_measure";
 import type { Session } from "./session";
 import { isDark } from "./theme";
+import type { Tracks } from "./tracks";
 
 export class Pane {
   readonly element: HTMLElement;
@@ -18,11 +21,15 @@ export class Pane {
   /** The camera was moved by the user. */
   onCamera: () => void = () => {};
   onPick: (pick: Pick) => void = () => {};
+  /** The menu is wanted at a place of the window. */
+  onMenu: (pick: Pick | null, x: number, y: number) => void = () => {};
   private topology: Topology | null = null;
   private readonly trouble = h("div", { class: "trouble", role: "alert", hidden: true });
   private down: { x: number; y: number } | null = null;
+  /** Of the mouse over the picture. */
+  private pointer: { x: number; y: number } | null = null;
 
-  constructor(private readonly app: App, readonly session: Session) {
+  constructor(private readonly app: App, readonly session: Session, private readonly tracks: Tracks) {
     const { run } = session;
     this.canvas = h("canvas", {
       tabindex: 0, role: "img",
@@ -48,6 +55,10 @@ export class Pane {
     if (this.viewport) {
       this.viewport.setState(this.state());
       this.viewport.onCamera = () => this.onCamera();
+      this.viewport.onSection = (section, ended) => {
+        app.isDragging = !ended;
+        app.picture({ section });
+      };
       new ResizeObserver(() => this.viewport?.resize()).observe(this.canvas);
       this.listen();
     }
@@ -72,11 +83,41 @@ export class Pane {
       const down = this.down;
       this.down = null;
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
-      const box = this.canvas.getBoundingClientRect();
-      const pick = this.viewport?.pick(event.clientX - box.left, event.clientY - box.top);
+      const pick = this.at(event.clientX, event.clientY);
       if (pick) this.onPick(pick);
     });
     this.canvas.addEventListener("pointercancel", () => (this.down = null));
+    this.canvas.addEventListener("pointermove", (event) => (this.pointer = { x: event.clientX, y: event.clientY }));
+    this.canvas.addEventListener("pointerleave", () => (this.pointer = null));
+    // a drag with the right button moves the picture: only one that stays where it is opens the menu
+    let right: { x: number; y: number } | null = null;
+    let pointer = "";
+    this.canvas.addEventListener("pointerdown", (event) => {
+      pointer = event.pointerType;
+      right = event.button === 2 ? { x: event.clientX, y: event.clientY } : null;
+    });
+    const menu = (x: number, y: number) => this.onMenu(this.at(x, y), x, y);
+    this.canvas.addEventListener("pointerup", (event) => {
+      if (event.button === 2 && right !== null && Math.hypot(event.clientX - right.x, event.clientY - right.y) <= 4) menu(event.clientX, event.clientY);
+    });
+    this.canvas.addEventListener("contextmenu", (event) => {
+      // of a mouse the menu comes when the button is let go, of a touch or of the key at once
+      if (event.button === 2 && pointer === "mouse" && !event.ctrlKey) return;
+      this.down = null;
+      const box = this.canvas.getBoundingClientRect();
+      menu(event.clientX || box.left + 0.5 * box.width, event.clientY || box.top + 0.5 * box.height);
+    });
+  }
+
+  /** What is seen at a place of the window. */
+  private at(x: number, y: number): Pick | null {
+    const box = this.canvas.getBoundingClientRect();
+    return this.viewport?.pick(x - box.left, y - box.top) ?? null;
+  }
+
+  /** What is under the mouse. */
+  get pointed(): Pick | null {
+    return this.pointer === null ? null : this.at(this.pointer.x, this.pointer.y);
   }
 
   /** The state of this picture: that of the view, with the second run's own camera where it has one. */
@@ -107,15 +148,48 @@ export class Pane {
       this.rangeKey = String(range);
       viewport.setRange(range);
     }
-    const marks = this.app.view.probes
-      .map((probe, i) => ({ probe, node: probe.node, colour: PROBE_COLOURS[i % PROBE_COLOURS.length]!, label: String(probe.node) }))
-      .filter(({ probe }) => probe.run === this.session.index);
-    const marked = JSON.stringify(marks);
-    if (marked !== this.markKey && this.topology) {
-      this.markKey = marked;
-      viewport.mark(marks.map(({ node, colour, label }) => ({ node, colour, label })));
+    if (this.topology) {
+      const [marks, rulers] = [this.marks(), this.rulers()];
+      const marked = JSON.stringify([marks, rulers]);
+      if (marked !== this.markKey) {
+        this.markKey = marked;
+        viewport.mark(marks, rulers);
+      }
     }
     if (viewport.lost && this.trouble.hidden) this.fail();
+  }
+
+  /** Where a node, or the middle of an element, is drawn; nothing for nodes of the skin, which the viewport knows. */
+  private place(of: "node" | "cell", number: number): Vector | undefined {
+    if (of === "node" && this.viewport?.hasNode(number)) return undefined;
+    const found = this.tracks.at(this.session, of, number);
+    const { scale } = this.app.view.picture;
+    return found === null ? undefined : (found.initial.map((x, k) => x + scale * (found.now[k]! - x)) as Vector);
+  }
+  private mark(of: "node" | "cell", number: number, colour: string, label: string): Mark {
+    const at = this.place(of, number);
+    return { node: of === "node" ? number : -1, colour, label, ...(at === undefined ? {} : { at }) };
+  }
+
+  private marks(): Mark[] {
+    const { view, started } = this.app;
+    const marks = view.probes.flatMap((probe, i) => {
+      if (probe.run !== this.session.index) return [];
+      const number = probe.of === "node" ? probe.node : probe.cell;
+      return [this.mark(probe.of, number, PROBE_COLOURS[i % PROBE_COLOURS.length]!, probe.of === "node" ? String(number) : `element ${number}`)];
+    });
+    if (started?.run === this.session.index) marks.push(this.mark("node", started.node, LINES[view.measures.length % LINES.length]!, String(started.node)));
+    return marks;
+  }
+
+  private rulers(): Ruler[] {
+    return this.app.view.measures.flatMap((measure, i) => {
+      if (measure.run !== this.session.index) return [];
+      const colour = LINES[i % LINES.length]!;
+      const found = measured(this.tracks, this.session, measure);
+      const ends = [measure.a, measure.b].map((node) => this.mark("node", node, colour, "")) as [Mark, Mark];
+      return [{ ends, colour, label: found === null ? "" : quantity(Math.hypot(...found.now), "m") }];
+    });
   }
 
   show(frame: Frame): void {

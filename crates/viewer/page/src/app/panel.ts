@@ -8,7 +8,8 @@ import { probesPanel } from "./panel_probes";
 import { aboutPanel, messagesOf, messagesPanel, partsPanel } from "./panel_rest";
 import { viewPanel } from "./panel_view";
 import type { Plot } from "./plot";
-import type { Probes } from "./probes";
+import type { Picks } from "./picks";
+import type { Stage } from "./stage";
 import { TABS, type Tab } from "./view";
 
 const WORDS: Record<Tab, string> = { view: "View", energy: "Energy", contacts: "Contacts", probes: "Probes", parts: "Parts", messages: "Messages", about: "About" };
@@ -21,14 +22,14 @@ export class SidePanel {
   private open: Tab | null = null;
   private waiting = false;
 
-  constructor(private readonly app: App, probes: Probes) {
-    const view = viewPanel(app);
+  constructor(private readonly app: App, picks: Picks, stage: Stage) {
+    const view = viewPanel(app, stage);
     this.panels = {
       view: { element: view, update: () => {} },
       energy: energyPanel(app),
       contacts: contactsPanel(app),
-      probes: probesPanel(app, probes),
-      parts: partsPanel(app),
+      probes: probesPanel(app, picks),
+      parts: partsPanel(app, picks),
       messages: messagesPanel(app),
       about: aboutPanel(app),
     };

@@ -1,80 +1,178 @@
-// Tab "Probes": nodes that the user chose, with the shown quantity now and over time, and the probes of the
-// model.
+// Tab "Probes": nodes and elements that the user chose, with values now and over time in one or several
+// plots; distances; the probes of the model.
 
+import type { Scalar } from "../types";
 import type { App } from "./app";
 import { LINES, PROBE_COLOURS } from "./colours";
 import { choice, fill, h, iconButton, row, setText } from "./dom";
 import { quantity } from "./format";
 import { icons } from "./icons";
+import { measurePanel } from "./panel_measure";
+import type { Picks } from "./picks";
 import { Plot } from "./plot";
-import type { Probes } from "./probes";
+import { isMean, type Probes, words } from "./probes";
 import { column, largest, linesOf, type Wanted } from "./tables";
+import type { ProbePlace } from "./view";
 
 const MODEL_PROBE = /^(?!energy\.|contact\.|obstacle\.|rigid\.)(.+)\.(v?[xyz])$/;
 const WORDS: Record<string, string> = { x: "position x", y: "position y", z: "position z", vx: "velocity x", vy: "velocity y", vz: "velocity z" };
+const MOST_PLOTS = 8;
 
-export function probesPanel(app: App, probes: Probes): { element: HTMLElement; update: () => void; plots: Plot[] } {
-  const plot = new Plot(app, "Values", "No values yet.", app.isComparison);
-  const model = new Plot(app, "Probes of the model");
-  const list = h("ul", { class: "probe-list" });
-  const number = h("input", { type: "number", min: 0, step: 1, class: "short", id: "probe-node", placeholder: "number" });
+interface Part {
+  element: HTMLElement;
+  update: () => void;
+  plots: Plot[];
+}
+
+export function probesPanel(app: App, picks: Picks): Part {
+  const { probes } = picks;
+  const parts = [probeForm(app, probes), probeList(app, probes), probePlots(app, probes), measurePanel(app, picks), modelProbes(app)];
+  return {
+    element: h("div", {}, ...parts.map((part) => part.element)),
+    update: () => parts.forEach((part) => part.update()),
+    get plots() {
+      return parts.flatMap((part) => part.plots);
+    },
+  };
+}
+
+/** A node or an element by its number, and which of them a click takes. */
+function probeForm(app: App, probes: Probes): Part {
+  let of: ProbePlace["of"] = "node";
+  const kind = choice([["node", "Node"], ["cell", "Element"]], of, (value) => {
+    of = value as ProbePlace["of"];
+    app.use(of);
+  });
+  kind.setAttribute("aria-label", "Probe of a node or an element");
+  const label = h("label", { for: "probe-node", class: "hidden-text" }, "Node");
+  const number = h("input", { type: "number", min: 0, step: 1, class: "number-box", id: "probe-node", placeholder: "number" });
   const said = h("p", { class: "fault-text", role: "status" });
   const which = app.isComparison ? choice(app.sessions.map((_, i) => [String(i), i === 0 ? "A" : "B"]), "0", () => {}) : null;
   which?.setAttribute("aria-label", "Run");
   const form = h("form", { class: "inline", onsubmit: (event: SubmitEvent) => {
     event.preventDefault();
     const session = app.sessions[Number(which?.value ?? 0)]!;
-    const node = Number(number.value);
-    const fault = number.value === "" || !Number.isInteger(node) || node < 0 ? "Type the number of a node." : probes.addNumber(session, node);
+    const typed = Number(number.value);
+    const fault = number.value === "" || !Number.isInteger(typed) || typed < 0 ? `Type the number of ${of === "node" ? "a node" : "an element"}.` : probes.addNumber(session, of, typed);
     setText(said, fault);
     if (fault === "") number.value = "";
-  } }, h("label", { for: "probe-node" }, "Node"), number, which, h("button", { type: "submit", class: "small" }, "Add"));
-  const hint = h("p", { class: "quiet" }, "Click a node in the picture, or type its number.");
-  const modelHead = h("div");
-  let kind = "";
-  let known = "";
+  } }, kind, label, number, which, h("button", { type: "submit", class: "small" }, "Add"));
+  const hint = h("p", { class: "quiet" });
+  const update = () => {
+    if (app.tool !== "measure") of = app.tool;
+    kind.value = of;
+    setText(label, of === "node" ? "Node" : "Element");
+    setText(hint, `Click ${of === "node" ? "a node" : "an element"} in the picture, or type its number.`);
+    hint.hidden = app.view.probes.length >= 3 || app.tool === "measure";
+  };
+  return { element: h("div", {}, form, said, hint), update, plots: [] };
+}
+
+function placed(app: App): { place: ProbePlace; session: App["sessions"][number]; colour: string }[] {
+  return app.view.probes.map((place, i) => ({ place, session: app.sessions.find((s) => s.index === place.run) ?? app.sessions[0]!, colour: PROBE_COLOURS[i % PROBE_COLOURS.length]! }));
+}
+
+/** The probes with their values now. */
+function probeList(app: App, probes: Probes): Part {
+  const list = h("ul", { class: "probe-list" });
   let listed = "";
   let values: HTMLElement[] = [];
-
   const update = () => {
-    const { view } = app;
-    const scalar = app.sessions[0]!.scalar(view.scalar);
-    const places = view.probes.map((place) => ({ place, session: app.sessions.find((s) => s.index === place.run) ?? app.sessions[0]! }));
-    const key = JSON.stringify(view.probes);
+    const scalar = app.sessions[0]!.scalar(app.view.scalar);
+    const places = placed(app);
+    const key = JSON.stringify(app.view.probes);
     if (key !== listed) {
       listed = key;
       values = places.map(() => h("span", { class: "value" }));
-      fill(list, ...places.map(({ place, session }, i) => {
+      fill(list, ...places.map(({ place, colour }, i) => {
         const dot = h("span", { class: "dot" });
-        dot.style.setProperty("--colour", PROBE_COLOURS[i % PROBE_COLOURS.length]!);
-        const name = `node ${place.node}${app.isComparison ? (session === app.sessions[0] ? " · A" : " · B") : ""}`;
-        return h("li", {}, dot, h("span", { class: "name" }, name), values[i]!, iconButton(icons.close, `Remove probe at node ${place.node}`, () => probes.remove(place)));
+        dot.style.setProperty("--colour", colour);
+        const name = `${words(place.of)} ${place.of === "node" ? place.node : place.cell}${app.isComparison ? (place.run === app.sessions[0]!.index ? " · A" : " · B") : ""}`;
+        return h("li", {}, dot, h("span", { class: "name" }, name), values[i]!, iconButton(icons.close, `Remove probe at ${probes.name(place)}`, () => probes.remove(place)));
       }));
     }
     places.forEach(({ place, session }, i) => {
-      const cell = scalar?.location === "cell" ? ` (element ${place.cell})` : "";
-      setText(values[i]!, scalar ? quantity(probes.now(session, place), scalar.unit) + cell : "");
+      const ofCell = scalar?.location === "cell" && place.of === "node" ? (isMean(app, session, place) ? " (mean of its elements)" : ` (element ${place.cell})`) : "";
+      const ofNodes = scalar?.location === "node" && place.of === "cell" ? " (mean of its nodes)" : "";
+      setText(values[i]!, scalar ? quantity(probes.now(session, place), scalar.unit) + ofCell + ofNodes : "");
     });
-    hint.hidden = places.length >= 3;
-    plot.element.hidden = places.length === 0 || !scalar;
-    if (scalar && places.length > 0) {
-      const wanted = places.map(({ place, session }, i): Wanted => ({
-        label: `node ${place.node}${app.isComparison ? (session === app.sessions[0] ? " (A)" : " (B)") : ""}`, unit: scalar.unit, colour: PROBE_COLOURS[i % PROBE_COLOURS.length]!,
-        of: () => probes.over(session, place),
-      }));
-      const { times, lines } = linesOf(app, wanted, [app.sessions[0]!]);
-      places.forEach(({ session }, i) => {
-        const line = lines.find((l) => l.label === wanted[i]!.label);
-        if (line) line.dashed = session !== app.sessions[0];
-      });
-      plot.set(scalar.label, times, lines);
+  };
+  return { element: list, update, plots: [] };
+}
+
+/** A plot of the quantity that is shown, and one of each further quantity that was added. */
+function probePlots(app: App, probes: Probes): Part {
+  const shown = new Plot(app, "Values", "No values yet.", app.isComparison);
+  const added = new Map<string, { plot: Plot; element: HTMLElement }>();
+  const holder = h("div");
+  const more = h("select", { onchange: () => {
+    if (more.value !== "") app.change({ plots: [...app.view.plots, more.value] });
+    more.value = "";
+  } });
+  const add = row("Another plot", more);
+  let offered = "";
+
+  const fillPlot = (plot: Plot, scalar: Scalar) => {
+    const places = placed(app);
+    const wanted = places.map(({ place, session, colour }): Wanted => ({ label: probes.name(place), unit: scalar.unit, colour, of: () => probes.over(session, place, scalar) }));
+    const { times, lines } = linesOf(app, wanted, [app.sessions[0]!]);
+    for (const { place, session } of places) {
+      const line = lines.find((one) => one.label === probes.name(place));
+      if (line) line.dashed = session !== app.sessions[0];
     }
-    updateModel();
+    plot.set(scalar.label, times, lines);
+  };
+  const make = (key: string, label: string) => {
+    const plot = new Plot(app, label, "No values yet.", app.isComparison, () => app.change({ plots: app.view.plots.filter((other) => other !== key) }));
+    return { plot, element: plot.element };
   };
 
+  const update = () => {
+    const { view } = app;
+    const session = app.sessions[0]!;
+    const scalar = session.scalar(view.scalar);
+    const has = view.probes.length > 0;
+    const choices = session.run.scalars.filter(({ key }) => key !== view.scalar && !view.plots.includes(key));
+    const key = choices.map((one) => one.key).join(" ");
+    if (key !== offered) {
+      offered = key;
+      fill(more, h("option", { value: "" }, "choose a quantity"), ...choices.map((one) => h("option", { value: one.key }, one.label)));
+    }
+    add.hidden = !has || choices.length === 0 || view.plots.length >= MOST_PLOTS;
+    shown.element.hidden = !has || !scalar;
+    if (has && scalar) fillPlot(shown, scalar);
+    for (const [known, { element }] of added) {
+      if (has && view.plots.includes(known)) continue;
+      element.remove();
+      added.delete(known);
+    }
+    for (const wanted of has ? view.plots : []) {
+      const own = session.scalar(wanted);
+      if (!own) continue;
+      if (!added.has(wanted)) {
+        added.set(wanted, make(wanted, own.label));
+        holder.append(added.get(wanted)!.element);
+      }
+      fillPlot(added.get(wanted)!.plot, own);
+    }
+  };
+  return {
+    element: h("div", {}, shown.element, holder, add), update,
+    get plots() {
+      return [shown, ...[...added.values()].map(({ plot }) => plot)];
+    },
+  };
+}
+
+/** The probes of the model, from the history. */
+function modelProbes(app: App): Part {
+  const model = new Plot(app, "Probes of the model");
+  const modelHead = h("div");
+  let kind = "";
+  let known = "";
   let stale = true;
   app.events.on("history", () => (stale = true));
-  const updateModel = () => {
+  const update = () => {
     if (!stale) return;
     stale = false;
     const found = app.sessions.flatMap((s) => s.names()).map((name) => MODEL_PROBE.exec(name)).filter((m) => m !== null);
@@ -87,7 +185,7 @@ export function probesPanel(app: App, probes: Probes): { element: HTMLElement; u
       const select = choice(kinds.map((k) => [k, WORDS[k] ?? k]), kind, (value) => {
         kind = value;
         stale = true;
-        updateModel();
+        update();
       });
       fill(modelHead, ...(names.length > 0 ? [h("h3", {}, "Probes of the model"), row("Shown", select)] : []));
     }
@@ -97,8 +195,7 @@ export function probesPanel(app: App, probes: Probes): { element: HTMLElement; u
     const { times, lines } = linesOf(app, names.map((name, i) => ({ label: name, unit, colour: LINES[i % LINES.length]!, of: column(`${name}.${kind}`) })));
     model.set(WORDS[kind] ?? kind, times, lines);
   };
-
-  return { element: h("div", {}, form, said, hint, list, plot.element, modelHead, model.element), update, plots: [plot, model] };
+  return { element: h("div", {}, modelHead, model.element), update, plots: [model] };
 }
 
 /** The velocity with the largest values, to begin with. */

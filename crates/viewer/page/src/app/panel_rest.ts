@@ -3,6 +3,7 @@
 import type { App } from "./app";
 import { fill, h, prose, setText } from "./dom";
 import { bytes, digits, duration, quantity, whole } from "./format";
+import type { Picks } from "./picks";
 import type { Warning } from "../types";
 
 export interface Panel {
@@ -11,12 +12,14 @@ export interface Panel {
 }
 
 /** A table of the parts: shown or hidden, elements, energies at the present time. */
-export function partsPanel(app: App): Panel {
-  const element = h("div");
+export function partsPanel(app: App, picks: Picks): Panel {
+  const all = h("button", { type: "button", class: "small", onclick: () => picks.showAll() }, "Show all");
+  const tables = h("div");
+  const element = h("div", {}, h("div", { class: "inline" }, all), tables);
   const cells: (() => void)[] = [];
   const build = () => {
     cells.length = 0;
-    fill(element, ...app.sessions.map((session, place) => {
+    fill(tables, ...app.sessions.map((session, place) => {
       const mark = app.isComparison ? `${place === 0 ? "A" : "B"} · ${session.run.name}` : "";
       const rows = session.run.parts.map((part) => {
         const box = h("input", { type: "checkbox", "aria-label": `Show part ${part.name}`, onchange: () => {
@@ -31,7 +34,8 @@ export function partsPanel(app: App): Panel {
             setText(cell, quantity(session.at(column, app.view.time), session.unit(column) || session.run.energy_unit, 3));
           }
         });
-        return h("tr", {}, h("td", {}, box), h("th", { scope: "row" }, part.name, part.is_rigid && h("small", {}, " rigid")), h("td", { class: "number" }, whole(part.elements)), kinetic, internal);
+        const only = h("button", { type: "button", class: "small", "aria-label": `Show only ${part.name}`, title: `Show only ${part.name}`, onclick: () => picks.isolate(part.name) }, "Only");
+        return h("tr", {}, h("td", {}, h("div", { class: "inline" }, box, only)), h("th", { scope: "row" }, part.name, part.is_rigid && h("small", {}, " rigid")), h("td", { class: "number" }, whole(part.elements)), kinetic, internal);
       });
       return h("div", { class: "scroll" }, h("table", {}, h("caption", {}, mark || "Energies at the present time"),
         h("thead", {}, h("tr", {}, ...["Shown", "Part", "Elements", "Kinetic", "Internal"].map((text, i) => h("th", { scope: "col", class: i > 1 ? "number" : "" }, text)))), h("tbody", {}, ...rows)));
@@ -39,7 +43,11 @@ export function partsPanel(app: App): Panel {
   };
   build();
   app.events.on("run", build);
-  return { element, update: () => cells.forEach((cell) => cell()) };
+  const update = () => {
+    all.disabled = app.view.picture.hidden.length === 0;
+    cells.forEach((cell) => cell());
+  };
+  return { element, update };
 }
 
 /** All warnings and notices of the runs, of a live one those that came so far. */

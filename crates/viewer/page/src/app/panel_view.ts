@@ -3,8 +3,13 @@
 import type { App } from "./app";
 import { colourRange } from "./colours";
 import { check, choice, fill, h, row, setText } from "./dom";
+import { bind, bindCheck, group, numberInput } from "./form";
 import { scaled, unitText } from "./format";
+import { glyphGroup } from "./panel_glyphs";
+import { sectionGroup } from "./panel_section";
+import type { Stage } from "./stage";
 import { MAPS, type RangeMode } from "./view";
+import { isAveraged } from "./wish";
 import type { MapName } from "../viewport/viewport";
 import type { Scalar } from "../types";
 
@@ -31,27 +36,7 @@ export function fieldChoice(app: App): HTMLSelectElement {
   return select;
 }
 
-function numberInput(value: number, change: (value: number) => void, attributes: Record<string, string | number>): HTMLInputElement {
-  const input = h("input", { type: "number", value, ...attributes, onchange: () => {
-    const typed = Number(input.value);
-    if (input.value !== "" && Number.isFinite(typed)) change(typed);
-  } });
-  return input;
-}
-function bind(app: App, input: HTMLInputElement | HTMLSelectElement, value: () => string): void {
-  app.events.on(["view", "shown", "range"], () => {
-    if (document.activeElement !== input && input.value !== value()) input.value = value();
-  });
-}
-function bindCheck(app: App, label: HTMLLabelElement, on: () => boolean): HTMLLabelElement {
-  const box = label.querySelector("input")!;
-  app.events.on("view", () => {
-    if (box.checked !== on()) box.checked = on();
-  });
-  return label;
-}
-
-export function viewPanel(app: App): HTMLElement {
+export function viewPanel(app: App, stage: Stage): HTMLElement {
   const { run } = app;
   const field = fieldChoice(app);
   const doc = h("p", { class: "quiet" });
@@ -86,8 +71,8 @@ export function viewPanel(app: App): HTMLElement {
   const scale = numberInput(picture().scale, (value) => app.picture({ scale: Math.max(0, value) }), { min: 0, step: "any", class: "short" });
   bind(app, scale, () => String(picture().scale));
   const scales = h("div", { class: "inline" }, scale, ...[0, 1, 10].map((value) => h("button", { type: "button", class: "small", onclick: () => app.picture({ scale: value }), "aria-label": `Deformation ${value} times` }, `${value}×`)));
-  const arrow = h("input", { type: "range", min: -1, max: 1, step: 0.05, value: Math.log10(picture().arrow_scale), oninput: () => app.picture({ arrow_scale: Number((10 ** Number(arrow.value)).toPrecision(3)) }) });
-  bind(app, arrow, () => String(Math.log10(picture().arrow_scale)));
+  const averaged = bindCheck(app, check("Averaged at nodes", picture().averaged, (on) => app.picture({ averaged: on }), "Mean of the elements of a part around each node; otherwise each element has its own value"), () => picture().averaged);
+  const iso = bindCheck(app, check("Lines of equal value", picture().iso, (on) => app.picture({ iso: on })), () => picture().iso);
 
   const mirrors = ["x", "y", "z"].slice(0, run.dimension).map((axis, i) => bindCheck(app, check(axis, picture().mirror[i]!, (on) => {
     const mirror = [...picture().mirror] as [boolean, boolean, boolean];
@@ -97,10 +82,13 @@ export function viewPanel(app: App): HTMLElement {
 
   const update = () => {
     const scalar = app.sessions[0]!.scalar(app.view.scalar);
-    setText(doc, scalar ? `${scalar.doc.replace(/^./, (c) => c.toUpperCase())}${scalar.location === "cell" ? " · on elements" : " · on nodes"}` : "Bodies in the colours of their parts");
+    setText(doc, scalar ? `${scalar.doc.replace(/^./, (c) => c.toUpperCase())}${scalar.location === "node" ? " · on nodes" : isAveraged(app.view, run) ? " · on elements, averaged at the nodes of each part" : " · on elements"}` : "Bodies in the colours of their parts");
     const states = scalar === null || scalar.states.length > 0;
     for (const input of [mode, low, high, bands]) input.disabled = states;
     ends.hidden = states;
+    averaged.hidden = scalar?.location !== "cell" || states;
+    averaged.querySelector("input")!.disabled = picture().iso;
+    iso.hidden = states;
     shown = by();
     setText(unit, shown.unit);
     const range = colourRange(app, app.sessions[0]!) ?? [0, 1];
@@ -111,17 +99,16 @@ export function viewPanel(app: App): HTMLElement {
   };
   app.events.on(["view", "shown", "range"], update);
 
-  const group = (name: string, ...rows: (HTMLElement | false)[]) => h("fieldset", {}, h("legend", {}, name), ...rows);
   const element = h("div", {},
-    group("Quantity", row("Shown", field), doc, row("Range", mode), ends, fault, row("Colours", map), row("Steps", bands),
+    group("Quantity", row("Shown", field), doc, row("Range", mode), ends, fault, row("Colours", map), row("Steps", bands), averaged, iso,
       app.isComparison && bindCheck(app, check("One range for both runs", app.view.common, (on) => app.change({ common: on })), () => app.view.common)),
     group("Bodies", row("Deformation", scales, "shown = initial + factor · displacement"),
       bindCheck(app, check("Mesh lines", picture().lines, (on) => app.picture({ lines: on })), () => picture().lines),
+      bindCheck(app, check("Undeformed shape", picture().undeformed, (on) => app.picture({ undeformed: on }), "The bodies as they were at the beginning, as an outline"), () => picture().undeformed),
       bindCheck(app, check("Obstacles", picture().obstacles, (on) => app.picture({ obstacles: on })), () => picture().obstacles),
       h("div", { class: "row" }, h("span", { class: "label" }, "Mirror across"), h("div", { class: "inline", role: "group", "aria-label": "Mirror across" }, ...mirrors)),
       app.isComparison && bindCheck(app, check("One camera for both runs", app.view.linked, (on) => app.change({ linked: on })), () => app.view.linked)),
-    run.has_arrows && group("Contact forces",
-      bindCheck(app, check("Arrows", picture().arrows, (on) => app.picture({ arrows: on })), () => picture().arrows), row("Length", arrow)));
+    run.dimension === 3 && sectionGroup(app, stage), glyphGroup(app));
   fill(doc);
   update();
   return element;

@@ -3,6 +3,7 @@
 
 import type { Frame } from "../types";
 import type { App } from "./app";
+import { rangeKind } from "./colours";
 import { Gone } from "./requests";
 import type { Session } from "./session";
 
@@ -46,7 +47,7 @@ export class Player {
   /** Brings the screen up to the view: shows what is there, asks for what is not, reads ahead. */
   update(): void {
     const { view, live } = this.app;
-    live?.want(view.scalar, view.picture.arrows);
+    if (live) live.want(this.app.wish(live.session));
     if (view.follow && !view.playing) {
       const newest = this.times().at(-1);
       const shown = live && !live.ended ? null : newest;
@@ -62,6 +63,7 @@ export class Player {
       if (frames.length === 0) continue;
       const at = session.nearest(this.app.view.time);
       wanted.push([session, at, 0]);
+      if (this.app.isDragging) continue;
       const room = Math.min(view.playing ? AHEAD : 2, session.store.room(session.shown));
       for (let i = 1; i <= room; i++) if (at + i < frames.length) wanted.push([session, at + i, 2]);
       if (!view.playing && at > 0) wanted.push([session, at - 1, 2]);
@@ -76,20 +78,21 @@ export class Player {
   }
 
   private key(session: Session, at: number): string {
-    return session.key(session.run.frames[at]!.number, this.app.view.scalar, this.app.view.picture.arrows);
+    return session.key(session.run.frames[at]!.number, this.app.wish(session));
   }
 
   /** Shows the frame if it is there. */
   private show(session: Session, at: number): boolean {
     const frame = session.store.find(this.key(session, at));
     if (!frame || !session.topologies.has(frame.topology)) return false;
-    if (session.shown !== frame) this.put(session, frame);
+    if (session.shown !== frame) this.put(session, frame, this.key(session, at));
     return true;
   }
 
-  private put(session: Session, frame: Frame): void {
+  private put(session: Session, frame: Frame, key: string): void {
     session.shown = frame;
-    if (frame.range && frame.scalar !== null) session.widen(frame.scalar, frame.range);
+    session.shownKey = key;
+    if (frame.range && frame.scalar !== null) session.widen(frame.scalar + rangeKind(this.app, session), frame.range);
     this.onShow(session, frame);
     this.app.events.emit("shown");
   }
@@ -102,7 +105,7 @@ export class Player {
     this.loading.add(key);
     const number = session.run.frames[at]!.number;
     session
-      .load(number, this.app.view.scalar, this.app.view.picture.arrows, urgency)
+      .load(number, this.app.wish(session), urgency)
       .then(() => { this.loading.delete(key); return true; }, (fault) => {
         this.loading.delete(key);
         if (!(fault instanceof Gone)) this.app.say(`Frame ${number} can't be shown. ${(fault as Error).message}`, true);
@@ -121,7 +124,7 @@ export class Player {
     const frame = session.live;
     if (!frame || !this.app.view.follow || this.app.live!.ended) return;
     this.app.view = { ...this.app.view, time: frame.time };
-    this.put(session, frame);
+    this.put(session, frame, "live");
     if (document.visibilityState === "visible") await new Promise((done) => requestAnimationFrame(done));
   }
 

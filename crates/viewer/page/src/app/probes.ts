@@ -1,71 +1,68 @@
-// Probes: nodes whose value of the shown quantity is plotted. Set by a click in the picture or by number;
-// their values over time come from the server, once for each quantity, and again while a run grows.
+// Probes: nodes and elements whose values are plotted. Set by a click in the picture or by number; their
+// values over time come from the server, once for each quantity, and again while a run grows.
 
-import type { Probe, Topology } from "../types";
-import type { Pick } from "../viewport/viewport";
+import type { Probe, Scalar, Topology } from "../types";
 import type { App } from "./app";
 import { PROBE_COLOURS } from "./colours";
 import type { Session } from "./session";
+import { skinNode, type Tracks } from "./tracks";
 import type { ProbePlace } from "./view";
 
 export class Probes {
   private known = new Map<string, { frames: number; probe: Probe | null; fault: string }>();
   private asked = new Set<string>();
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: App, readonly tracks: Tracks) {}
 
-  add(session: Session, node: number, cell: number): void {
+  add(place: ProbePlace): void {
     const { probes } = this.app.view;
-    const there = probes.findIndex((p) => p.run === session.index && p.node === node);
-    const rest = probes.filter((_, i) => i !== there);
-    if (there < 0 && rest.length >= PROBE_COLOURS.length) {
+    const there = probes.findIndex((p) => isSame(p, place));
+    if (there < 0 && probes.length >= PROBE_COLOURS.length) {
       this.app.say(`There are ${PROBE_COLOURS.length} probes already: remove one first.`);
       return;
     }
-    if (there >= 0) this.app.change({ probes: probes.map((p, i) => (i === there ? { ...p, cell } : p)), tab: "probes", panel: true });
-    else this.app.change({ probes: [...probes, { run: session.index, node, cell }], tab: "probes", panel: true });
-  }
-  pick(session: Session, pick: Pick): void {
-    this.add(session, pick.node, pick.cell);
+    const all = there >= 0 ? probes.map((p, i) => (i === there ? place : p)) : [...probes, place];
+    this.app.change({ probes: all, tab: "probes", panel: true });
   }
   remove(place: ProbePlace): void {
     this.app.change({ probes: this.app.view.probes.filter((p) => p !== place) });
   }
 
-  /** Adds a node by its number; says why not. */
-  addNumber(session: Session, node: number): string {
+  /** Adds a node or an element by its number; says why not. */
+  addNumber(session: Session, of: ProbePlace["of"], number: number): string {
     const topology = session.shown ? session.topologies.get(session.shown.topology) : undefined;
     if (!topology) return "There is no frame yet.";
-    const skin = topology.nodeNumbers.indexOf(node);
-    if (skin < 0) return session.run.dimension === 3 ? `Node ${node} is not on the skin of the bodies.` : `There is no node ${node}.`;
-    this.add(session, node, cellAt(topology, skin));
+    const count = of === "node" ? session.run.nodes : session.run.elements;
+    if (number >= count) return `There is no ${words(of)} ${number}: the numbers are 0 to ${count - 1}.`;
+    this.add(of === "node" ? { run: session.index, of, node: number, cell: cellAt(topology, number) } : { run: session.index, of, node: 0, cell: number });
     return "";
   }
 
-  /** The value now, from the frame on the screen. */
+  name(place: ProbePlace): string {
+    const run = this.app.isComparison ? (place.run === this.app.sessions[0]!.index ? " (A)" : " (B)") : "";
+    return `${words(place.of)} ${place.of === "node" ? place.node : place.cell}${run}`;
+  }
+
+  /** The value now, from the frame on the screen where that shows it, else from the values over time. */
   now(session: Session, place: ProbePlace): number | null {
-    const frame = session.shown;
     const scalar = session.scalar(this.app.view.scalar);
+    const frame = session.shown;
     const topology = frame ? session.topologies.get(frame.topology) : undefined;
-    if (!frame || !scalar || !topology || frame.scalar !== scalar.key) return null;
-    let at: number;
-    if (scalar.location === "node") at = topology.nodeNumbers.indexOf(place.node);
-    else {
-      at = topology.facetCells.indexOf(place.cell);
-      if (at < 0 && topology.barCells.length > 0) {
-        const bar = topology.barCells.indexOf(place.cell);
-        at = bar < 0 ? -1 : topology.facetCells.length + bar;
-      }
+    if (!frame || !scalar || !topology) return null;
+    if (frame.scalar === scalar.key) {
+      const at = frame.location === "node" && place.of === "node" ? skinNode(topology.nodeNumbers, place.node) : frame.location === "cell" && !isMean(this.app, session, place) ? shownCell(topology, place.cell) : -1;
+      const value = at < 0 ? undefined : frame.values[at];
+      if (value !== undefined) return Number.isNaN(value) ? null : value;
     }
-    const value = at < 0 ? undefined : frame.values[at];
-    return value === undefined || Number.isNaN(value) ? null : value;
+    const probe = this.over(session, place, scalar);
+    const row = probe?.times.reduce((best, t, i) => (Math.abs(t - frame.time) < Math.abs(probe.times[best]! - frame.time) ? i : best), 0);
+    return row === undefined ? null : probe!.values[row] ?? null;
   }
 
   /** Values over time; null until they are there. Asks for them. */
-  over(session: Session, place: ProbePlace): Probe | null {
-    const scalar = session.scalar(this.app.view.scalar);
+  over(session: Session, place: ProbePlace, scalar: Scalar | null): Probe | null {
     if (!scalar) return null;
-    const query = scalar.location === "node" ? `node=${place.node}` : `cell=${place.cell}`;
+    const query = place.of === "node" && (scalar.location === "node" || isMean(this.app, session, place)) ? `node=${place.node}` : `cell=${place.cell}`;
     const path = `api/runs/${session.index}/probe?scalar=${encodeURIComponent(scalar.key)}&${query}`;
     const known = this.known.get(path);
     const frames = session.run.frames.length;
@@ -85,10 +82,30 @@ export class Probes {
   }
 }
 
-/** A cell at a skin node: that of its first facet or bar. */
-function cellAt(topology: Topology, skin: number): number {
-  const at = topology.facets.indexOf(skin);
-  if (at >= 0) return topology.facetCells[at >> 2] ?? 0;
-  const bar = topology.bars.indexOf(skin);
-  return bar >= 0 ? topology.barCells[bar >> 1] ?? 0 : 0;
+export const words = (of: ProbePlace["of"]): string => (of === "node" ? "node" : "element");
+
+function isSame(a: ProbePlace, b: ProbePlace): boolean {
+  return a.run === b.run && a.of === b.of && (a.of === "node" ? a.node === b.node : a.cell === b.cell);
+}
+
+/** The row of a cell among facets and then bars; -1 if it is not seen. */
+function shownCell(topology: Topology, cell: number): number {
+  const at = topology.facetCells.indexOf(cell);
+  if (at >= 0 || topology.barCells.length === 0) return at;
+  const bar = topology.barCells.indexOf(cell);
+  return bar < 0 ? -1 : topology.facetCells.length + bar;
+}
+
+/** Whether a probe at a node shows the mean of the elements around it for a quantity of elements. */
+export function isMean(app: App, session: Session, place: ProbePlace): boolean {
+  return place.of === "node" && (place.cell < 0 || app.wish(session).averaged);
+}
+
+/** A cell at a node: that of its first facet or bar; −1 for a node inside. */
+function cellAt(topology: Topology, node: number): number {
+  const skin = skinNode(topology.nodeNumbers, node);
+  const at = skin < 0 ? -1 : topology.facets.indexOf(skin);
+  if (at >= 0) return topology.facetCells[at >> 2] ?? -1;
+  const bar = skin < 0 ? -1 : topology.bars.indexOf(skin);
+  return bar >= 0 ? topology.barCells[bar >> 1] ?? -1 : -1;
 }

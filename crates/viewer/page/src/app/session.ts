@@ -4,6 +4,7 @@
 import { decodeFrame, decodeTopology } from "../wire";
 import type { Frame, History, Range, Run, Scalar, Topology } from "../types";
 import { Gone, Refusal, type Requests } from "./requests";
+import { queryOf, type Wish } from "./wish";
 import type { Events } from "./events";
 
 const STORE_BYTES = 256 * 1024 * 1024;
@@ -53,8 +54,9 @@ export class FrameStore {
 export class Session {
   topologies = new Map<number, Topology>();
   private asked = new Map<number, Promise<Topology>>();
-  /** On the screen. */
+  /** On the screen, and by which key it was asked for. */
   shown: Frame | null = null;
+  shownKey = "";
   /** The newest of the live connection. */
   live: Frame | null = null;
   history: History | null = null;
@@ -89,19 +91,15 @@ export class Session {
     return low;
   }
 
-  key(number: number, scalar: string | null, arrows: boolean): string {
-    return `${this.index}/${number}/${this.scalar(scalar)?.key ?? ""}/${arrows && this.run.has_arrows ? 1 : 0}`;
+  key(number: number, wish: Wish): string {
+    return `${this.index}/${number}/${queryOf(wish)}`;
   }
 
   /** Asks for a frame and its topology; both are in the stores when the promise is kept. */
-  async load(number: number, scalar: string | null, arrows: boolean, urgency: number): Promise<void> {
-    const key = this.key(number, scalar, arrows);
-    const query = new URLSearchParams();
-    const known = this.scalar(scalar);
-    if (known) query.set("scalar", known.key);
-    if (arrows && this.run.has_arrows) query.set("arrows", "1");
+  async load(number: number, wish: Wish, urgency: number): Promise<void> {
+    const key = this.key(number, wish);
     try {
-      const frame = await this.requests.get(`api/runs/${this.index}/frames/${number}?${query}`, async (answer) => decodeFrame(await answer.arrayBuffer()), urgency, `frame ${key}`);
+      const frame = await this.requests.get(`api/runs/${this.index}/frames/${number}?${queryOf(wish)}`, async (answer) => decodeFrame(await answer.arrayBuffer()), urgency, `frame ${key}`);
       await this.topology(frame.topology);
       this.store.put(key, frame);
     } catch (fault) {
@@ -179,31 +177,32 @@ export class Session {
 
   // --- range ---
 
-  /** Smallest and largest value of a scalar over all frames, as far as known; asks for it where it is not. */
-  range(scalar: string | null): [number, number] | null {
+  /** Smallest and largest value of a scalar over all frames, as far as known; asks for it where it is not. `kind`: what more an address says of it. */
+  range(scalar: string | null, kind = ""): [number, number] | null {
     if (scalar === null || !this.scalar(scalar)) return null;
-    const asked = this.rangeAsked.get(scalar);
+    const key = scalar + kind;
+    const asked = this.rangeAsked.get(key);
     const count = this.run.frames.length;
     const stale = asked === undefined || (count !== asked && (this.run.is_over || count > asked * 1.25 + 10));
     if (stale && count > 0) {
-      this.rangeAsked.set(scalar, count);
+      this.rangeAsked.set(key, count);
       this.requests
-        .json<Range>(`api/runs/${this.index}/range?scalar=${encodeURIComponent(scalar)}`)
+        .json<Range>(`api/runs/${this.index}/range?scalar=${encodeURIComponent(scalar)}${kind}`)
         .then((answer) => {
-          if (answer.range) this.widen(scalar, answer.range);
+          if (answer.range) this.widen(key, answer.range);
           this.events.emit("range");
         })
         .catch((fault) => {
-          if (fault instanceof Gone) this.rangeAsked.delete(scalar);
+          if (fault instanceof Gone) this.rangeAsked.delete(key);
         });
     }
-    return this.ranges.get(scalar) ?? null;
+    return this.ranges.get(key) ?? null;
   }
 
-  widen(scalar: string, range: [number, number]): boolean {
-    const before = this.ranges.get(scalar);
+  widen(key: string, range: [number, number]): boolean {
+    const before = this.ranges.get(key);
     const after: [number, number] = before ? [Math.min(before[0], range[0]), Math.max(before[1], range[1])] : range;
-    this.ranges.set(scalar, after);
+    this.ranges.set(key, after);
     return before?.[0] !== after[0] || before[1] !== after[1];
   }
 }

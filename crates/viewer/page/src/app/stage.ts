@@ -4,18 +4,19 @@ import type { Camera, Direction, Viewport } from "../viewport/viewport";
 import type { App } from "./app";
 import { h } from "./dom";
 import { Pane } from "./pane";
-import type { Probes } from "./probes";
+import type { Picks } from "./picks";
 
 export class Stage {
   readonly element: HTMLElement;
   readonly panes: Pane[];
 
-  constructor(private readonly app: App, probes: Probes) {
-    this.panes = app.sessions.map((session) => new Pane(app, session));
+  constructor(private readonly app: App, private readonly picks: Picks) {
+    this.panes = app.sessions.map((session) => new Pane(app, session, picks.probes.tracks));
     this.element = h("div", { class: app.isComparison ? "panes two" : "panes" }, ...this.panes.map((pane) => pane.element));
     for (const pane of this.panes) {
       pane.onCamera = () => this.moved(pane);
-      pane.onPick = (pick) => probes.pick(pane.session, pick);
+      pane.onPick = (pick) => picks.pick(pane.session, pick);
+      pane.onMenu = (pick, x, y) => picks.menu(pane.session, pick, x, y);
     }
     app.player.onShow = (session, frame) => this.panes.find((pane) => pane.session === session)?.show(frame);
   }
@@ -58,5 +59,17 @@ export class Stage {
   }
   pan(dx: number, dy: number): void {
     this.move((viewport) => viewport.pan(dx, dy));
+  }
+
+  /** Hides the part under the mouse, or all others. */
+  partAtPointer(isolates: boolean): boolean {
+    for (const pane of this.panes) {
+      const pick = pane.pointed;
+      if (pick === null) continue;
+      if (isolates) this.picks.isolate(pane.session.run.parts[pick.part]?.name);
+      else this.picks.hide(pane.session, pick.part);
+      return true;
+    }
+    return false;
   }
 }

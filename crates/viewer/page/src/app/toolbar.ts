@@ -5,6 +5,7 @@ import type { Direction } from "../viewport/viewport";
 import type { App } from "./app";
 import { h, iconButton } from "./dom";
 import { icons } from "./icons";
+import { toggleSection } from "./panel_section";
 import { fieldChoice } from "./panel_view";
 import { copyText } from "./panel_rest";
 import { isDark } from "./theme";
@@ -35,6 +36,8 @@ export function toolbar(app: App, actions: { export: () => void; help: () => voi
 export function pictureTools(app: App, stage: Stage): HTMLElement {
   const mesh = iconButton(icons.mesh, "Mesh lines", () => app.picture({ lines: !app.view.picture.lines }));
   const arrows = iconButton(icons.arrows, "Arrows of contact forces", () => app.picture({ arrows: !app.view.picture.arrows }));
+  const measure = iconButton(icons.measure, "Measure a distance", () => app.use(app.tool === "measure" ? "node" : "measure"));
+  const section = iconButton(icons.section, "Section", () => toggleSection(app, stage));
   const space = app.run.dimension === 3;
   const look = h("select", { "aria-label": "Look from", title: "Look from", class: "look", onchange: () => {
     stage.look(look.value as Direction);
@@ -43,10 +46,12 @@ export function pictureTools(app: App, stage: Stage): HTMLElement {
   const update = () => {
     mesh.setAttribute("aria-pressed", String(app.view.picture.lines));
     arrows.setAttribute("aria-pressed", String(app.view.picture.arrows));
+    section.setAttribute("aria-pressed", String(app.view.picture.section !== null));
+    measure.setAttribute("aria-pressed", String(app.tool === "measure"));
   };
   app.events.on("view", update);
   update();
   return h("div", { class: "tools", role: "group", "aria-label": "Picture" },
     iconButton(icons.fit, "Fit", () => stage.fit()), iconButton(icons.plus, "Zoom in", () => stage.zoom(1.25)), iconButton(icons.minus, "Zoom out", () => stage.zoom(0.8)),
-    mesh, app.run.has_arrows && arrows, space && look);
+    mesh, app.run.has_arrows && arrows, space && section, measure, space && look);
 }

@@ -2,7 +2,8 @@
 // Only what differs from the first view of the runs is in the text. Who changes the view calls `change`.
 
 import type { Run } from "../types";
-import { firstState, type Camera, type MapName, type ViewState } from "../viewport/viewport";
+import { firstState, type Camera, type MapName, type SectionPlane, type ViewState } from "../viewport/viewport";
+import { glyphFields, planeText } from "./wish";
 
 export const TABS = ["view", "energy", "contacts", "probes", "parts", "messages", "about"] as const;
 export type Tab = (typeof TABS)[number];
@@ -10,12 +11,22 @@ export type Theme = "auto" | "light" | "dark";
 /** Colours over the whole run, over the frame shown, or between own numbers (`picture.range`). */
 export type RangeMode = "run" | "frame" | "own";
 
-/** A place whose values are plotted; a node by its number, with a cell at it for quantities of cells. */
+/** A place whose values are plotted: an element, or a node with a cell at it for quantities of cells (−1: none). */
 export interface ProbePlace {
   run: number;
+  of: "node" | "cell";
   node: number;
   cell: number;
 }
+
+/** Two nodes whose distance is measured. */
+export interface Measure {
+  run: number;
+  a: number;
+  b: number;
+}
+
+export const MOST_MEASURES = 4;
 
 export interface View {
   scalar: string | null;
@@ -35,6 +46,9 @@ export interface View {
   common: boolean;
   range_mode: RangeMode;
   probes: ProbePlace[];
+  /** Quantities with plots of their own at the probes. */
+  plots: string[];
+  measures: Measure[];
   tab: Tab;
   panel: boolean;
   theme: Theme;
@@ -58,6 +72,8 @@ export function firstView(runs: Run[]): View {
     common: true,
     range_mode: "run",
     probes: [],
+    plots: [],
+    measures: [],
     tab: runs.some((r) => r.error !== null) ? "messages" : "view",
     panel: true,
     theme: "auto",
@@ -92,12 +108,20 @@ export function viewText(view: View, first: View): string {
   if (now.arrow_scale !== before.arrow_scale) put("arrow_scale", short(now.arrow_scale));
   if (now.mirror.join() !== before.mirror.join()) put("mirror", now.mirror.map(flag).join(""));
   if (now.obstacles !== before.obstacles) put("obstacles", flag(now.obstacles));
+  if (now.glyphs !== before.glyphs) put("glyphs", now.glyphs ?? "");
+  if (now.glyph_count !== before.glyph_count) put("glyph_count", short(now.glyph_count));
+  if (now.undeformed) put("undeformed", "1");
+  if (now.iso) put("iso", "1");
+  if (now.averaged) put("averaged", "1");
+  if (now.section !== null) put("section", planeText(now.section));
   if (now.hidden.length > 0) put("hidden", now.hidden.map(encodeURIComponent).join(","));
   if (now.map !== before.map) put("map", now.map);
   if (now.bands !== before.bands) put("bands", short(now.bands));
   if (view.range_mode === "frame") put("range", "frame");
   if (view.range_mode === "own" && now.range) put("range", now.range.map(short).join(","));
-  if (view.probes.length > 0) put("probes", view.probes.map((p) => `${p.run}:${p.node}:${p.cell}`).join(","));
+  if (view.probes.length > 0) put("probes", view.probes.map(probeText).join(","));
+  if (view.plots.length > 0) put("plots", view.plots.join(","));
+  if (view.measures.length > 0) put("measure", view.measures.map((m) => `${m.run}:${m.a}:${m.b}`).join(","));
   if (view.tab !== first.tab) put("tab", view.tab);
   if (!view.panel) put("panel", "0");
   if (view.theme !== "auto") put("theme", view.theme);
@@ -109,11 +133,36 @@ function numbers(text: string, separator: string, count: number): number[] | nul
   return list.length === count && list.every(Number.isFinite) ? list : null;
 }
 
+/** Whole numbers from zero with colons between them. */
+function counts(text: string, count: number): number[] | null {
+  const list = numbers(text, ":", count);
+  return list?.every((value) => Number.isInteger(value) && value >= 0) && !/(^|:)(:|$)/.test(text) ? list : null;
+}
+
+/** `run:node:cell`, `run:node` for a node inside, `run:eCELL` for an element. */
+function probeText(place: ProbePlace): string {
+  if (place.of === "cell") return `${place.run}:e${place.cell}`;
+  return place.cell < 0 ? `${place.run}:${place.node}` : `${place.run}:${place.node}:${place.cell}`;
+}
+function probesOf(text: string): ProbePlace[] {
+  const cell = counts(text.replace(":e", ":"), 2);
+  if (cell && text.includes(":e")) return [{ run: cell[0]!, of: "cell", node: 0, cell: cell[1]! }];
+  const [three, two] = [counts(text, 3), counts(text, 2)];
+  if (three) return [{ run: three[0]!, of: "node", node: three[1]!, cell: three[2]! }];
+  return two ? [{ run: two[0]!, of: "node", node: two[1]!, cell: -1 }] : [];
+}
+
 function cameraOf(text: string | undefined): Camera | null {
   const n = text === undefined ? null : numbers(text, "_", 10);
   if (n === null) return null;
   const at = (i: number): [number, number, number] => [n[i]!, n[i + 1]!, n[i + 2]!];
   return { position: at(0), target: at(3), up: at(6), height: n[9]! };
+}
+
+function sectionOf(text: string | undefined): SectionPlane | null {
+  const n = text === undefined ? null : numbers(text, ",", 4);
+  const length = n === null ? 0 : Math.hypot(n[0]!, n[1]!, n[2]!);
+  return n !== null && length > 0 ? { normal: [n[0]! / length, n[1]! / length, n[2]! / length], offset: n[3]! } : null;
 }
 
 /** The view of a text; what it does not say, or says wrongly, is as in the first view. */
@@ -128,7 +177,7 @@ export function viewOf(text: string, first: View, run: Run): View {
       // a broken escape: as if it were not there
     }
   }
-  const view: View = { ...first, probes: [], picture: { ...first.picture, mirror: [...first.picture.mirror] } };
+  const view: View = { ...first, probes: [], plots: [], measures: [], picture: { ...first.picture, mirror: [...first.picture.mirror] } };
   const picture = view.picture;
   const on = (key: string, otherwise: boolean): boolean => (said.has(key) ? said.get(key) === "1" : otherwise);
   const number = (key: string, otherwise: number, low: number, high: number): number => {
@@ -156,6 +205,13 @@ export function viewOf(text: string, first: View, run: Run): View {
   const mirror = said.get("mirror");
   if (mirror && /^[01]{3}$/.test(mirror)) picture.mirror = [mirror[0] === "1", mirror[1] === "1", mirror[2] === "1"];
   picture.obstacles = on("obstacles", picture.obstacles);
+  const glyphs = said.get("glyphs");
+  if (glyphFields(run).some(({ key }) => key === glyphs)) picture.glyphs = glyphs!;
+  picture.glyph_count = number("glyph_count", picture.glyph_count, 0, 1000);
+  picture.undeformed = on("undeformed", false);
+  picture.iso = on("iso", false);
+  picture.averaged = on("averaged", false);
+  picture.section = run.dimension === 3 ? sectionOf(said.get("section")) : null;
   const hidden = said.get("hidden");
   if (hidden) picture.hidden = hidden.split(",").map((name) => decodeSafely(name)).filter((name) => run.parts.some((p) => p.name === name));
   const map = MAPS.find(([key]) => key === said.get("map"));
@@ -170,9 +226,11 @@ export function viewOf(text: string, first: View, run: Run): View {
       picture.range = [pair[0]!, pair[1]!];
     }
   }
-  for (const place of (said.get("probes") ?? "").split(",")) {
-    const n = numbers(place, ":", 3);
-    if (n && n.every((v) => Number.isInteger(v) && v >= 0) && view.probes.length < 8) view.probes.push({ run: n[0]!, node: n[1]!, cell: n[2]! });
+  view.probes = (said.get("probes") ?? "").split(",").flatMap(probesOf).slice(0, 8);
+  view.plots = (said.get("plots") ?? "").split(",").filter((key) => run.scalars.some((scalar) => scalar.key === key)).slice(0, 8);
+  for (const text of (said.get("measure") ?? "").split(",")) {
+    const n = counts(text, 3);
+    if (n && view.measures.length < MOST_MEASURES) view.measures.push({ run: n[0]!, a: n[1]!, b: n[2]! });
   }
   view.tab = TABS.find((tab) => tab === said.get("tab")) ?? first.tab;
   view.panel = on("panel", first.panel);

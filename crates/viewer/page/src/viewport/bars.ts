@@ -1,7 +1,8 @@
 // Bars (truss elements) as lines of constant width that face the camera, coloured as the skin is.
 
-import { type BufferGeometry, type RawShaderMaterial } from "three";
+import { type BufferGeometry, type RawShaderMaterial, type Texture } from "three";
 import type { Topology } from "../types";
+import type { Pickable } from "./picking";
 import { BAR_FRAGMENT, BAR_VERTEX, PICK_FRAGMENT } from "./shaders";
 import type { Colouring } from "./skin";
 import { Layer, makeMaterial, numbered, quads, type Stage } from "./stage";
@@ -49,6 +50,7 @@ export class Bars {
 
   private material(colouring: Colouring | "PICK", image?: { value: number }): RawShaderMaterial {
     const defines: string[] = [colouring];
+    if (this.stage.isCut) defines.push("CLIP");
     if (this.stage.shared.scale.value !== 1) defines.push("SCALED");
     const key = defines.join(" ");
     let material = this.materials.get(key);
@@ -71,7 +73,12 @@ export class Bars {
     this.layer.show(this.geometry, this.material(colouring));
   }
 
-  forPick(image: { value: number }): [BufferGeometry, RawShaderMaterial] | null {
+  /** All bars: their vertices, and the table of their ends. */
+  get whole(): { geometry: BufferGeometry; ends: Texture } | null {
+    return this.count === 0 ? null : { geometry: this.geometry, ends: this.ends.texture };
+  }
+
+  forPick(image: { value: number }): Pickable | null {
     return this.count === 0 ? null : [this.geometry, this.material("PICK", image)];
   }
 

@@ -43,7 +43,7 @@ export class Obstacles {
   private known = new Uint32Array(0);
   private material: RawShaderMaterial | null = null;
   private readonly uniforms: Uniforms & { positions: { value: Texture }; facets: { value: Texture }; edges: { value: Texture } };
-  private readonly own = { bandWidth: { value: BAND }, lineWidth: { value: LINE }, halfLine: { value: 0 }, halfOutline: { value: 1 }, cover: { value: 0.18 } };
+  private readonly own = { bandWidth: { value: BAND }, lineWidth: { value: LINE }, halfLine: { value: 0 }, halfOutline: { value: 1 }, cover: { value: 0.18 }, lineCover: { value: 0.45 } };
   private readonly paints = { ink: { value: rgb("#000000") }, solid: { value: rgb("#000000") } };
   private shapes: Shapes | null = null;
 

@@ -2,6 +2,7 @@
 // length.
 
 import type { Basis } from "./camera";
+import type { PlaneShown } from "./plane";
 import type { Theme } from "./stage";
 
 export interface Shown {
@@ -15,6 +16,9 @@ export interface Shown {
   metres: number;
   /** Places in px of CSS. */
   marks: { at: [number, number]; colour: string; label: string }[];
+  rulers: { ends: [[number, number], [number, number]]; colour: string; label: string }[];
+  /** The plane of a section, and whether it is being moved. */
+  section: (PlaneShown & { isHeld: boolean }) | null;
   theme: Theme;
 }
 
@@ -44,6 +48,8 @@ export function drawOverlay(paper: CanvasRenderingContext2D, shown: Shown): void
   paper.lineJoin = "round";
   bar(paper, shown, width, height);
   axes(paper, shown, height);
+  if (shown.section !== null) drawPlane(paper, shown, shown.section);
+  for (const ruler of shown.rulers) drawRuler(paper, shown, ruler);
   for (const mark of shown.marks) drawMark(paper, shown, mark);
   paper.restore();
 }
@@ -108,4 +114,65 @@ function drawMark(paper: CanvasRenderingContext2D, shown: Shown, { at: [x, y], c
   paper.textAlign = "left";
   paper.textBaseline = "bottom";
   write(paper, shown, label, x + 7, y - 4, shown.theme.text);
+}
+
+/** Keeps a label inside the picture. */
+function inside(paper: CanvasRenderingContext2D, shown: Shown, text: string, x: number, y: number): [number, number] {
+  const [width, height] = shown.size.map((pixels) => pixels / shown.unit) as [number, number];
+  const half = 0.5 * paper.measureText(text).width + 4;
+  return [Math.min(Math.max(x, half), width - half), Math.min(Math.max(y, 18), height - 8)];
+}
+
+function drawRuler(paper: CanvasRenderingContext2D, shown: Shown, { ends: [a, b], colour, label }: Shown["rulers"][number]): void {
+  for (const [stroke, width] of [[shown.theme.halo, 4.5], [colour, 2]] as const) {
+    paper.beginPath();
+    paper.moveTo(...a);
+    paper.lineTo(...b);
+    paper.strokeStyle = stroke;
+    paper.lineWidth = width;
+    paper.stroke();
+  }
+  paper.textAlign = "center";
+  paper.textBaseline = "bottom";
+  const [x, y] = inside(paper, shown, label, 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]) - 5);
+  paper.font = `600 ${FONT}`;
+  write(paper, shown, label, x, y, shown.theme.text);
+  paper.font = FONT;
+}
+
+function drawPlane(paper: CanvasRenderingContext2D, shown: Shown, { outline, handle, tip, isHeld }: NonNullable<Shown["section"]>): void {
+  const { accent, halo } = shown.theme;
+  paper.strokeStyle = accent;
+  paper.lineWidth = isHeld ? 2 : 1.25;
+  paper.globalAlpha = isHeld ? 1 : 0.75;
+  paper.beginPath();
+  outline.forEach((point, i) => (i === 0 ? paper.moveTo(...point) : paper.lineTo(...point)));
+  paper.closePath();
+  paper.stroke();
+  paper.globalAlpha = 1;
+  for (const [stroke, width] of [[halo, 5], [accent, 2.5]] as const) {
+    paper.strokeStyle = stroke;
+    paper.lineWidth = width;
+    paper.beginPath();
+    paper.moveTo(...handle);
+    paper.lineTo(...tip);
+    paper.stroke();
+  }
+  const angle = Math.atan2(tip[1] - handle[1], tip[0] - handle[0]);
+  const isShort = Math.hypot(tip[0] - handle[0], tip[1] - handle[1]) < 16;
+  for (const [point, radius] of [[tip, 5], [handle, 8]] as const) {
+    paper.beginPath();
+    if (point === tip && !isShort) {
+      const corner = (turn: number, size: number): [number, number] => [tip[0] + size * Math.cos(angle + turn), tip[1] + size * Math.sin(angle + turn)];
+      paper.moveTo(...corner(0, 9));
+      paper.lineTo(...corner(2.3, 9));
+      paper.lineTo(...corner(-2.3, 9));
+      paper.closePath();
+    } else paper.arc(...point, radius, 0, 2 * Math.PI);
+    paper.fillStyle = accent;
+    paper.fill();
+    paper.strokeStyle = halo;
+    paper.lineWidth = 2;
+    paper.stroke();
+  }
 }

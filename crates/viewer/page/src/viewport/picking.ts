@@ -1,13 +1,14 @@
 // What lies under the pointer, or nearest to it within some pixels: facets and bars are drawn once more, into
 // a few pixels, with their numbers as colours.
 
-import { Group, Mesh, type OrthographicCamera, Scene, UnsignedByteType, WebGLRenderTarget, type WebGLRenderer } from "three";
+import { type BufferGeometry, Group, Mesh, type OrthographicCamera, type RawShaderMaterial, Scene, UnsignedByteType, WebGLRenderTarget, type WebGLRenderer } from "three";
 import type { Bars } from "./bars";
+import type { Caps } from "./caps";
 import type { Skin } from "./skin";
 import type { Stage } from "./stage";
 
 export interface Found {
-  /** Facet, or after the facets bar. */
+  /** Facet, after the facets bar, after the bars triangle of a section. */
   row: number;
   /** Which mirror image. */
   image: number;
@@ -16,6 +17,9 @@ export interface Found {
 /** Pixels that are looked at on each side of the pointer: bodies may be thinner than a hand is steady. */
 const NEAR = 6;
 const SIDE = 2 * NEAR + 1;
+
+/** Geometry and program that write numbers, and the images in which it is there. */
+export type Pickable = [BufferGeometry, RawShaderMaterial, (readonly boolean[])?];
 
 export class Picker {
   private readonly target = new WebGLRenderTarget(SIDE, SIDE, { type: UnsignedByteType, depthBuffer: true });
@@ -29,6 +33,7 @@ export class Picker {
     private readonly stage: Stage,
     private readonly skin: Skin,
     private readonly bars: Bars,
+    private readonly caps: Caps,
   ) {
     this.scene.matrixAutoUpdate = false;
     this.group.matrixAutoUpdate = false;
@@ -38,14 +43,16 @@ export class Picker {
   /** What a camera sees nearest to this pixel of a picture of this size; null: nothing is near. */
   at(camera: OrthographicCamera, x: number, y: number, width: number, height: number): Found | null {
     this.group.clear();
-    for (const drawn of [this.skin.forPick(this.image), this.bars.forPick(this.image)]) {
-      if (drawn === null) continue;
-      const mesh = new Mesh(...drawn);
+    const drawn = [this.skin.forPick(this.image), this.bars.forPick(this.image), ...this.caps.forPick(this.image)];
+    const meshes = drawn.flatMap((one): [Mesh<BufferGeometry, RawShaderMaterial>, readonly boolean[] | undefined][] => {
+      if (one === null) return [];
+      const mesh = new Mesh(one[0], one[1]);
       mesh.frustumCulled = false;
       mesh.matrixAutoUpdate = false;
       mesh.renderOrder = this.group.children.length;
       this.group.add(mesh);
-    }
+      return [[mesh, one[2]]];
+    });
     const { renderer, stage } = this;
     const canvas = stage.shared.canvas.value;
     const [wide, high] = [canvas.x, canvas.y];
@@ -56,6 +63,7 @@ export class Picker {
     renderer.autoClear = false;
     for (let image = 0; image < stage.imageCount; image++) {
       this.image.value = image;
+      for (const [mesh, images] of meshes) mesh.visible = images?.[image] !== false;
       this.group.matrix.copy(stage.images[image]!.matrix);
       this.group.matrixWorldNeedsUpdate = true;
       renderer.render(this.scene, camera);

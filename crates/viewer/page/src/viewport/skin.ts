@@ -2,18 +2,31 @@
 // level has a table of its facets' corners and a list of vertex numbers without hidden parts. Also gives the
 // program of the id pass.
 
-import { type BufferGeometry, type RawShaderMaterial } from "three";
+import { type BufferGeometry, type RawShaderMaterial, type Texture } from "three";
 import type { Topology } from "../types";
+import type { Pickable } from "./picking";
 import { markOutlines } from "./outline";
 import { PICK_FRAGMENT, SKIN_FRAGMENT, SKIN_VERTEX } from "./shaders";
 import { Layer, makeMaterial, numbered, type Stage, type Uniforms } from "./stage";
 import { Table } from "./store";
 
 /** What colours stand for. */
-export type Colouring = "CELL" | "NODE" | "PART";
+export type Colouring = "CELL" | "NODE" | "CORNER" | "PART";
 
-/** More facets than this have no outlines: finding them would take long. */
+/** More facets than this have neither outlines nor smooth shading: finding neighbours would take long. */
 const MOST_OUTLINED = 1_500_000;
+
+/** For each node the facets that have it, one node after the other, and where those of each begin. */
+function facetsAround(facets: Uint32Array, nodes: number): { starts: Uint32Array; around: Uint32Array } {
+  const starts = new Uint32Array(nodes + 1);
+  const isCorner = (i: number): boolean => (i & 3) !== 3 || facets[i] !== facets[i - 1];
+  for (let i = 0; i < facets.length; i++) if (isCorner(i)) starts[facets[i]! + 1]!++;
+  for (let n = 0; n < nodes; n++) starts[n + 1]! += starts[n]!;
+  const next = starts.slice();
+  const around = new Uint32Array(starts[nodes]!);
+  for (let i = 0; i < facets.length; i++) if (isCorner(i)) around[next[facets[i]!]!++] = i >> 2;
+  return { starts, around };
+}
 
 interface Level {
   corners: Table;
@@ -23,6 +36,16 @@ interface Level {
   geometry: BufferGeometry;
   triangles: number;
   isOutlined: boolean;
+  /** Facets around nodes, for smooth shading of the whole skin in 3D. */
+  around: { starts: Table; around: Table } | null;
+}
+
+function aroundTables(facets: Uint32Array, nodes: number): NonNullable<Level["around"]> {
+  const found = facetsAround(facets, nodes);
+  const tables = { starts: new Table("index"), around: new Table("index") };
+  tables.starts.set(found.starts);
+  tables.around.set(found.around);
+  return tables;
 }
 
 export class Skin {
@@ -65,7 +88,8 @@ export class Skin {
         table = new Table("index");
         table.set(sources);
       }
-      this.levels.push({ corners, sources: table, facets, sourceOf: sources, geometry: numbered(null), triangles: 0, isOutlined });
+      this.levels.push({ corners, sources: table, facets, sourceOf: sources, geometry: numbered(null), triangles: 0, isOutlined, around: null });
+      if (isOutlined && !this.stage.isPlane) this.levels.at(-1)!.around = aroundTables(facets, topology.nodeNumbers.length);
     }
     this.setHidden(hidden);
   }
@@ -101,6 +125,8 @@ export class Skin {
     return {
       ...this.stage.shared,
       facets: { value: level.corners.texture },
+      starts: { value: level.around?.starts.texture ?? null },
+      around: { value: level.around?.around.texture ?? null },
       sources: { value: level.sources?.texture ?? null },
       parts: { value: this.parts.texture },
       halfLine: this.halfLine,
@@ -108,11 +134,13 @@ export class Skin {
     };
   }
 
-  private material(index: number, colouring: Colouring | "PICK", lines: boolean, image?: { value: number }): RawShaderMaterial {
+  private material(index: number, colouring: Colouring | "PICK", lines: boolean, iso: boolean, image?: { value: number }): RawShaderMaterial {
     const level = this.levels[index]!;
     const defines: string[] = [colouring];
+    if (this.stage.isCut) defines.push("CLIP");
+    if (iso && (colouring === "NODE" || colouring === "CORNER")) defines.push("ISO");
     if (this.stage.shared.scale.value !== 1) defines.push("SCALED");
-    if (!this.stage.isPlane && colouring !== "PICK") defines.push("SPACE");
+    if (!this.stage.isPlane && colouring !== "PICK") defines.push("SPACE", ...(level.around !== null ? ["SMOOTH"] : []));
     if (level.sources !== null) defines.push("COARSE");
     if (lines) defines.push("LINES");
     if (level.isOutlined) defines.push("OUTLINE");
@@ -133,25 +161,33 @@ export class Skin {
     return material;
   }
 
-  show(level: number, colouring: Colouring, lines: boolean): void {
+  show(level: number, colouring: Colouring, lines: boolean, iso: boolean): void {
     const shown = this.levels[level];
     if (shown === undefined) return this.layer.hide();
     const pixel = this.stage.shared.pixel.value;
     this.halfLine.value = 0.5 * pixel;
     this.halfOutline.value = (this.stage.isPlane ? 1.1 : 0.8) * pixel;
-    this.layer.show(shown.geometry, this.material(level, colouring, lines));
+    this.layer.show(shown.geometry, this.material(level, colouring, lines, iso));
+  }
+
+  /** The whole skin: its vertices, and the table of its corners. */
+  get whole(): { geometry: BufferGeometry; corners: Texture } | null {
+    const level = this.levels[0];
+    return level === undefined || level.triangles === 0 ? null : { geometry: level.geometry, corners: level.corners.texture };
   }
 
   /** Geometry and program that write the numbers of facets instead of colours; of the whole skin. */
-  forPick(image: { value: number }): [BufferGeometry, RawShaderMaterial] | null {
+  forPick(image: { value: number }): Pickable | null {
     const whole = this.levels[0];
-    return whole === undefined || whole.triangles === 0 ? null : [whole.geometry, this.material(0, "PICK", false, image)];
+    return whole === undefined || whole.triangles === 0 ? null : [whole.geometry, this.material(0, "PICK", false, false, image)];
   }
 
   private clear(): void {
     for (const level of this.levels) {
       level.corners.dispose();
       level.sources?.dispose();
+      level.around?.starts.dispose();
+      level.around?.around.dispose();
       level.geometry.dispose();
     }
     this.levels = [];

@@ -22,6 +22,7 @@ import {
   UnsignedByteType,
   Vector2,
   Vector3,
+  Vector4,
 } from "three";
 import { BACKGROUND, LEVELS, type MapName, NO_VALUE, partColour, table } from "../colormap";
 import type { Vector } from "../types";
@@ -48,16 +49,17 @@ function colourTexture(colours: Uint8Array<ArrayBuffer>): DataTexture {
 
 /** Colours that depend on the theme. */
 export const THEMES = {
-  light: { paper: BACKGROUND.light, noValue: NO_VALUE.light, ink: "#10121c", obstacle: "#4a515c", solid: "#aab2bd", wall: "#7d8794", arrow: "#c4103c", halo: "#ffffff", text: "#22262e" },
-  dark: { paper: BACKGROUND.dark, noValue: NO_VALUE.dark, ink: "#07080c", obstacle: "#c3cad4", solid: "#4b535f", wall: "#9aa4b2", arrow: "#ff5c7a", halo: "#0b0d10", text: "#e6e9ee" },
+  light: { paper: BACKGROUND.light, noValue: NO_VALUE.light, ink: "#10121c", obstacle: "#4a515c", solid: "#aab2bd", wall: "#7d8794", arrow: "#c4103c", pushed: "#0d5fc4", ghost: "#5b6470", halo: "#ffffff", text: "#22262e", accent: "#0b5fb0" },
+  dark: { paper: BACKGROUND.dark, noValue: NO_VALUE.dark, ink: "#07080c", obstacle: "#c3cad4", solid: "#4b535f", wall: "#9aa4b2", arrow: "#ff5c7a", pushed: "#6cb2ff", ghost: "#b4bdc8", halo: "#0b0d10", text: "#e6e9ee", accent: "#7cbcff" },
 } as const;
 export type Theme = (typeof THEMES)["light"] | (typeof THEMES)["dark"];
 
 export class Stage {
   readonly scene = new Scene();
   readonly images: Group[] = [];
-  /** How many of the groups are drawn. */
+  /** How many of the groups are drawn, and the signs of their axes. */
   imageCount = 1;
+  signs: Vector[] = [[1, 1, 1]];
   readonly positions = new Table("vector");
   readonly initials = new Table("vector");
   readonly values = new Table("value");
@@ -74,8 +76,21 @@ export class Stage {
     ink: { value: rgb(THEMES.light.ink) },
     canvas: { value: new Vector2(1, 1) },
     pixel: { value: 1 },
+    /** Of a section, in the camera's coordinates: what lies beyond is not drawn where `CLIP` is defined. */
+    clip: { value: new Vector4() },
+    /** First row of the values of nodes behind those of corners. */
+    nodeRows: { value: 0 },
+    /** Added to the numbers of facets where they are written as colours. */
+    firstRow: { value: 0 },
+    isoSteps: { value: 10 },
+    /** 1 for each axis across whose plane the model is mirrored; the tables' origin; what counts as on the plane, m. */
+    halved: { value: new Vector3() },
+    origin: { value: new Vector3() },
+    onPlane: { value: 0 },
   };
   theme: Theme = THEMES.light;
+  /** Whether bodies are cut by `shared.clip`. */
+  isCut = false;
 
   constructor(
     readonly isPlane: boolean,
@@ -116,6 +131,9 @@ export class Stage {
   setImages(mirror: readonly boolean[], origin: Vector): Vector[] {
     const signs = imageSigns(mirror);
     this.imageCount = signs.length;
+    this.signs = signs;
+    this.shared.halved.value.set(...([0, 1, 2].map((k) => (mirror[k] === true ? 1 : 0)) as Vector));
+    this.shared.origin.value.set(...origin);
     this.images.forEach((group, i) => {
       const sign = signs[i];
       group.visible = sign !== undefined;
@@ -219,11 +237,12 @@ export class Layer {
     });
   }
 
-  show(geometry: BufferGeometry, material: RawShaderMaterial): void {
+  /** `images`: in which it is drawn; without them in all. */
+  show(geometry: BufferGeometry, material: RawShaderMaterial, images?: readonly boolean[]): void {
     this.meshes.forEach((mesh, i) => {
       mesh.geometry = geometry;
       mesh.material = material;
-      mesh.visible = i < this.stage.imageCount;
+      mesh.visible = i < this.stage.imageCount && images?.[i] !== false;
     });
   }
 

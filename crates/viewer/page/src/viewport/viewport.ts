@@ -3,19 +3,24 @@
 import { OrthographicCamera, WebGLRenderer } from "three";
 import type { MapName } from "../colormap";
 import type { Frame, Run, Topology, Vector } from "../types";
-import { Arrows } from "./arrows";
+import { Arrows, largestOf } from "./arrows";
 import { Bars } from "./bars";
+import { Caps } from "./caps";
 import { type Camera, type Direction, dot, Rig } from "./camera";
 import { Controls } from "./controls";
 import { bodyBox, type Box, corners, joined, nearby } from "./extents";
+import { FieldGlyphs } from "./field_glyphs";
+import { Ghost } from "./ghost";
 import { drawOverlay, type Shown } from "./overlay";
 import { Picker } from "./picking";
 import { Obstacles } from "./obstacles";
+import { PlaneHandles, planeShown, type SectionPlane, type View as PlaneView } from "./plane";
 import { type Colouring, Skin } from "./skin";
 import { imageSigns, Stage } from "./stage";
 
 export type { MapName } from "../colormap";
 export type { Camera, Direction } from "./camera";
+export type { SectionPlane } from "./plane";
 
 /** What a link restores of the picture; plain JSON. */
 export interface ViewState {
@@ -28,6 +33,17 @@ export interface ViewState {
   /** Contact forces. */
   arrows: boolean;
   arrow_scale: number;
+  /** Field whose vectors or principal values are drawn. */
+  glyphs: string | null;
+  /** Glyphs along the longest side; 0: at every place. */
+  glyph_count: number;
+  /** Bodies as they were at the beginning. */
+  undeformed: boolean;
+  /** Lines of equal value. */
+  iso: boolean;
+  /** Values of elements averaged at the nodes of each part. */
+  averaged: boolean;
+  section: SectionPlane | null;
   mirror: [boolean, boolean, boolean];
   obstacles: boolean;
   /** Names of parts not shown. */
@@ -42,7 +58,6 @@ export interface ViewState {
 /** What lies under the pointer: the nearest corner of the facet or bar there. `facet` counts facets and then bars. */
 export interface Pick {
   node: number;
-  skin_node: number;
   cell: number;
   part: number;
   facet: number;
@@ -50,8 +65,17 @@ export interface Pick {
   value: number | null;
 }
 
+/** A place with a label: that of a skin node, or `at` (m, as shown) where it is known. */
 export interface Mark {
   node: number;
+  at?: Vector;
+  colour: string;
+  label: string;
+}
+
+/** A line between two places with a text in its middle. */
+export interface Ruler {
+  ends: [Mark, Mark];
   colour: string;
   label: string;
 }
@@ -71,6 +95,12 @@ export function firstState(run: Run): ViewState {
     lines: run.elements <= 20_000,
     arrows: false,
     arrow_scale: 1,
+    glyphs: null,
+    glyph_count: 24,
+    undeformed: false,
+    iso: false,
+    averaged: false,
+    section: null,
     mirror: [...run.mirror],
     obstacles: true,
     hidden: [],
@@ -90,6 +120,8 @@ const TIMED = 20_000;
 export class Viewport {
   /** The user moved the camera (to link two viewports). */
   onCamera?: (camera: Camera) => void;
+  /** The user moved the plane of the section; `ended`: and has let go. */
+  onSection?: (plane: SectionPlane, ended: boolean) => void;
   readonly figures: Figures = { triangles: 0, level: 0, milliseconds: 0, frames_per_second: 0 };
 
   /** Bodies are drawn here; axes, marks and the scale are put over them on the canvas that is seen. */
@@ -100,10 +132,14 @@ export class Viewport {
   private readonly stage: Stage;
   private readonly skin: Skin;
   private readonly bars: Bars;
+  private readonly caps: Caps;
   private readonly arrows: Arrows;
+  private readonly glyphs: FieldGlyphs;
+  private readonly ghost: Ghost;
   private readonly obstacles: Obstacles;
   private readonly picker: Picker;
   private readonly rig: Rig;
+  private readonly handles: PlaneHandles;
   private readonly controls: Controls;
   private current: ViewState;
   private range: [number, number] | null = null;
@@ -111,6 +147,8 @@ export class Viewport {
   private frame: Frame | null = null;
   private places = new Map<number, number>();
   private marks: Mark[] = [];
+  private rulers: Ruler[] = [];
+  private force = 0;
   /** Around what is looked at, in the tables' coordinates. */
   private box: Box | null = null;
   private pixels = 1;
@@ -120,6 +158,7 @@ export class Viewport {
   private moves = false;
   private cost = [0, 0];
   private isLost = false;
+  private isBare = false;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -144,11 +183,16 @@ export class Viewport {
     this.stage.setDark(options.dark);
     this.skin = new Skin(this.stage);
     this.bars = new Bars(this.stage);
-    this.arrows = new Arrows(this.stage);
+    this.caps = new Caps(this.stage);
+    this.arrows = new Arrows(this.stage, { colour: "arrow", order: 50 });
+    this.glyphs = new FieldGlyphs(this.stage);
+    this.ghost = new Ghost(this.stage, this.skin, this.bars);
     this.obstacles = new Obstacles(this.stage);
-    this.picker = new Picker(this.renderer, this.stage, this.skin, this.bars);
+    this.picker = new Picker(this.renderer, this.stage, this.skin, this.bars, this.caps);
     this.rig = new Rig(isPlane, run.camera?.from ?? null, run.camera?.up ?? null);
     this.current = firstState(run);
+    this.handles = new PlaneHandles(canvas, () => this.plane());
+    this.handles.onPlane = (plane, ended) => this.onSection?.(plane, ended);
     this.controls = new Controls(canvas, this.rig, () => this.moved());
   }
 
@@ -172,23 +216,45 @@ export class Viewport {
     if (this.topology === null || frame.positions.length !== this.topology.initial.length) return;
     this.frame = frame;
     this.stage.positions.set(frame.positions);
-    this.stage.values.setValues(frame.values);
+    this.setValues(frame, this.topology);
     this.stage.refresh();
-    this.arrows.setFrame(frame);
+    this.force = largestOf(frame.arrows, this.force);
+    this.arrows.set(frame.arrowNodes, frame.arrows, this.force);
+    this.caps.setSections(frame.sections, (this.topology.facets.length >> 2) + (this.topology.bars.length >> 1), this.hiddenParts());
+    this.setGlyphs();
     this.obstacles.setFrame(frame, this.current.mirror, this.topology.origin);
     this.follow();
     this.request(true);
+  }
+
+  /** Values of a frame; behind those of corners each node's own, for the coarser skin. */
+  private setValues(frame: Frame, topology: Topology): void {
+    if (frame.location !== "corner" || topology.levels.length === 0) return this.stage.values.setValues(frame.values);
+    const corners = frame.values.length;
+    const all = new Float32Array(corners + topology.nodeNumbers.length);
+    all.set(frame.values);
+    topology.facets.forEach((node, corner) => (all[corners + node] = frame.values[corner]!));
+    this.stage.shared.nodeRows.value = corners;
+    this.stage.values.setValues(all);
+  }
+
+  private setGlyphs(): void {
+    const { frame, topology, current } = this;
+    if (frame !== null && topology !== null) this.glyphs.setFrame(frame, topology, current.glyphs, current.glyph_count, current.scale, this.hiddenParts());
   }
 
   setState(state: ViewState): void {
     const before = this.current;
     this.current = structuredClone(state);
     if (before.map !== state.map) this.stage.setMap(state.map);
-    if (String(before.hidden) !== String(state.hidden)) {
+    const isHidden = String(before.hidden) !== String(state.hidden);
+    if (isHidden) {
       const hidden = this.hiddenParts();
       this.skin.setHidden(hidden);
       this.bars.setHidden(hidden);
+      this.caps.setHidden(hidden);
     }
+    if (isHidden || before.glyphs !== state.glyphs || before.glyph_count !== state.glyph_count || before.scale !== state.scale) this.setGlyphs();
     if (this.frame !== null && this.topology !== null) this.obstacles.setFrame(this.frame, state.mirror, this.topology.origin);
     if (state.camera !== null) this.rig.set(state.camera);
     else if (before.camera !== null) this.rig.isFree = true;
@@ -253,34 +319,70 @@ export class Viewport {
     const size = this.size();
     const found = this.picker.at(this.camera, x * size.unit, y * size.unit, size.width, size.height);
     this.request();
-    const count = topology.facets.length / 4;
-    if (found === null || found.row >= count + topology.bars.length / 2) return null;
-    const isBar = found.row >= count;
-    const bar = found.row - count;
+    if (found === null) return null;
+    const [facets, bars] = [topology.facets.length / 4, topology.bars.length / 2];
+    if (found.row >= facets + bars) return this.pickSection(found.row - facets - bars, found.image, x, y);
+    const isBar = found.row >= facets;
+    const bar = found.row - facets;
     const nodes = isBar ? [...topology.bars.subarray(2 * bar, 2 * bar + 2)] : [...topology.facets.subarray(4 * found.row, 4 * found.row + 4)];
-    const sign = imageSigns(this.current.mirror)[found.image] ?? [1, 1, 1];
-    const away = (node: number): number => {
-      const place = this.place(node).map((value, k) => value * sign[k]!) as Vector;
-      const [u, v] = this.project(place);
-      return Math.hypot(u - x, v - y);
-    };
-    const node = nodes.reduce((best, other) => (away(other) < away(best) ? other : best));
-    const row = this.colouring() === "NODE" ? node : found.row;
-    const value = frame.values[row];
+    const best = this.nearest(nodes.map((node) => this.place(node)), found.image, x, y);
+    const node = nodes[best]!;
+    const row = { NODE: node, CORNER: isBar ? 4 * facets + 2 * bar + best : 4 * found.row + best, CELL: found.row, PART: -1 }[this.colouring()];
     return {
       node: topology.nodeNumbers[node]!,
-      skin_node: node,
       cell: isBar ? topology.barCells[bar]! : topology.facetCells[found.row]!,
       part: isBar ? topology.barParts[bar]! : topology.facetParts[found.row]!,
       facet: found.row,
       position: [0, 1, 2].map((k) => frame.positions[3 * node + k]! + topology.origin[k]!) as Vector,
-      value: value !== undefined && Number.isFinite(value) ? value : null,
+      value: finite(frame.values[row]),
     };
   }
 
-  mark(nodes: Mark[]): void {
+  /** Which of some places of the model is seen nearest to a place of the canvas, in a mirror image. */
+  private nearest(places: Vector[], image: number, x: number, y: number): number {
+    const sign = this.stage.signs[image] ?? [1, 1, 1];
+    const away = places.map((place) => {
+      const [u, v] = this.project(place.map((value, k) => value * sign[k]!) as Vector);
+      return Math.hypot(u - x, v - y);
+    });
+    return away.indexOf(Math.min(...away));
+  }
+
+  /** What is seen of a section: the element that is cut, and the nearest node of the edges that are cut. */
+  private pickSection(triangle: number, image: number, x: number, y: number): Pick | null {
+    const { topology, frame } = this;
+    const sections = frame?.sections;
+    if (!topology || !frame || !sections || triangle >= sections.cells.length) return null;
+    // the middle of the polygon is no node
+    const corners = [...sections.facets.subarray(3 * triangle, 3 * triangle + 2)];
+    const places = corners.map((corner) => [0, 1, 2].map((k) => sections.points[3 * corner + k]! + topology.origin[k]!) as Vector);
+    const best = this.nearest(places, image, x, y);
+    return {
+      node: sections.nodes[corners[best]!]!,
+      cell: sections.cells[triangle]!,
+      part: sections.parts[triangle]!,
+      facet: -1,
+      position: places[best]!,
+      value: finite(sections.values[frame.location === "cell" ? triangle : corners[best]!]),
+    };
+  }
+
+  /** Whether a node is on the skin. */
+  hasNode(node: number): boolean {
+    return this.places.has(node);
+  }
+
+  mark(nodes: Mark[], rulers: Ruler[]): void {
     this.marks = nodes;
+    this.rulers = rulers;
     this.request();
+  }
+
+  /** The plane through the middle of the bodies that faces the camera. */
+  facing(): SectionPlane {
+    const { back } = this.rig.basis;
+    const [low, high] = this.run.size;
+    return { normal: [...back], offset: dot(back, [0, 1, 2].map((k) => 0.5 * (low[k]! + high[k]!)) as Vector) };
   }
 
   resize(): void {
@@ -297,13 +399,16 @@ export class Viewport {
     cancelAnimationFrame(this.due);
     clearTimeout(this.rest);
     this.controls.dispose();
-    for (const drawn of [this.skin, this.bars, this.arrows, this.obstacles, this.picker, this.stage]) drawn.dispose();
+    this.handles.dispose();
+    for (const drawn of [this.skin, this.bars, this.caps, this.arrows, this.glyphs, this.ghost, this.obstacles, this.picker, this.stage]) drawn.dispose();
     this.renderer.dispose();
   }
 
-  /** Draws at once, and whole. */
-  draw(): void {
+  /** Draws at once, and whole; `bare`: without handles. */
+  draw(bare = false): void {
+    this.isBare = bare;
     this.paint(0);
+    this.isBare = false;
   }
 
   /** Draws with the next picture of the screen; what moves may be drawn coarser. */
@@ -339,9 +444,11 @@ export class Viewport {
   private colouring(): Colouring {
     const { frame, topology } = this;
     if (frame === null || topology === null || frame.scalar === null) return "PART";
-    const isNode = this.run.scalars.find((scalar) => scalar.key === frame.scalar)?.location === "node";
-    const wanted = isNode ? topology.nodeNumbers.length : topology.facets.length / 4 + topology.bars.length / 2;
-    return frame.values.length !== wanted ? "PART" : isNode ? "NODE" : "CELL";
+    const [facets, bars] = [topology.facets.length / 4, topology.bars.length / 2];
+    const [colouring, wanted] = (
+      { node: ["NODE", topology.nodeNumbers.length], corner: ["CORNER", 4 * facets + 2 * bars], cell: ["CELL", facets + bars] } as const
+    )[frame.location ?? "cell"];
+    return frame.values.length !== wanted ? "PART" : colouring;
   }
 
   private size(): { width: number; height: number; unit: number } {
@@ -421,10 +528,29 @@ export class Viewport {
     shared.range.value.set(low, high);
     const origin = topology?.origin ?? [0, 0, 0];
     const signs = this.stage.setImages(current.mirror, origin);
+    if (this.box !== null) shared.onPlane.value = 1e-4 * Math.max(...[0, 1, 2].map((k) => this.box![1][k]! - this.box![0][k]!));
     const all = this.box === null ? [] : corners(this.box, signs, origin);
     const far = all.reduce((most, corner) => Math.max(most, Math.hypot(...corner.map((value, k) => value - this.rig.camera.target[k]!))), 0);
     // Walls may be larger than the bodies.
     this.rig.apply(this.camera, width / height, this.rig.camera.target, 4 * far);
+    const plane = this.caps.plane;
+    this.stage.isCut = plane !== null;
+    if (plane === null) return;
+    const { right, up, back } = this.rig.basis;
+    const { elements } = this.camera.matrix;
+    const eye = dot(plane.normal, [elements[12]!, elements[13]!, elements[14]!]);
+    shared.clip.value.set(dot(plane.normal, right), dot(plane.normal, up), dot(plane.normal, back), plane.offset - eye);
+  }
+
+  /** The plane of the section and how it is seen; null without one. */
+  private plane(): { plane: SectionPlane; box: Box; view: PlaneView } | null {
+    const { section, mirror } = this.current;
+    const { box, topology } = this;
+    if (section === null || box === null || topology === null || this.run.dimension !== 3) return null;
+    const all = corners(box, imageSigns(mirror), topology.origin);
+    const end = (choose: (...values: number[]) => number): Vector => [0, 1, 2].map((k) => choose(...all.map((corner) => corner[k]!))) as Vector;
+    const view = { basis: this.rig.basis, perMetre: this.canvas.getBoundingClientRect().height / this.rig.camera.height, project: (point: Vector) => this.project(point) };
+    return { plane: section, box: [end(Math.min), end(Math.max)], view };
   }
 
   private paint(level: number): void {
@@ -434,9 +560,15 @@ export class Viewport {
     this.prepare();
     const colouring = this.colouring();
     const { current } = this;
+    const { shared } = this.stage;
     if (this.frame !== null) {
-      this.skin.show(level, colouring, current.lines);
+      shared.isoSteps.value = current.bands > 1 ? current.bands : 10;
+      this.skin.show(level, colouring, current.lines, current.iso);
       this.bars.show(colouring);
+      this.caps.show(colouring, current.lines, current.iso);
+      if (current.undeformed) this.ghost.show();
+      else this.ghost.hide();
+      this.glyphs.show(current.arrow_scale);
       if (current.arrows) this.arrows.show((this.rig.camera.height / 8) * current.arrow_scale);
       else this.arrows.hide();
       if (current.obstacles) this.obstacles.show();
@@ -456,10 +588,25 @@ export class Viewport {
   }
 
   private shown(width: number, height: number, unit: number): Shown {
-    const marks = this.frame === null ? [] : this.marks.flatMap(({ node, colour, label }) => {
-      const place = this.places.get(node);
-      return place === undefined ? [] : [{ at: this.project(this.place(place)), colour, label }];
+    const place = ({ node, at }: Mark): [number, number] | null => {
+      const skin = this.places.get(node);
+      const point = skin === undefined ? at : this.place(skin);
+      return this.frame === null || point === undefined ? null : this.project(point);
+    };
+    const marks = this.marks.flatMap((mark) => {
+      const at = place(mark);
+      return at === null ? [] : [{ at, colour: mark.colour, label: mark.label }];
     });
-    return { size: [width, height], unit, basis: this.rig.basis, isPlane: this.run.dimension !== 3, metres: this.rig.camera.height, marks, theme: this.stage.theme };
+    const rulers = this.rulers.flatMap(({ ends, colour, label }) => {
+      const [a, b] = [place(ends[0]), place(ends[1])];
+      return a === null || b === null ? [] : [{ ends: [a, b] as [[number, number], [number, number]], colour, label }];
+    });
+    const plane = this.plane();
+    const section = plane === null || this.isBare ? null : { ...planeShown(plane.plane, plane.box, plane.view), isHeld: this.handles.isHeld };
+    return { size: [width, height], unit, basis: this.rig.basis, isPlane: this.run.dimension !== 3, metres: this.rig.camera.height, marks, rulers, section, theme: this.stage.theme };
   }
+}
+
+function finite(value: number | undefined): number | null {
+  return value !== undefined && Number.isFinite(value) ? value : null;
 }

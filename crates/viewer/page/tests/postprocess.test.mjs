@@ -52,6 +52,8 @@ test("the server cuts cells: area of the section, averaged values, glyphs", asyn
   assert.equal(head.location, "node");
   assert.equal(array("section_values").length, points.length / 3);
   assert.equal(array("glyph_vectors").length, array("positions").length);
+  const middles = array("section_nodes").filter((node) => node === 0xffffffff).length;
+  assert.ok(middles > 10 && array("section_glyph_vectors").length === 3 * middles, `${middles} polygons`);
   const averaged = await frameOf("scalar=von_mises&averaged=1&glyphs=stress");
   assert.equal(averaged.head.location, "corner");
   assert.equal(averaged.array("glyph_axes").length, 3 * averaged.array("glyph_values").length);

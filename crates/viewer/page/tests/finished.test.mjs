@@ -59,6 +59,13 @@ test("a click on a node adds a probe with its value and its plot", async () => {
   const { page, done } = await pageAt(server.address + "#t=0.003&field=velocity");
   await until(async () => (await coloured(page)) > 800, "bodies");
   const at = await bodyPoint(page);
+  await until(async () => {
+    // it rests for a moment, again and again: a slow picture is not drawn for the readout alone
+    await page.mouse.move(at.x + 0.5, at.y);
+    await page.mouse.move(at.x, at.y);
+    await page.waitForTimeout(400);
+    return /^\S+ · node \d+ · element \d+ · [\d.]+ m\/s$/.test(await text(page, ".readout"));
+  }, "the value under the mouse");
   await page.mouse.click(at.x, at.y);
   await page.locator(".probe-list li").waitFor();
   assert.match(await text(page, ".probe-list .name"), /node \d+/);

@@ -12,8 +12,12 @@ import { Legend } from "./legend";
 import type { Model } from "./model";
 import { measured } from "./panel_measure";
 import type { Session } from "./session";
+import { Readout } from "./readout";
 import { isDark } from "./theme";
 import type { Tracks } from "./tracks";
+
+/** Pictures that take longer (ms) are not drawn only to say what is under the mouse. */
+const SLOW = 250;
 
 export class Pane {
   readonly element: HTMLElement;
@@ -39,7 +43,7 @@ export class Pane {
     });
     this.legend = new Legend(app, session);
     const title = app.isComparison ? h("h2", { class: "pane-title" }, `${session.index === app.sessions[0]!.index ? "A" : "B"} · ${run.name}`, h("small", { title: run.path }, run.path)) : null;
-    this.element = h("section", { class: "pane", "aria-label": `Picture of ${run.name}` }, this.canvas, title, this.legend.element, this.trouble);
+    this.element = h("section", { class: "pane", "aria-label": `Picture of ${run.name}` }, this.canvas, title, this.legend.element, new Readout(app, session, this.canvas, (x, y) => this.quick(x, y)).element, this.trouble);
     try {
       this.viewport = new Viewport(this.canvas, run, { dark: isDark(app.view.theme), quantity: (value, unit) => quantity(value, unit, 3) });
       if (this.viewport.lost) this.fail();
@@ -140,6 +144,11 @@ export class Pane {
   private at(x: number, y: number): Pick | null {
     const box = this.canvas.getBoundingClientRect();
     return this.viewport?.pick(x - box.left, y - box.top) ?? null;
+  }
+
+  /** The same where pictures take so little time that it may be asked for at any moment. */
+  private quick(x: number, y: number): Pick | null {
+    return (this.viewport?.figures.milliseconds ?? Infinity) < SLOW ? this.at(x, y) : null;
   }
 
   /** What is under the mouse. */

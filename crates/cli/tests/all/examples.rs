@@ -110,6 +110,7 @@ fn every_example_is_listed_here() {
         "crushed-ring",
         "cup-drawing",
         "cup-from-blank",
+        "dropped-bracket",
         "explosive-ring",
         "foam-pad",
         "heap",

@@ -44,11 +44,14 @@ pub(super) fn legend(glyphs: &[Glyph]) -> Vec<(&'static GlyphKind, String)> {
     KINDS.iter().filter_map(of).collect()
 }
 
+/// What lies below comes first.
+const ORDER: [Symbol; 7] = [Symbol::Plane, Symbol::Dot, Symbol::Support, Symbol::Line, Symbol::Push, Symbol::Arrow, Symbol::Ring];
+
 /// Draws all glyphs on a canvas; faults last.
 pub(super) fn draw(canvas: &mut Canvas, glyphs: &[Glyph], look: &Look<'_>) {
     let [left, top, right, bottom] = look.plot;
     let mut layer = Layer::new(right.min(canvas.width) - left, bottom.min(canvas.height) - top);
-    for kind in KINDS.iter().rev() {
+    for kind in ORDER.iter().flat_map(|symbol| KINDS.iter().rev().filter(move |kind| kind.symbol == *symbol)) {
         for glyph in glyphs.iter().filter(|glyph| glyph.kind == *kind) {
             let mut brush = Brush { layer: &mut layer, canvas: &mut *canvas, corner: [left, top], unit: look.unit, rim: 1.0 };
             brush.glyph(glyph, look);

@@ -3,13 +3,15 @@
 // place.
 
 import type { Vector } from "../types";
-import type { Glyph, GlyphKind } from "../app/model_types";
+import type { Glyph, GlyphKind, GlyphSymbol } from "../app/model_types";
 
 /** Length of the longest arrow, size of a support, px. */
 const ARROW = 54;
 const SUPPORT = 12;
 /** How much is left of what lies on the far side of a body. */
 const FAR = 0.25;
+/** What lies below comes first. */
+const ORDER: GlyphSymbol[] = ["plane", "dot", "support", "line", "push", "arrow", "ring"];
 /** How near the pointer must be to a symbol, px. */
 const NEAR = 9;
 
@@ -37,7 +39,8 @@ export class ModelGlyphs {
   /** Draws all glyphs whose kind is not hidden; the last kinds of the list lie below. */
   draw(paper: CanvasRenderingContext2D, kinds: GlyphKind[], glyphs: Glyph[], hidden: ReadonlySet<string>, sight: Sight): void {
     this.drawn = [];
-    for (const kind of [...kinds].reverse()) {
+    const order = (kind: GlyphKind) => ORDER.indexOf(kind.symbol);
+    for (const kind of [...kinds].reverse().sort((a, b) => order(a) - order(b))) {
       if (hidden.has(kind.name)) continue;
       for (const glyph of glyphs) if (glyph.kind === kind.name) this.glyph(paper, kind, glyph, sight);
     }

@@ -33,7 +33,8 @@ pub struct Glyph {
     pub text: String,
     /// Where its symbols are, m.
     pub points: Vec<[f64; 3]>,
-    /// Direction of each symbol: of the longest arrow of a kind 1 long; of a ring its radius, m, in x.
+    /// Direction of each symbol: of the longest arrow of a kind 1 long; of a dot the outward normal of its surface; of
+    /// a ring its radius, m, in x.
     pub vectors: Vec<[f64; 3]>,
 }
 
@@ -262,10 +263,13 @@ impl Maker<'_> {
         }
     }
 
-    /// Dots on these surfaces.
+    /// Dots on these surfaces, with their outward normals.
     fn dots(&mut self, kind: &'static GlyphKind, name: &str, path: String, surfaces: &[String]) {
-        let all = surfaces.iter().flat_map(|surface| self.places.of_surface(surface).0);
-        let symbols: Vec<_> = all.map(|x| (x, [0.0; 3])).collect();
+        let of = |surface: &String| {
+            let (middles, normals) = self.places.of_surface(surface);
+            middles.into_iter().zip(normals)
+        };
+        let symbols: Vec<_> = surfaces.iter().flat_map(of).collect();
         self.add(kind, name, path, &symbols, MANY);
     }
 

@@ -36,9 +36,7 @@ export async function reloadAfter(requests: Requests, about: About): Promise<voi
 }
 
 export class Model {
-  hidden: Set<string>;
-  /** The model was read with faults, or with others than before. */
-  onChange: () => void = () => {};
+  readonly hidden: Set<string>;
 
   constructor(private readonly app: App, public about: About) {
     this.hidden = new Set((sessionStorage.getItem(STORE) ?? "").split(",").filter((name) => name !== ""));
@@ -50,7 +48,7 @@ export class Model {
     if (shown) this.hidden.delete(kind);
     else this.hidden.add(kind);
     sessionStorage.setItem(STORE, [...this.hidden].join(","));
-    this.onChange();
+    this.app.events.emit("model");
   }
 
   private async follow(): Promise<void> {
@@ -67,7 +65,7 @@ export class Model {
       session.run = run;
       this.app.events.emit("run");
       this.app.player.update();
-      this.onChange();
+      this.app.events.emit("model");
     }
   }
 }

@@ -23,7 +23,7 @@ export interface Glyph {
   text: string;
   /** m */
   points: Vector[];
-  /** Direction of each symbol; of a ring its radius (m) in x. */
+  /** Direction of each symbol; of a dot the outward normal of its surface, of a ring its radius (m) in x. */
   vectors: Vector[];
 }
 

@@ -7,6 +7,8 @@ import type { Glyph, GlyphKind } from "../app/model_types";
 /** Length of the longest arrow, size of a support, px. */
 const ARROW = 54;
 const SUPPORT = 12;
+/** How much is left of what lies on the far side of a body. */
+const FAR = 0.25;
 /** How near the pointer must be to a symbol, px. */
 const NEAR = 9;
 
@@ -16,6 +18,8 @@ export interface Sight {
   project: (place: Vector) => [number, number];
   /** A vector of length 1 as it is seen, px right and down for one. */
   along: (vector: Vector) => [number, number];
+  /** How far a vector points at the viewer, −1 to 1 for one of length 1. */
+  towards: (vector: Vector) => number;
   /** px of a metre. */
   scale: number;
 }
@@ -76,12 +80,16 @@ export class ModelGlyphs {
     places.forEach((at, index) => {
       const vector = glyph.vectors[index] ?? [0, 0, 0];
       const [dx, dy] = sight.along(vector);
+      // on the far side of the body: dots have its outward normal, loads push against it
+      const facing = kind.symbol === "dot" ? sight.towards(vector) : kind.symbol === "push" ? -sight.towards(vector) : 0;
+      paper.globalAlpha = facing < -0.05 ? FAR : 1;
       if (kind.symbol === "arrow") arrow(paper, at, [at[0] + ARROW * dx, at[1] + ARROW * dy], colour);
       else if (kind.symbol === "push") arrow(paper, [at[0] - 0.6 * ARROW * dx, at[1] - 0.6 * ARROW * dy], at, colour);
       else if (kind.symbol === "support") fill(paper, support(at, [dx, dy]), colour);
       else if (kind.symbol === "dot") fill(paper, disk(at, 2.3), colour);
       else stroke(paper, disk(at, Math.max(7.5, vector[0] * sight.scale)), 2.6, colour);
     });
+    paper.globalAlpha = 1;
   }
 }
 

@@ -27,8 +27,11 @@ pub fn frame(bodies: &Bodies, topology: &Topology, shown: &dyn Shown, outlines: 
     let mut whole = range(values.iter().copied());
     container.floats("values", values);
     if let Some(section_request) = frame_request.section.as_ref().filter(|_| bodies.dimension == 3) {
-        let inside = add_sections(&mut container, bodies, topology, shown, colours.as_ref(), section_request);
+        let (sections, inside) = add_sections(&mut container, bodies, topology, shown, colours.as_ref(), section_request);
         whole = joined(whole, inside);
+        if let Some(name) = &frame_request.glyphs {
+            glyphs::add_to_sections(&mut container, &sections, shown, name);
+        }
     }
     if frame_request.arrows {
         add_arrows(&mut container, topology, shown);
@@ -57,7 +60,7 @@ fn add_arrows(container: &mut Container, topology: &Topology, shown: &dyn Shown)
     container.floats("arrows", arrows.into_flattened());
 }
 
-/// What planes cut of the bodies, one plane after the other; the range of the values.
+/// What planes cut of the bodies, one plane after the other; that, and the range of the values.
 fn add_sections(
     container: &mut Container,
     bodies: &Bodies,
@@ -65,7 +68,7 @@ fn add_sections(
     shown: &dyn Shown,
     colours: Option<&Colours<'_>>,
     section_request: &SectionRequest,
-) -> Option<[f32; 2]> {
+) -> (Vec<Section>, Option<[f32; 2]>) {
     let mut coordinates = Vec::new();
     shown.coordinates(0..shown.nodes(), &mut coordinates);
     let scale = section_request.scale();
@@ -74,8 +77,9 @@ fn add_sections(
     let origin = bodies.origin;
     let (mut heads, mut points, mut nodes, mut values) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut facets, mut cells, mut parts) = (Vec::new(), Vec::new(), Vec::new());
-    for plane in &section_request.planes {
-        let section = Section::new(&bodies.cells, topology.gone(), &heights(plane, places.iter().copied()));
+    let cut = |plane| Section::new(&bodies.cells, topology.gone(), &heights(plane, places.iter().copied()));
+    let sections: Vec<Section> = section_request.planes.iter().map(cut).collect();
+    for (plane, section) in section_request.planes.iter().zip(&sections) {
         let along = |k: usize| {
             let own = section.points.iter().map(|point| point.between(point.nodes.map(|node| places[node as usize][k] - origin[k])));
             section.with_middles(own.collect())
@@ -91,7 +95,7 @@ fn add_sections(
             cells.push(polygon.cell);
             parts.push(polygon.part);
         }
-        values.extend(colours.map(|colours| colours.cut(&section, bodies, shown)).unwrap_or_default());
+        values.extend(colours.map(|colours| colours.cut(section, bodies, shown)).unwrap_or_default());
         heads.push(json!({ "normal": plane.normal(), "offset": plane.offset(), "facets": cells.len() - before }));
     }
     let inside = range(values.iter().copied());
@@ -102,7 +106,7 @@ fn add_sections(
     container.indices("section_cells", cells);
     container.indices("section_parts", parts);
     container.floats("section_values", values);
-    inside
+    (sections, inside)
 }
 
 /// Cells that were eroded, ascending.

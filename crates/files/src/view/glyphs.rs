@@ -1,8 +1,9 @@
 //! Glyphs of a frame: a vector of each node that is seen, or the principal values and directions of a tensor
-//! of each facet that is seen.
+//! of each facet that is seen; of sections one of each polygon.
 
 use super::bodies::Topology;
 use super::container::Container;
+use super::section::Section;
 use super::values::taken;
 use embate_solver::output::{FieldKind, Location, Shown};
 use embate_solver::tensor::{Solid, SymmetricTensor};
@@ -42,6 +43,39 @@ pub(super) fn add(container: &mut Container, topology: &Topology, shown: &dyn Sh
             container.floats("glyph_axes", axes.into_flattened().into_flattened());
         }
         None => {}
+    }
+}
+
+/// Adds those of the polygons of sections, one section after the other: a vector in the middle of each, or
+/// the tensor of its cell.
+pub(super) fn add_to_sections(container: &mut Container, sections: &[Section], shown: &dyn Shown, name: &str) {
+    let kinds = shown.kinds();
+    let Some(field) = kinds.iter().position(|kind| kind.name == name) else { return };
+    let Some(glyphs) = glyphs_of(kinds[field]) else { return };
+    let width = kinds[field].width();
+    let mut all = Vec::new();
+    shown.values(field, 0..shown.numbers(field) / width, &mut all);
+    let tuple = |place: u32| all.get(width * place as usize..width * (place as usize + 1));
+    let polygons = sections.iter().flat_map(|section| &section.polygons);
+    match glyphs {
+        Glyphs::Vectors => {
+            let component = |section: &Section, k: usize| {
+                let at = |node: u32| tuple(node).map_or(f64::NAN, |own| own.get(k).copied().unwrap_or(0.0));
+                let points = section.points.iter().map(|point| point.between(point.nodes.map(at)));
+                section.with_middles(points.collect()).split_off(section.points.len())
+            };
+            let three = |section: &Section| {
+                let [x, y, z] = [0, 1, 2].map(|k| component(section, k));
+                x.into_iter().zip(y).zip(z).flat_map(|((x, y), z)| [x as f32, y as f32, z as f32]).collect::<Vec<f32>>()
+            };
+            container.floats("section_glyph_vectors", sections.iter().flat_map(three).collect());
+        }
+        Glyphs::Tensors => {
+            let own = polygons.map(|polygon| principal(tuple(polygon.cell).unwrap_or(&[f64::NAN])));
+            let (values, axes): (Vec<_>, Vec<_>) = own.unzip();
+            container.floats("section_glyph_values", values.into_flattened());
+            container.floats("section_glyph_axes", axes.into_flattened().into_flattened());
+        }
     }
 }
 

@@ -203,7 +203,19 @@ fn sections_of_a_frame_have_the_area_of_the_bodies_and_the_values_inside() {
     // All that moves as a whole: magnified displacements move the section with the bodies.
     let (once, twice) = (section(last, "0,0,1,0.005", 1.0, "velocity.x", false), section(last, "0,0,1,0.005", 40.0, "velocity.x", false));
     assert!(triangles(&twice).len() >= triangles(&once).len() && floats(&once, "section_points") != floats(&twice, "section_points"));
-    // A section of cells that have gone, or of 2D, is empty; the inside has a range of its own.
+    // Glyphs: one of each polygon, of whose triangles the middle is the third corner.
+    let glyphs = |name: &str| {
+        let section = Some(SectionRequest::read("0,0,1,0.005", 1.0).unwrap());
+        let request = FrameRequest { glyphs: Some(name.into()), section, ..FrameRequest::default() };
+        view.frame(0, &request).unwrap().unwrap().bytes()
+    };
+    let bytes = glyphs("velocity");
+    let (vectors, nodes) = (floats(&bytes, "section_glyph_vectors"), indices(&bytes, "section_nodes"));
+    let polygons = nodes.iter().filter(|&&node| node == u32::MAX as usize).count();
+    assert!(polygons > 0 && vectors.len() == 3 * polygons);
+    assert!(vectors.chunks(3).all(|v| v == [50.0, 0.0, 0.0] || v == [0.0; 3]) && vectors.contains(&50.0));
+    assert_eq!(floats(&glyphs("stress"), "section_glyph_axes").len(), 9 * polygons);
+    // The inside has a range of its own.
     let inside = view.range("stress.xx", RangeOf { inside: true, averaged: false }).unwrap().0.unwrap();
     let skin = view.range("stress.xx", RangeOf::default()).unwrap().0.unwrap();
     let averaged = view.range("stress.xx", RangeOf { inside: true, averaged: true }).unwrap().0.unwrap();

@@ -182,6 +182,10 @@ export interface Sections {
   parts: Uint32Array;
   /** Per point, or per triangle where values are those of cells. */
   values: Float32Array;
+  /** Glyphs of polygons, in the order of their middles: as those of a frame. */
+  glyphVectors: Float32Array;
+  glyphValues: Float32Array;
+  glyphAxes: Float32Array;
 }
 
 /** One instant. */

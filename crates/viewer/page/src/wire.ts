@@ -172,7 +172,8 @@ function decodeSections(container: Container): Sections | null {
     return cut;
   });
   if (first !== count) throw new WireError(`the planes of the sections have ${first} triangles, array section_facets has ${count}`);
-  return { planes, points, nodes, facets, cells, parts, values };
+  const glyphs = { glyphVectors: container.f32("section_glyph_vectors"), glyphValues: container.f32("section_glyph_values"), glyphAxes: container.f32("section_glyph_axes") };
+  return { planes, points, nodes, facets, cells, parts, values, ...glyphs };
 }
 
 /** A frame as `api/runs/R/frames/N` answers it or the live connection sends it. */

@@ -30,6 +30,26 @@ test("a live run is seen going, and its end is told", async () => {
   await server.kill();
 });
 
+test("a live run is cut and averaged as it goes", async () => {
+  const server = await watch("taylor-bar-3d", "cut-live", ["--keep", "--set", "output.pictures=false"]);
+  const { page, done } = await pageAt(`${server.address}#field=von_mises&averaged=1`);
+  const heads = [];
+  const asked = [];
+  page.on("websocket", (socket) => {
+    socket.on("framesent", ({ payload }) => asked.push(String(payload)));
+    socket.on("framereceived", ({ payload }) => {
+      if (typeof payload !== "string") heads.push(JSON.parse(payload.toString("utf8", 8, 8 + payload.readUInt32LE(4))));
+    });
+  });
+  await page.reload();
+  await until(() => heads.some((head) => head.location === "corner" && head.sections === undefined), "averaged frames");
+  await key(page, "c");
+  await until(() => heads.some((head) => head.sections?.[0]?.facets > 0), "frames with a section");
+  assert.ok(asked.some((text) => JSON.parse(text).section?.split(",").length === 4));
+  await done();
+  await server.kill();
+});
+
 test("pause holds the run, keep state writes one, resume goes on, stop asks once more and keeps the results", async () => {
   const server = await watch("tube-plate", "pause", ["--keep", "--set", "run.end=1"]);
   const { page, done } = await pageAt(server.address);

@@ -52,6 +52,8 @@ test("the server cuts cells: area of the section, averaged values, glyphs", asyn
   assert.equal(head.location, "node");
   assert.equal(array("section_values").length, points.length / 3);
   assert.equal(array("glyph_vectors").length, array("positions").length);
+  const middles = array("section_nodes").filter((node) => node === 0xffffffff).length;
+  assert.ok(middles > 4 && array("section_glyph_vectors").length === 3 * middles, `${middles} polygons`);
   const averaged = await frameOf("scalar=von_mises&averaged=1&glyphs=stress");
   assert.equal(averaged.head.location, "corner");
   assert.equal(averaged.array("glyph_axes").length, 3 * averaged.array("glyph_values").length);
@@ -80,13 +82,22 @@ test("a section is switched on by a key, moved by keys, slider, number and handl
   await until(() => said(page, "section").startsWith("0,0,1,"), "across z");
   const before = Number(said(page, "section").split(",")[3]);
   // the handle stands in the middle of the plane's outline: it is found by the cursor that it gives
-  const handle = await until(() => handleAt(page), "the handle");
+  const handle = await until(() => handleAt(page, "grab"), "the handle");
   await page.mouse.move(handle.x, handle.y);
   await page.mouse.down();
   await page.mouse.move(handle.x, handle.y - 40, { steps: 5 });
   await page.mouse.up();
   await until(() => Number(said(page, "section").split(",")[3]) > before + 1e-4, "moved along z by the handle");
   assert.equal(await page.locator(".probe-list li").count(), 0, "a drag of the handle is no click");
+  const tip = await until(() => handleAt(page, "move"), "the tip of the arrow");
+  await page.mouse.move(tip.x, tip.y);
+  await page.mouse.down();
+  await page.mouse.move(tip.x + 30, tip.y, { steps: 5 });
+  await page.mouse.up();
+  await until(() => Math.abs(Number(said(page, "section").split(",")[0])) > 0.1, "tilted");
+  const normal = said(page, "section").split(",").slice(0, 3).map(Number);
+  assert.ok(Math.abs(Math.hypot(...normal) - 1) < 1e-6, "a unit normal");
+  assert.equal(await page.getByLabel("Plane", { exact: true }).inputValue(), "free");
   const cut = await picture(page);
   const url = page.url();
   await done();
@@ -99,17 +110,17 @@ test("a section is switched on by a key, moved by keys, slider, number and handl
 });
 
 /** Where the cursor says that the plane can be moved. */
-async function handleAt(page) {
-  return await page.locator(".pane canvas").evaluate((canvas) => {
+async function handleAt(page, cursor) {
+  return await page.locator(".pane canvas").evaluate((canvas, cursor) => {
     const box = canvas.getBoundingClientRect();
     for (let y = 60; y < box.height - 60; y += 6) {
       for (let x = 100; x < box.width - 100; x += 6) {
         canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: box.left + x, clientY: box.top + y }));
-        if (canvas.style.cursor === "grab") return { x: box.left + x, y: box.top + y };
+        if (canvas.style.cursor === cursor) return { x: box.left + x, y: box.top + y };
       }
     }
     return null;
-  });
+  }, cursor);
 }
 
 test("a click on a cut face probes what is inside", async () => {

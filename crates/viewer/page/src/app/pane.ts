@@ -41,7 +41,7 @@ export class Pane {
     const title = app.isComparison ? h("h2", { class: "pane-title" }, `${session.index === app.sessions[0]!.index ? "A" : "B"} · ${run.name}`, h("small", { title: run.path }, run.path)) : null;
     this.element = h("section", { class: "pane", "aria-label": `Picture of ${run.name}` }, this.canvas, title, this.legend.element, this.trouble);
     try {
-      this.viewport = new Viewport(this.canvas, run, { dark: isDark(app.view.theme) });
+      this.viewport = new Viewport(this.canvas, run, { dark: isDark(app.view.theme), quantity: (value, unit) => quantity(value, unit, 3) });
       if (this.viewport.lost) this.fail();
     } catch (fault) {
       this.viewport = null;

@@ -92,7 +92,7 @@ function probeList(app: App, probes: Probes): Part {
       }));
     }
     places.forEach(({ place, session }, i) => {
-      const ofCell = scalar?.location === "cell" && place.of === "node" ? (isMean(app, session, place) ? " (mean of its elements)" : ` (element ${place.cell})`) : "";
+      const ofCell = scalar?.location === "cell" && place.of === "node" ? (isMean(app, place, scalar) ? " (mean of its elements)" : ` (element ${place.cell})`) : "";
       const ofNodes = scalar?.location === "node" && place.of === "cell" ? " (mean of its nodes)" : "";
       setText(values[i]!, scalar ? quantity(probes.now(session, place), scalar.unit) + ofCell + ofNodes : "");
     });
@@ -100,10 +100,40 @@ function probeList(app: App, probes: Probes): Part {
   return { element: list, update, plots: [] };
 }
 
+/** Lines of all probes for a quantity. */
+function plotProbes(app: App, probes: Probes, plot: Plot, scalar: Scalar): void {
+  const places = placed(app);
+  const wanted = places.map(({ place, session, colour }): Wanted => ({ label: probes.name(place), unit: scalar.unit, colour, of: () => probes.over(session, place, scalar) }));
+  const { times, lines } = linesOf(app, wanted, [app.sessions[0]!]);
+  for (const { place, session } of places) {
+    const line = lines.find((one) => one.label === probes.name(place));
+    if (line) line.dashed = session !== app.sessions[0];
+  }
+  plot.set(scalar.label, times, lines);
+}
+
 /** A plot of the quantity that is shown, and one of each further quantity that was added. */
 function probePlots(app: App, probes: Probes): Part {
   const shown = new Plot(app, "Values", "No values yet.", app.isComparison);
-  const added = new Map<string, { plot: Plot; element: HTMLElement }>();
+  const added = addedPlots(app, probes);
+  const update = () => {
+    const scalar = app.sessions[0]!.scalar(app.view.scalar);
+    const has = app.view.probes.length > 0 && scalar !== null;
+    shown.element.hidden = !has;
+    if (has) plotProbes(app, probes, shown, scalar);
+    added.update();
+  };
+  return {
+    element: h("div", {}, shown.element, added.element), update,
+    get plots() {
+      return [shown, ...added.plots];
+    },
+  };
+}
+
+/** Plots of further quantities, and the choice that adds one. */
+function addedPlots(app: App, probes: Probes): Part {
+  const known = new Map<string, Plot>();
   const holder = h("div");
   const more = h("select", { onchange: () => {
     if (more.value !== "") app.change({ plots: [...app.view.plots, more.value] });
@@ -111,55 +141,38 @@ function probePlots(app: App, probes: Probes): Part {
   } });
   const add = row("Another plot", more);
   let offered = "";
-
-  const fillPlot = (plot: Plot, scalar: Scalar) => {
-    const places = placed(app);
-    const wanted = places.map(({ place, session, colour }): Wanted => ({ label: probes.name(place), unit: scalar.unit, colour, of: () => probes.over(session, place, scalar) }));
-    const { times, lines } = linesOf(app, wanted, [app.sessions[0]!]);
-    for (const { place, session } of places) {
-      const line = lines.find((one) => one.label === probes.name(place));
-      if (line) line.dashed = session !== app.sessions[0];
-    }
-    plot.set(scalar.label, times, lines);
-  };
-  const make = (key: string, label: string) => {
-    const plot = new Plot(app, label, "No values yet.", app.isComparison, () => app.change({ plots: app.view.plots.filter((other) => other !== key) }));
-    return { plot, element: plot.element };
-  };
-
-  const update = () => {
-    const { view } = app;
-    const session = app.sessions[0]!;
-    const scalar = session.scalar(view.scalar);
-    const has = view.probes.length > 0;
-    const choices = session.run.scalars.filter(({ key }) => key !== view.scalar && !view.plots.includes(key));
+  const offer = () => {
+    const { scalar, plots } = app.view;
+    const choices = app.run.scalars.filter(({ key }) => key !== scalar && !plots.includes(key));
     const key = choices.map((one) => one.key).join(" ");
-    if (key !== offered) {
-      offered = key;
-      fill(more, h("option", { value: "" }, "choose a quantity"), ...choices.map((one) => h("option", { value: one.key }, one.label)));
+    if (key !== offered) fill(more, h("option", { value: "" }, "choose a quantity"), ...choices.map((one) => h("option", { value: one.key }, one.label)));
+    offered = key;
+    add.hidden = app.view.probes.length === 0 || choices.length === 0 || plots.length >= MOST_PLOTS;
+  };
+  const update = () => {
+    offer();
+    const wanted = app.view.probes.length > 0 ? app.view.plots : [];
+    for (const [key, plot] of known) {
+      if (wanted.includes(key)) continue;
+      plot.element.remove();
+      known.delete(key);
     }
-    add.hidden = !has || choices.length === 0 || view.plots.length >= MOST_PLOTS;
-    shown.element.hidden = !has || !scalar;
-    if (has && scalar) fillPlot(shown, scalar);
-    for (const [known, { element }] of added) {
-      if (has && view.plots.includes(known)) continue;
-      element.remove();
-      added.delete(known);
-    }
-    for (const wanted of has ? view.plots : []) {
-      const own = session.scalar(wanted);
-      if (!own) continue;
-      if (!added.has(wanted)) {
-        added.set(wanted, make(wanted, own.label));
-        holder.append(added.get(wanted)!.element);
+    for (const key of wanted) {
+      const scalar = app.sessions[0]!.scalar(key);
+      if (!scalar) continue;
+      let plot = known.get(key);
+      if (plot === undefined) {
+        plot = new Plot(app, scalar.label, "No values yet.", app.isComparison, () => app.change({ plots: app.view.plots.filter((other) => other !== key) }));
+        known.set(key, plot);
+        holder.append(plot.element);
       }
-      fillPlot(added.get(wanted)!.plot, own);
+      plotProbes(app, probes, plot, scalar);
     }
   };
   return {
-    element: h("div", {}, shown.element, holder, add), update,
+    element: h("div", {}, holder, add), update,
     get plots() {
-      return [shown, ...[...added.values()].map(({ plot }) => plot)];
+      return [...known.values()];
     },
   };
 }

@@ -53,29 +53,15 @@ function nameOf(section: SectionPlane | null): string {
   return found?.[0] ?? "free";
 }
 
-export function sectionGroup(app: App, stage: Stage): HTMLElement {
+type Change = (section: SectionPlane | null) => void;
+
+/** Slider and number of the offset; keys on the slider move by parts of its way. */
+function placeRows(app: App, change: Change): { rows: HTMLElement[]; update: (plane: SectionPlane) => void } {
   const now = () => app.view.picture.section;
-  const set = (section: SectionPlane | null) => app.picture({ section });
-  // any plane stays chosen where its normal is an axis
-  let isFree = false;
-  const kind = choice([["none", "none"], ["x", "across x"], ["y", "across y"], ["z", "across z"], ["free", "any plane"]], nameOf(now()), (value) => {
-    isFree = value === "free";
-    if (value === "none") set(null);
-    else if (value === "free") set(now() ?? through(app, unitOf([1, 1, 1])));
-    else set(through(app, AXES[value]!));
-  });
-  const facing = h("button", { type: "button", class: "small", onclick: () => {
-    const plane = stage.active?.viewport?.facing();
-    if (plane) set(plane);
-  } }, "Face the camera");
-  const flip = h("button", { type: "button", class: "small", onclick: () => {
-    const plane = now();
-    if (plane) set({ normal: plane.normal.map((n) => -n + 0) as Vector, offset: -plane.offset });
-  } }, "Other side");
   const slider = h("input", { type: "range", step: "any", "aria-label": "Place of the section", oninput: () => {
     const plane = now();
     app.isDragging = true;
-    if (plane) set({ ...plane, offset: Number(slider.value) });
+    if (plane) change({ ...plane, offset: Number(slider.value) });
   }, onchange: () => {
     app.isDragging = false;
     app.player.update();
@@ -90,26 +76,10 @@ export function sectionGroup(app: App, stage: Stage): HTMLElement {
   let by = { factor: 1, unit: "m" };
   const place = numberInput(0, (typed) => {
     const plane = now();
-    if (plane) set({ ...plane, offset: typed * by.factor });
+    if (plane) change({ ...plane, offset: typed * by.factor });
   }, { step: "any", class: "number-box", "aria-label": "Place of the section, number" });
   const unit = h("span", { class: "unit" });
-  const normal = [0, 1, 2].map((axis) => numberInput(0, (typed) => {
-    const plane = now();
-    if (!plane) return;
-    const wanted = plane.normal.map((n, k) => (k === axis ? typed : n)) as Vector;
-    if (Math.hypot(...wanted) > 0) set(through(app, unitOf(wanted)));
-  }, { step: "any", class: "short", "aria-label": `Normal of the section, ${"xyz"[axis]}` }));
-  const normals = h("div", { class: "row" }, h("span", { class: "label" }, "Normal"), h("div", { class: "inline" }, ...normal));
-  const rows = [row("Place", slider), h("div", { class: "row" }, h("span", { class: "label" }), h("div", { class: "inline" }, place, unit)), normals, h("div", { class: "row" }, h("span", { class: "label" }), h("div", { class: "inline" }, flip, facing)),
-    h("p", { class: "quiet" }, "In the picture: drag the handle to move the plane, the tip of the arrow to tilt it. What lies beyond the arrow is cut away.")];
-
-  const update = () => {
-    const plane = now();
-    for (const one of rows) one.hidden = plane === null;
-    const name = plane !== null && isFree ? "free" : nameOf(plane);
-    if (kind.value !== name) kind.value = name;
-    if (plane === null) return;
-    normals.hidden = name !== "free";
+  const update = (plane: SectionPlane) => {
     const [low, high] = reach(app, plane.normal);
     slider.min = String(low);
     slider.max = String(high);
@@ -117,11 +87,57 @@ export function sectionGroup(app: App, stage: Stage): HTMLElement {
     by = scaled(Math.max(Math.abs(low), Math.abs(high)), "m");
     setText(unit, by.unit);
     slider.setAttribute("aria-valuetext", `${Number((plane.offset / by.factor).toPrecision(4))} ${by.unit}`);
-    const texts: [HTMLInputElement, number][] = [[place, plane.offset / by.factor], ...normal.map((input, k): [HTMLInputElement, number] => [input, plane.normal[k]!])];
-    for (const [input, value] of texts) {
-      const text = String(Number(value.toPrecision(5)));
-      if (document.activeElement !== input && input.value !== text) input.value = text;
-    }
+    setNumber(place, plane.offset / by.factor);
+  };
+  return { rows: [row("Place", slider), unlabelled(place, unit)], update };
+}
+
+function unlabelled(...controls: HTMLElement[]): HTMLElement {
+  return h("div", { class: "row" }, h("span", { class: "label" }), h("div", { class: "inline" }, ...controls));
+}
+
+/** Shows a number unless it is being typed. */
+function setNumber(input: HTMLInputElement, value: number): void {
+  const text = String(Number(value.toPrecision(5)));
+  if (document.activeElement !== input && input.value !== text) input.value = text;
+}
+
+export function sectionGroup(app: App, stage: Stage): HTMLElement {
+  const now = () => app.view.picture.section;
+  const change: Change = (section) => app.picture({ section });
+  // any plane stays chosen where its normal is an axis
+  let isFree = false;
+  const kind = choice([["none", "none"], ["x", "across x"], ["y", "across y"], ["z", "across z"], ["free", "any plane"]], nameOf(now()), (value) => {
+    isFree = value === "free";
+    if (value === "none") change(null);
+    else if (value === "free") change(now() ?? through(app, unitOf([1, 1, 1])));
+    else change(through(app, AXES[value]!));
+  });
+  const facing = h("button", { type: "button", class: "small", onclick: () => {
+    const plane = stage.active?.viewport?.facing();
+    if (plane) change(plane);
+  } }, "Face the camera");
+  const flip = h("button", { type: "button", class: "small", onclick: () => {
+    const plane = now();
+    if (plane) change({ normal: plane.normal.map((n) => -n + 0) as Vector, offset: -plane.offset });
+  } }, "Other side");
+  const place = placeRows(app, change);
+  const normal = [0, 1, 2].map((axis) => numberInput(0, (typed) => {
+    const wanted = now()?.normal.map((n, k) => (k === axis ? typed : n)) as Vector | undefined;
+    if (wanted && Math.hypot(...wanted) > 0) change(through(app, unitOf(wanted)));
+  }, { step: "any", class: "short", "aria-label": `Normal of the section, ${"xyz"[axis]}` }));
+  const normals = h("div", { class: "row" }, h("span", { class: "label" }, "Normal"), h("div", { class: "inline three" }, ...normal));
+  const hint = h("p", { class: "quiet" }, "In the picture: drag the handle to move the plane, the tip of the arrow to tilt it. What lies beyond the arrow is cut away.");
+  const rows = [...place.rows, normals, unlabelled(flip, facing), hint];
+  const update = () => {
+    const plane = now();
+    for (const one of rows) one.hidden = plane === null;
+    const name = plane !== null && isFree ? "free" : nameOf(plane);
+    if (kind.value !== name) kind.value = name;
+    if (plane === null) return;
+    normals.hidden = name !== "free";
+    place.update(plane);
+    normal.forEach((input, k) => setNumber(input, plane.normal[k]!));
   };
   app.events.on(["view", "run"], update);
   update();

@@ -50,7 +50,7 @@ export class Probes {
     const topology = frame ? session.topologies.get(frame.topology) : undefined;
     if (!frame || !scalar || !topology) return null;
     if (frame.scalar === scalar.key) {
-      const at = frame.location === "node" && place.of === "node" ? skinNode(topology.nodeNumbers, place.node) : frame.location === "cell" && !isMean(this.app, session, place) ? shownCell(topology, place.cell) : -1;
+      const at = frame.location === "node" && place.of === "node" ? skinNode(topology.nodeNumbers, place.node) : frame.location === "cell" && !isMean(this.app, place, scalar) ? shownCell(topology, place.cell) : -1;
       const value = at < 0 ? undefined : frame.values[at];
       if (value !== undefined) return Number.isNaN(value) ? null : value;
     }
@@ -62,7 +62,7 @@ export class Probes {
   /** Values over time; null until they are there. Asks for them. */
   over(session: Session, place: ProbePlace, scalar: Scalar | null): Probe | null {
     if (!scalar) return null;
-    const query = place.of === "node" && (scalar.location === "node" || isMean(this.app, session, place)) ? `node=${place.node}` : `cell=${place.cell}`;
+    const query = place.of === "node" && (scalar.location === "node" || isMean(this.app, place, scalar)) ? `node=${place.node}` : `cell=${place.cell}`;
     const path = `api/runs/${session.index}/probe?scalar=${encodeURIComponent(scalar.key)}&${query}`;
     const known = this.known.get(path);
     const frames = session.run.frames.length;
@@ -97,8 +97,9 @@ function shownCell(topology: Topology, cell: number): number {
 }
 
 /** Whether a probe at a node shows the mean of the elements around it for a quantity of elements. */
-export function isMean(app: App, session: Session, place: ProbePlace): boolean {
-  return place.of === "node" && (place.cell < 0 || app.wish(session).averaged);
+export function isMean(app: App, place: ProbePlace, scalar: Scalar): boolean {
+  const { averaged, iso } = app.view.picture;
+  return place.of === "node" && scalar.location === "cell" && (place.cell < 0 || averaged || iso);
 }
 
 /** A cell at a node: that of its first facet or bar; −1 for a node inside. */

@@ -18,6 +18,8 @@ export interface Style {
   hasPoints?: boolean;
   /** What lies behind bodies is not seen. */
   isHidden?: boolean;
+  /** Arrows are not cut by a section: they stand on its faces. */
+  isWhole?: boolean;
 }
 
 type Kind = "faint" | "halo" | "fill";
@@ -74,7 +76,7 @@ export class Arrows {
   private material(kind: Kind): RawShaderMaterial {
     const { style, stage } = this;
     const isScaled = stage.shared.scale.value !== 1 && style.hasPoints !== true;
-    const defines = [isScaled && "SCALED", stage.isCut && "CLIP", style.isLinear && "LINEAR", style.isInward && "INWARD"].filter((name) => typeof name === "string");
+    const defines = [isScaled && "SCALED", stage.isCut && style.isWhole !== true && "CLIP", style.isLinear && "LINEAR", style.isInward && "INWARD"].filter((name) => typeof name === "string");
     const key = `${kind} ${defines.join(" ")}`;
     let material = this.materials.get(key);
     if (material === undefined) {
@@ -106,8 +108,8 @@ export class Arrows {
     for (const layer of this.layers) layer.hide();
   }
 
-  /** `longest` in metres. */
-  show(longest: number): void {
+  /** `longest` in metres; `images`: in which mirror images they are, without them in all. */
+  show(longest: number, images?: readonly boolean[]): void {
     this.hide();
     if (this.count === 0 || !(this.largest.value > 0)) return;
     this.longest.value = longest;
@@ -117,9 +119,9 @@ export class Arrows {
     this.paints.faint.value.set(arrow.x, arrow.y, arrow.z, 0.28);
     this.paints.halo.value.set(halo.x, halo.y, halo.z, 1);
     this.paints.fill.value.set(arrow.x, arrow.y, arrow.z, 1);
-    if (!this.stage.isPlane && this.style.isHidden !== true) this.layers[0]!.show(this.geometry, this.material("faint"));
-    this.layers[1]!.show(this.geometry, this.material("halo"));
-    this.layers[2]!.show(this.geometry, this.material("fill"));
+    if (!this.stage.isPlane && this.style.isHidden !== true) this.layers[0]!.show(this.geometry, this.material("faint"), images);
+    this.layers[1]!.show(this.geometry, this.material("halo"), images);
+    this.layers[2]!.show(this.geometry, this.material("fill"), images);
   }
 
   dispose(): void {

@@ -92,7 +92,7 @@ export class Caps {
   }
 
   /** In which images of the model each plane is: where its mirrored normal is that of the section. */
-  private images(): boolean[][] {
+  images(): boolean[][] {
     const planes = this.sections?.planes ?? [];
     const normal = planes[0]?.normal;
     if (normal === undefined) return [];

@@ -1,6 +1,7 @@
 // What stands over the bodies: marks of probes with their labels, the directions of the axes, a bar of known
 // length.
 
+import type { ArrowKey } from "./arrow_keys";
 import type { Basis } from "./camera";
 import type { PlaneShown } from "./plane";
 import type { Theme } from "./stage";
@@ -19,6 +20,8 @@ export interface Shown {
   rulers: { ends: [[number, number], [number, number]]; colour: string; label: string }[];
   /** The plane of a section, and whether it is being moved. */
   section: (PlaneShown & { isHeld: boolean }) | null;
+  /** Arrows with the size that they stand for. */
+  keys: ArrowKey[];
   theme: Theme;
 }
 
@@ -47,6 +50,7 @@ export function drawOverlay(paper: CanvasRenderingContext2D, shown: Shown): void
   paper.lineCap = "round";
   paper.lineJoin = "round";
   bar(paper, shown, width, height);
+  shown.keys.forEach((key, i) => drawKey(paper, shown, key, width - AIR, height - AIR - 34 - 26 * i));
   axes(paper, shown, height);
   if (shown.section !== null) drawPlane(paper, shown, shown.section);
   for (const ruler of shown.rulers) drawRuler(paper, shown, ruler);
@@ -80,6 +84,29 @@ function bar(paper: CanvasRenderingContext2D, shown: Shown, width: number, heigh
   paper.textAlign = "center";
   paper.textBaseline = "bottom";
   write(paper, shown, lengthText(length), x + 0.5 * length * metre, y - 5, shown.theme.text);
+}
+
+/** An arrow that ends at a place, with its size above it. */
+function drawKey(paper: CanvasRenderingContext2D, shown: Shown, { length, label, colour }: ArrowKey, x: number, y: number): void {
+  const head = Math.min(9, 0.45 * length);
+  for (const [stroke, width] of [[shown.theme.halo, 4.5], [colour, 2.2]] as const) {
+    paper.strokeStyle = stroke;
+    paper.fillStyle = stroke;
+    paper.lineWidth = width;
+    paper.beginPath();
+    paper.moveTo(x - length, y);
+    paper.lineTo(x - head, y);
+    paper.stroke();
+    paper.beginPath();
+    paper.moveTo(x, y);
+    paper.lineTo(x - head, y - 0.42 * head);
+    paper.lineTo(x - head, y + 0.42 * head);
+    paper.closePath();
+    paper.fill();
+  }
+  paper.textAlign = "right";
+  paper.textBaseline = "bottom";
+  write(paper, shown, label, x, y - 4, shown.theme.text);
 }
 
 function axes(paper: CanvasRenderingContext2D, shown: Shown, height: number): void {

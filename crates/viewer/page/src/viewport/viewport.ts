@@ -3,6 +3,7 @@
 import { OrthographicCamera, WebGLRenderer } from "three";
 import type { MapName } from "../colormap";
 import type { Frame, Run, Topology, Vector } from "../types";
+import { arrowKeys, glyphKind } from "./arrow_keys";
 import { Arrows, largestOf } from "./arrows";
 import { Bars } from "./bars";
 import { Caps } from "./caps";
@@ -12,6 +13,7 @@ import { bodyBox, type Box, corners, joined, nearby } from "./extents";
 import { FieldGlyphs } from "./field_glyphs";
 import { Ghost } from "./ghost";
 import { drawOverlay, type Shown } from "./overlay";
+import { picked } from "./picked";
 import { Picker } from "./picking";
 import type { Sight } from "./model_glyphs";
 import { Obstacles } from "./obstacles";
@@ -166,7 +168,7 @@ export class Viewport {
   constructor(
     readonly canvas: HTMLCanvasElement,
     public run: Run,
-    readonly options: { dark: boolean },
+    readonly options: { dark: boolean; quantity: (value: number, unit: string) => string },
   ) {
     const paper = canvas.getContext("2d", { alpha: false });
     if (paper === null) throw new Error("the canvas can't be drawn on");
@@ -323,51 +325,12 @@ export class Viewport {
     const found = this.picker.at(this.camera, x * size.unit, y * size.unit, size.width, size.height);
     this.request();
     if (found === null) return null;
-    const [facets, bars] = [topology.facets.length / 4, topology.bars.length / 2];
-    if (found.row >= facets + bars) return this.pickSection(found.row - facets - bars, found.image, x, y);
-    const isBar = found.row >= facets;
-    const bar = found.row - facets;
-    const nodes = isBar ? [...topology.bars.subarray(2 * bar, 2 * bar + 2)] : [...topology.facets.subarray(4 * found.row, 4 * found.row + 4)];
-    const best = this.nearest(nodes.map((node) => this.place(node)), found.image, x, y);
-    const node = nodes[best]!;
-    const row = { NODE: node, CORNER: isBar ? 4 * facets + 2 * bar + best : 4 * found.row + best, CELL: found.row, PART: -1 }[this.colouring()];
-    return {
-      node: topology.nodeNumbers[node]!,
-      cell: isBar ? topology.barCells[bar]! : topology.facetCells[found.row]!,
-      part: isBar ? topology.barParts[bar]! : topology.facetParts[found.row]!,
-      facet: found.row,
-      position: [0, 1, 2].map((k) => frame.positions[3 * node + k]! + topology.origin[k]!) as Vector,
-      value: finite(frame.values[row]),
-    };
-  }
-
-  /** Which of some places of the model is seen nearest to a place of the canvas, in a mirror image. */
-  private nearest(places: Vector[], image: number, x: number, y: number): number {
-    const sign = this.stage.signs[image] ?? [1, 1, 1];
-    const away = places.map((place) => {
+    const sign = this.stage.signs[found.image] ?? [1, 1, 1];
+    const away = (place: Vector): number => {
       const [u, v] = this.project(place.map((value, k) => value * sign[k]!) as Vector);
       return Math.hypot(u - x, v - y);
-    });
-    return away.indexOf(Math.min(...away));
-  }
-
-  /** What is seen of a section: the element that is cut, and the nearest node of the edges that are cut. */
-  private pickSection(triangle: number, image: number, x: number, y: number): Pick | null {
-    const { topology, frame } = this;
-    const sections = frame?.sections;
-    if (!topology || !frame || !sections || triangle >= sections.cells.length) return null;
-    // the middle of the polygon is no node
-    const corners = [...sections.facets.subarray(3 * triangle, 3 * triangle + 2)];
-    const places = corners.map((corner) => [0, 1, 2].map((k) => sections.points[3 * corner + k]! + topology.origin[k]!) as Vector);
-    const best = this.nearest(places, image, x, y);
-    return {
-      node: sections.nodes[corners[best]!]!,
-      cell: sections.cells[triangle]!,
-      part: sections.parts[triangle]!,
-      facet: -1,
-      position: places[best]!,
-      value: finite(sections.values[frame.location === "cell" ? triangle : corners[best]!]),
     };
+    return picked(found, { topology, frame, colouring: this.colouring(), place: (node) => this.place(node), away });
   }
 
   /** Whether a node is on the skin. */
@@ -576,7 +539,7 @@ export class Viewport {
       this.caps.show(colouring, current.lines, current.iso);
       if (current.undeformed) this.ghost.show();
       else this.ghost.hide();
-      this.glyphs.show(current.arrow_scale);
+      this.glyphs.show(current.arrow_scale, this.caps.images());
       if (current.arrows) this.arrows.show((this.rig.camera.height / 8) * current.arrow_scale);
       else this.arrows.hide();
       if (current.obstacles) this.obstacles.show();
@@ -627,10 +590,18 @@ export class Viewport {
     });
     const plane = this.plane();
     const section = plane === null || this.isBare ? null : { ...planeShown(plane.plane, plane.box, plane.view), isHeld: this.handles.isHeld };
-    return { size: [width, height], unit, basis: this.rig.basis, isPlane: this.run.dimension !== 3, metres: this.rig.camera.height, marks, rulers, section, theme: this.stage.theme };
+    return { size: [width, height], unit, basis: this.rig.basis, isPlane: this.run.dimension !== 3, metres: this.rig.camera.height, marks, rulers, section, keys: this.keys(), theme: this.stage.theme };
   }
-}
 
-function finite(value: number | undefined): number | null {
-  return value !== undefined && Number.isFinite(value) ? value : null;
+  /** What the lengths of arrows stand for. */
+  private keys(): Shown["keys"] {
+    const { current, frame, run, stage } = this;
+    if (frame === null) return [];
+    const box = this.canvas.getBoundingClientRect();
+    const glyph = this.glyphs.key(current.arrow_scale);
+    const kinds = glyphKind(run, current.glyphs, glyph, stage.theme[glyph?.colour ?? "text"]);
+    const length = (this.rig.camera.height / 8) * current.arrow_scale;
+    if (current.arrows && frame.arrows.length > 0 && this.force > 0) kinds.push({ name: "contact force", size: this.force, length, unit: run.arrow_unit, colour: stage.theme.arrow, isRoot: true });
+    return arrowKeys(kinds, box.height / this.rig.camera.height, 0.35 * box.width, this.options.quantity);
+  }
 }

@@ -5,10 +5,11 @@ use crate::input::{self, ModelArguments};
 use crate::numbers::{grouped, table, with_unit};
 use crate::{Failure, terminal};
 use clap::Args;
+use embate_files::preview::Preview;
 use embate_files::results::messages::NO_PICTURES;
 use embate_files::{picture, results};
 use embate_solver::model::Model;
-use embate_solver::simulation::{CostlyElement, Options, Overview, Simulation, TimeStepCosts};
+use embate_solver::simulation::{CostlyElement, Options, Overview, TimeStepCosts};
 use std::path::{Path, PathBuf};
 
 /// Which model, and where the picture goes.
@@ -28,16 +29,28 @@ pub(crate) struct Arguments {
 const WORST: usize = 100;
 
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
-    let loaded = input::load(&arguments.model)?;
-    let model = &loaded.model;
-    let simulation = input::ready(&loaded, &Options::default())?;
-    input::warn(&loaded, &simulation);
+    let ModelArguments { model: path, set, leave } = &arguments.model;
+    let make = |model: &Model| input::simulation(model, &Options::default());
+    let (preview, simulation) = Preview::read(path, set, leave.reach(), &make);
+    let (Some(model), Some(simulation)) = (&preview.model, simulation) else {
+        // What is faulty is seen best in the picture, where there is one.
+        if let Some(model) = preview.model.as_ref().filter(|_| preview.has_bodies())
+            && let Ok(folder) = input::folder(arguments.out.as_deref(), input::default_folder(model))
+            && let Ok(picture) = draw(model, &preview, &folder)
+        {
+            terminal::print(&format!("picture: {}\n", picture.display()))?;
+        }
+        return Err(Failure::Input(CliError::from(&preview.faults)));
+    };
+    if preview.warnings.count > 0 {
+        terminal::report_error(&preview.warnings.rendered);
+    }
     let mut text = overview_text(model, &simulation.overview());
     if arguments.time_step {
         text.push_str(&time_step_text(model, &simulation.time_step_costs(WORST)));
     }
     let folder = input::folder(arguments.out.as_deref(), input::default_folder(model))?;
-    match draw(model, &simulation, &folder) {
+    match draw(model, &preview, &folder) {
         Ok(path) => text.push_str(&format!("picture: {}\n", path.display())),
         Err(message) => terminal::report_error(&CliError::new(&NO_PICTURES, message).to_string()),
     }
@@ -155,10 +168,11 @@ fn time_step_text(model: &Model, costs: &TimeStepCosts) -> String {
     format!("shortest stable steps, safety included\n{}{by_nodes}{by_mesh}{subcycling}", table(&rows, "  "))
 }
 
-/// Draws the mesh.
-fn draw(model: &Model, simulation: &Simulation, folder: &Path) -> Result<PathBuf, String> {
+/// Draws the mesh, with what acts on it and what is faulty.
+fn draw(model: &Model, preview: &Preview, folder: &Path) -> Result<PathBuf, String> {
     std::fs::create_dir_all(folder).map_err(|error| format!("can't create {}: {error}", folder.display()))?;
     let path = folder.join("check.png");
-    let drawn = picture::mesh_png(&simulation.frame(), &simulation.cells(), &results::film_settings(model), &path);
+    let shown = (&preview.frame, &preview.cells, &preview.glyphs[..]);
+    let drawn = picture::model_png(shown, &results::film_settings(model), &path);
     drawn.map(|()| path).map_err(|error| error.to_string())
 }

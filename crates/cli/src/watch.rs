@@ -11,7 +11,7 @@ use embate_files::results::{Appearance, History, Report, RunStatus};
 use embate_files::view::{Bodies, ResultView};
 use embate_solver::model::Model;
 use embate_solver::simulation::Simulation;
-use embate_viewer::{Address, Ended, Live, Server};
+use embate_viewer::{Address, Content, Ended, Live, Server};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::Path;
 use std::sync::Arc;
@@ -40,10 +40,10 @@ pub(crate) struct Page {
 
 impl Page {
     /// Starts the server, reports its address and opens it.
-    pub(crate) fn show(&self, runs: Vec<ShownRun>, live: Option<Arc<Live>>) -> Result<Server, Failure> {
+    pub(crate) fn show(&self, content: Content) -> Result<Server, Failure> {
         let address = Address { host: self.listen, port: self.port, token: self.token.clone() };
         let view = self.view.strip_prefix('#').unwrap_or(&self.view);
-        let server = Server::start(runs, live, view, &address).map_err(|error| Failure::Input(CliError::new(&NO_PAGE, error)))?;
+        let server = Server::start(content, view, &address).map_err(|error| Failure::Input(CliError::new(&NO_PAGE, error)))?;
         terminal::report_error(&format!("page: {}", server.url()));
         if !self.listen.is_loopback() {
             terminal::report_error("others on the network can open it, too, if they know this address: it is not encrypted");
@@ -91,7 +91,7 @@ impl Watching {
         let past = History::read(path).ok().flatten().filter(|_| simulation.steps() > 0);
         let live = Live::new(bodies.clone(), simulation.history_columns(), model.is_of_whole_bodies(), (past.as_ref(), simulation.time()));
         let view = ResultView::begun(path, bodies, kinds, Appearance::of(model), frame.nodes());
-        let server = self.page.show(vec![(path.to_path_buf(), Ok(view))], Some(live.clone()))?;
+        let server = self.page.show(Content::Runs { runs: vec![(path.to_path_buf(), Ok(view))], live: Some(live.clone()) })?;
         Ok(Some(Watched { live, server, keep: self.keep }))
     }
 }

@@ -12,6 +12,7 @@ mod outline;
 mod plain;
 pub mod picture;
 pub mod post_mortem;
+pub mod preview;
 pub mod program;
 mod path_policy;
 pub mod registries;

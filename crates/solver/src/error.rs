@@ -239,7 +239,7 @@ pub(crate) static FAR_PROBE: Message = Message {
 };
 
 /// One fault of a model: where in the input, what is wrong, and what to do.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
     /// Its kind.
     pub kind: &'static Message,
@@ -249,12 +249,20 @@ pub struct Fault {
     pub message: String,
     /// What to do about it; may be empty.
     pub help: String,
+    /// Where in the bodies it is, m, for pictures: empty where it is at no place, or that is not known.
+    pub places: Vec<[f64; 3]>,
 }
 
 impl Fault {
     /// A fault of a kind at `path`.
     pub fn new(kind: &'static Message, path: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self { kind, path: path.into(), message: message.into(), help: help.into() }
+        Self { kind, path: path.into(), message: message.into(), help: help.into(), places: Vec::new() }
+    }
+
+    /// The same at these places, m.
+    #[must_use]
+    pub fn at<const D: usize>(self, places: impl IntoIterator<Item = [f64; D]>) -> Self {
+        Self { places: places.into_iter().map(|place| std::array::from_fn(|d| place.get(d).copied().unwrap_or(0.0))).collect(), ..self }
     }
 }
 

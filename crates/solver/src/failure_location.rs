@@ -37,6 +37,14 @@ where
         self.governor_name(if self.governor == Governor::Schedule { self.bound_by } else { self.governor })
     }
 
+    /// Where the element is that sets the time step, m, if one does.
+    pub(crate) fn governor_place(&self) -> Option<[f64; D]> {
+        let governor = if self.governor == Governor::Schedule { self.bound_by } else { self.governor };
+        let Governor::Element(squared) = governor else { return None };
+        let (g, element) = self.governing_element(squared)?;
+        Some(self.centre(self.mesh.groups[g].nodes_of(element)))
+    }
+
     /// An element by group and number, with its part and place, in words.
     pub(crate) fn element_name(&self, g: usize, element: usize) -> String {
         let group = &self.mesh.groups[g];

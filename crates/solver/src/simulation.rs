@@ -208,6 +208,8 @@ pub struct Overview {
     pub stable_time_step: f64,
     /// What governs it.
     pub governor: String,
+    /// Where the element is that governs it, m; `None`: it is not one element.
+    pub governor_at: Option<[f64; 3]>,
     /// End time over first time step.
     pub steps_expected: u64,
     /// Initial penetrations, one line each: contact, node, place, depth.

@@ -24,6 +24,7 @@ use crate::block::spring::together;
 use crate::block::{Block, Motion, NodalForces, Report};
 use crate::contact::obstacle::OutlineShape;
 use crate::contact::springs::{Springs, Update};
+use crate::contact::tied::leave_out_tied;
 use crate::contact::traces::Traces;
 use crate::contact::{Contact, Scene, Sweep, both};
 use crate::contact_forces::ContactForces;
@@ -67,6 +68,7 @@ where
 {
     springs.clear();
     contacts.iter_mut().for_each(|contact| contact.detect(scene, springs));
+    leave_out_tied(contacts, springs);
 }
 
 /// Bodies, what acts on them, and their state.

@@ -9,11 +9,13 @@ mod access;
 mod bundle;
 mod connections;
 mod live;
+mod model;
 mod routes;
 mod server;
 mod socket;
 mod tap;
 
 pub use live::{Ended, Live};
-pub use server::{Address, Server, ViewerError};
+pub use model::ShownModel;
+pub use server::{Address, Content, Server, ViewerError};
 pub use tap::Tap;

@@ -3,6 +3,8 @@
 
 use crate::connections::Patience;
 use crate::live::Live;
+use crate::model::ShownModel;
+use crate::server::Content;
 use crate::{access, bundle, socket};
 use axum::Router;
 use axum::body::{Body, to_bytes};
@@ -14,7 +16,7 @@ use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
 use axum::routing::get;
 use embate_files::results::ResultsError;
-use embate_files::view::{FrameRequest, ProbePlace, RangeOf, ResultView, SectionRequest};
+use embate_files::view::{FrameRequest, ModelView, ProbePlace, RangeOf, ResultView, SectionRequest, Series};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -28,6 +30,8 @@ const ROWS: usize = 2000;
 pub(crate) struct Shown {
     runs: Vec<Mutex<Run>>,
     pub(crate) live: Option<Arc<Live>>,
+    /// A model before it runs, instead of runs.
+    model: Option<Arc<ShownModel>>,
     view: String,
     token: String,
     port: u16,
@@ -58,15 +62,18 @@ fn found(result: Result<ResultView, ResultsError>) -> Result<Arc<ResultView>, (S
 
 impl Shown {
     pub(crate) fn new(
-        runs: Vec<(PathBuf, Result<ResultView, ResultsError>)>,
-        live: Option<Arc<Live>>,
+        content: Content,
         view: String,
         (token, port): (String, u16),
         patience: Patience,
         stopped: watch::Receiver<bool>,
     ) -> Self {
+        let (runs, live, model) = match content {
+            Content::Runs { runs, live } => (runs, live, None),
+            Content::Model(model) => (Vec::new(), None, Some(model)),
+        };
         let runs = runs.into_iter().map(|(path, result)| Mutex::new(Run { path, found: found(result) })).collect();
-        Self { runs, live, view, token, port, patience, stopped }
+        Self { runs, live, model, view, token, port, patience, stopped }
     }
 
     /// A run by its number.
@@ -76,12 +83,20 @@ impl Shown {
         found.map_err(|(text, code)| Refusal { status: StatusCode::NOT_FOUND, code, text })
     }
 
+    /// The model that is shown as a run of this number.
+    fn model(&self, number: usize) -> Option<Arc<ModelView>> {
+        self.model.as_ref().filter(|_| number == 0).map(|model| model.current())
+    }
+
     /// That of a run that is watched.
     fn live(&self, number: usize) -> Option<&Arc<Live>> {
         self.live.as_ref().filter(|_| number == 0)
     }
 
     fn description(&self, number: usize) -> Result<Value, Refusal> {
+        if let Some(model) = self.model(number) {
+            return serde_json::to_value(model.description()).map_err(|error| Refusal::nothing(&error.to_string()));
+        }
         let mut description = self.run(number)?.description()?;
         if let Some(live) = self.live(number) {
             description.is_over = live.shared().ended.is_some();
@@ -90,12 +105,16 @@ impl Shown {
     }
 
     fn all(&self) -> Value {
+        if self.model.is_some() {
+            let run = self.description(0).unwrap_or_default();
+            return json!({ "version": env!("CARGO_PKG_VERSION"), "view": self.view, "live": false, "model": true, "runs": [run] });
+        }
         let described = (0..self.runs.len()).map(|number| {
             let path = self.runs[number].lock().unwrap_or_else(PoisonError::into_inner).path.to_string_lossy().into_owned();
             self.description(number).unwrap_or_else(|refusal| json!({ "path": path, "fault": refusal.text, "code": refusal.code }))
         });
         let is_live = self.live.as_ref().is_some_and(|live| live.shared().ended.is_none());
-        json!({ "version": env!("CARGO_PKG_VERSION"), "view": self.view, "live": is_live, "runs": described.collect::<Vec<_>>() })
+        json!({ "version": env!("CARGO_PKG_VERSION"), "view": self.view, "live": is_live, "model": false, "runs": described.collect::<Vec<_>>() })
     }
 }
 
@@ -171,6 +190,7 @@ pub(crate) fn router(shown: Arc<Shown>) -> Router {
             .route("/api/runs/{run}/track", get(track))
             .route("/api/runs/{run}/topology/{topology}", get(topology))
             .route("/api/runs/{run}/frames/{frame}", get(frame))
+            .route("/api/model", get(model))
             .route("/api/live", get(live));
     Router::new()
         .route("/{token}/", get(|| async { bundle::file("").ok_or(Refusal::nothing("there is no page")) }))
@@ -246,6 +266,7 @@ struct Wanted {
     glyphs: Option<String>,
     section: Option<String>,
     scale: Option<f64>,
+    since: Option<usize>,
 }
 
 impl Wanted {
@@ -266,11 +287,22 @@ pub(crate) fn frame_request(
     Ok(FrameRequest { scalar, averaged, arrows, glyphs, section })
 }
 
+/// What is known of a model before it runs, when that is something else than the page has seen.
+async fn model(State(shown): State<Arc<Shown>>, Query(wanted): Query<Wanted>) -> Answer {
+    let model = shown.model.as_ref().ok_or(Refusal::nothing("no model is shown here"))?;
+    let found = match wanted.since {
+        Some(seen) => model.after(seen, shown.stopped.clone()).await,
+        None => model.current(),
+    };
+    data(found.about())
+}
+
 async fn history(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
     beside(move || {
-        let series = match shown.live(run) {
-            Some(live) => live.history(),
-            None => shown.run(run)?.history(wanted.rows.unwrap_or(ROWS).clamp(2, 100_000))?,
+        let series = match (shown.live(run), shown.model(run)) {
+            (Some(live), _) => live.history(),
+            (None, Some(_)) => Series::default(),
+            (None, None) => shown.run(run)?.history(wanted.rows.unwrap_or(ROWS).clamp(2, 100_000))?,
         };
         data(&json!(series))
     })
@@ -280,7 +312,11 @@ async fn history(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, 
 async fn range(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
     beside(move || {
         let of = RangeOf { inside: wanted.inside == Some(1), averaged: wanted.averaged == Some(1) };
-        let (range, frames) = shown.run(run)?.range(&wanted.scalar.unwrap_or_default(), of)?;
+        let scalar = wanted.scalar.unwrap_or_default();
+        let (range, frames) = match shown.model(run) {
+            Some(model) => model.range(&scalar, of),
+            None => shown.run(run)?.range(&scalar, of)?,
+        };
         data(&json!({ "range": range, "frames": frames }))
     })
     .await
@@ -288,8 +324,11 @@ async fn range(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, us
 
 async fn probe(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
     beside(move || {
-        let place = wanted.place()?;
-        let probed = shown.run(run)?.probe(&wanted.scalar.unwrap_or_default(), place)?;
+        let (place, scalar) = (wanted.place()?, wanted.scalar.unwrap_or_default());
+        let probed = match shown.model(run) {
+            Some(model) => model.probe(&scalar, place),
+            None => shown.run(run)?.probe(&scalar, place)?,
+        };
         data(&json!(probed.ok_or(Refusal::nothing("there is no such node, cell or field"))?))
     })
     .await
@@ -297,7 +336,10 @@ async fn probe(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, us
 
 async fn track(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, usize)>, Query(wanted): Query<Wanted>) -> Answer {
     beside(move || {
-        let track = shown.run(run)?.track(wanted.place()?)?;
+        let track = match shown.model(run) {
+            Some(model) => model.track(wanted.place()?),
+            None => shown.run(run)?.track(wanted.place()?)?,
+        };
         data(&json!(track.ok_or(Refusal::nothing("there is no such node or cell"))?))
     })
     .await
@@ -305,9 +347,10 @@ async fn track(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, us
 
 async fn topology(State(shown): State<Arc<Shown>>, Path((_, run, number)): Path<(String, usize, usize)>) -> Answer {
     beside(move || {
-        let bodies = match shown.live(run) {
-            Some(live) => live.bodies(),
-            None => shown.run(run)?.bodies().clone(),
+        let bodies = match (shown.live(run), shown.model(run)) {
+            (Some(live), _) => live.bodies(),
+            (None, Some(model)) => model.bodies().clone(),
+            (None, None) => shown.run(run)?.bodies().clone(),
         };
         let topology = bodies.numbered(number).ok_or(Refusal::nothing("no frame has named this topology"))?;
         bytes(bodies.container(&topology).bytes())
@@ -324,6 +367,9 @@ async fn frame(
         let Wanted { scalar, averaged, arrows, glyphs, section, scale, .. } = wanted;
         let section = section.as_deref().map(|planes| (planes, scale.unwrap_or(1.0)));
         let frame_request = frame_request(scalar, [averaged, arrows].map(|on| on == Some(1)), glyphs, section).map_err(Refusal::unclear)?;
+        if let Some(model) = shown.model(run) {
+            return bytes(model.frame(&frame_request).bytes());
+        }
         let frame = shown.run(run)?.frame(number, &frame_request)?;
         bytes(frame.ok_or(Refusal::nothing("there is no frame of this number"))?.bytes())
     })

@@ -3,6 +3,7 @@
 use crate::access;
 use crate::connections::{self, Patience};
 use crate::live::Live;
+use crate::model::ShownModel;
 use crate::routes::{self, Shown};
 use embate_files::results::ResultsError;
 use embate_files::view::ResultView;
@@ -55,7 +56,21 @@ pub enum ViewerError {
     },
 }
 
-/// A server that shows one run, or two beside each other.
+/// What a server shows.
+#[derive(Debug)]
+pub enum Content {
+    /// Runs: folders, or why they can't be shown.
+    Runs {
+        /// One, or two beside each other.
+        runs: Vec<(PathBuf, Result<ResultView, ResultsError>)>,
+        /// What the first one reports while it continues.
+        live: Option<Arc<Live>>,
+    },
+    /// A model before it runs.
+    Model(Arc<ShownModel>),
+}
+
+/// A server that shows one run, two beside each other, or a model.
 #[derive(Debug)]
 pub struct Server {
     url: String,
@@ -67,27 +82,15 @@ pub struct Server {
 const GOODBYE: Duration = Duration::from_millis(1500);
 
 impl Server {
-    /// Starts to listen. `runs`: folders that are shown, or why they can't be; the first is that of `live`.
-    /// `view`: what the page shows first, as it stands in a link.
+    /// Starts to listen. `view`: what the page shows first, as it stands in a link.
     ///
     /// # Errors
     /// [`ViewerError`].
-    pub fn start(
-        runs: Vec<(PathBuf, Result<ResultView, ResultsError>)>,
-        live: Option<Arc<Live>>,
-        view: &str,
-        address: &Address,
-    ) -> Result<Self, ViewerError> {
-        Self::start_with(Patience::default(), runs, live, view, address)
+    pub fn start(content: Content, view: &str, address: &Address) -> Result<Self, ViewerError> {
+        Self::start_with(Patience::default(), content, view, address)
     }
 
-    pub(crate) fn start_with(
-        patience: Patience,
-        runs: Vec<(PathBuf, Result<ResultView, ResultsError>)>,
-        live: Option<Arc<Live>>,
-        view: &str,
-        address: &Address,
-    ) -> Result<Self, ViewerError> {
+    pub(crate) fn start_with(patience: Patience, content: Content, view: &str, address: &Address) -> Result<Self, ViewerError> {
         let system = |what: &'static str| move |error: std::io::Error| ViewerError::System { what: format!("{what}: {error}") };
         let token = match &address.token {
             Some(token) if access::is_token(token) => token.clone(),
@@ -102,8 +105,8 @@ impl Server {
         let runtime = Builder::new_current_thread().enable_all().max_blocking_threads(3).build().map_err(system("no event loop"))?;
         let (stop, stopped) = watch::channel(false);
         let url = format!("http://{}/{token}/", own.to_string().replacen("0.0.0.0", "127.0.0.1", 1).replacen("[::]", "[::1]", 1));
-        let watched = live.clone();
-        let shown = Arc::new(Shown::new(runs, live, view.into(), (token, own.port()), patience, stopped.clone()));
+        let watched = if let Content::Runs { live, .. } = &content { live.clone() } else { None };
+        let shown = Arc::new(Shown::new(content, view.into(), (token, own.port()), patience, stopped.clone()));
         let serve = async move {
             let Ok(listener) = TcpListener::from_std(listener) else { return };
             let serving = connections::serve(listener, routes::router(shown), patience, stopped.clone());

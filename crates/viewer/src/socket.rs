@@ -247,7 +247,7 @@ impl Viewer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::server::{Address, Server};
+    use crate::server::{Address, Content, Server};
     use embate_files::model_file;
     use embate_files::view::Bodies;
     use embate_solver::simulation::{Options, Simulation};
@@ -274,7 +274,8 @@ part = [{ name = "block", material = "steel", rectangle = { corner = [0, 0], siz
         let simulation = Simulation::new(&model, &Options::default()).unwrap();
         let bodies = Arc::new(Bodies::new(simulation.cells(), &simulation.frame()));
         let live = Live::new(bodies, simulation.history_columns(), false, (None, 0.0));
-        let server = Server::start_with(PATIENCE, Vec::new(), Some(live.clone()), "", &Address::default()).unwrap();
+        let server =
+            Server::start_with(PATIENCE, Content::Runs { runs: Vec::new(), live: Some(live.clone()) }, "", &Address::default()).unwrap();
         let (host, token) = server.url().trim_start_matches("http://").trim_end_matches('/').split_once('/').unwrap();
         let mut stream = TcpStream::connect(host).unwrap();
         stream.set_read_timeout(Some(LONG)).unwrap();

@@ -1,6 +1,6 @@
 //! Everything that does not step: usage, lists, schema, starter models, results in the way.
 
-use crate::{embate, fresh};
+use crate::{FLIGHT, embate, fresh};
 use embate_solver::{contact, element, material, output};
 use std::fs;
 use std::path::Path;
@@ -188,6 +188,24 @@ fn every_template_is_checked_without_a_warning_and_makes_pictures() {
     }
     let unknown = embate(&folder, ["new", "x", "--template", "cube"]);
     assert!(unknown.code == Some(2) && unknown.err.contains("drop-test"), "{}", unknown.err);
+}
+
+#[test]
+fn check_draws_what_is_left_of_a_faulty_model() {
+    let folder = fresh("check-faulty");
+    fs::write(folder.join("model.toml"), FLIGHT.replace("material = \"steel\"", "material = \"steal\"")).unwrap();
+    let answer = embate(&folder, ["check", "model.toml", "--out", "out"]);
+    assert!(
+        answer.code == Some(2) && answer.err.contains("steal") && answer.out.contains("picture: out/check.png"),
+        "{}{}",
+        answer.out,
+        answer.err
+    );
+    assert!(folder.join("out/check.png").is_file());
+    // Where nothing is left nothing is drawn.
+    fs::write(folder.join("model.toml"), FLIGHT.replace("[2, 2]", "[0, 2]")).unwrap();
+    let answer = embate(&folder, ["check", "model.toml", "--out", "none"]);
+    assert!(answer.code == Some(2) && answer.out.is_empty() && !folder.join("none").exists(), "{}{}", answer.out, answer.err);
 }
 
 #[test]

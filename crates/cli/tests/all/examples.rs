@@ -486,6 +486,24 @@ fn a_plate_sinks_into_the_foam_pad_as_deep_as_its_flow_curve_says() {
 }
 
 #[test]
+fn a_bracket_from_cad_lands_on_its_corner_and_rises_by_the_impulse_of_the_floor() {
+    let results = run("dropped-bracket", "example-dropped-bracket");
+    results.is_sound(1e-3);
+    let (times, speeds) = (results.column("time"), results.column("bracket.vz"));
+    let end = |values: &[f64]| *values.last().unwrap();
+    // The volume of the drawing: two legs, what rounds their corner, without two holes.
+    let volume = 60.0 * 40.0 * 8.0 + 52.0 * 40.0 * 8.0 + (64.0 - 16.0 * PI) * 40.0 - 2.0 * PI * 36.0 * 8.0;
+    let mass = 2.0 * results.column("energy.kinetic")[0] / 64.0;
+    is_near(mass, 2700.0 * volume * 1e-9, 5e-3 * mass);
+    let forces = results.column("obstacle.force_z[floor]");
+    let impulse: f64 = (1..times.len()).map(|row| forces[row] * (times[row] - times[row - 1])).sum();
+    is_near(impulse, mass * (end(&speeds) - speeds[0] + 9.81 * end(&times)), 1e-5 * impulse);
+    // It has left the floor, upwards, and turns, since the corner is not below its centre.
+    assert!(end(&forces) == 0.0 && end(&speeds) > 0.0 && end(&results.column("bracket.spin_x")).abs() > 50.0);
+    is_near(end(&results.column("energy.plastic")), 2.05, 0.2);
+}
+
+#[test]
 fn rolls_thin_a_strip_with_the_force_of_the_slab_theory() {
     let results = run("strip-rolling", "example-strip-rolling");
     results.is_sound(1e-5);

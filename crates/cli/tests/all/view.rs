@@ -210,7 +210,8 @@ fn a_folder_without_results_and_a_short_token_are_refused() {
         assert_eq!(answer.code, Some(2));
         answer.err
     };
-    assert!(reported(&["view", "."]).contains("E0732"));
+    fs::create_dir(folder.join("empty")).unwrap();
+    assert!(reported(&["view", "empty"]).contains("E0732"));
     assert!(reported(&["view", "nowhere"]).contains("there is no such folder"));
     assert!(reported(&["view", "out", "--token", "short"]).contains("E0821"));
     let page = Page::open(&folder, &["view", "out"]);
@@ -248,4 +249,56 @@ fn a_page_that_is_kept_shows_the_results_when_the_run_is_over() {
     // Orders come by the socket alone, and that asks where one comes from.
     let upgrade = "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
     assert_eq!(page.get(&format!("/{}/api/live", page.token), upgrade).0, 403);
+}
+
+#[test]
+fn a_model_is_shown_before_it_runs_and_followed_while_it_is_edited() {
+    let folder = fresh("view-model");
+    let file = folder.join("model.toml");
+    fs::write(&file, FLIGHT).unwrap();
+    let page = Page::open(&folder, &["view", "."]);
+    let json = |path: &str| -> serde_json::Value {
+        let (status, body) = page.own(path);
+        assert_eq!(status, 200, "{path}: {}", String::from_utf8_lossy(&body));
+        serde_json::from_slice(&body).unwrap()
+    };
+    let runs = json("api/runs");
+    assert_eq!(
+        (&runs["model"], &runs["runs"][0]["elements"], &runs["runs"][0]["frames"][0]["number"]),
+        (&true.into(), &4.into(), &1.into())
+    );
+    let about = json("api/model");
+    assert_eq!((&about["version"], about["faults"].as_array().unwrap().len(), &about["has_bodies"]), (&1.into(), 0, &true.into()));
+    assert!(about["glyphs"].as_array().unwrap().iter().any(|glyph| glyph["kind"] == "velocity"), "{about}");
+    for (path, status) in [
+        ("api/runs/0/frames/1?scalar=stable_step", 200),
+        ("api/runs/0/topology/0", 200),
+        ("api/runs/0/topology/9", 404),
+        ("api/runs/0/history", 200),
+        ("api/runs/0/range?scalar=element_quality", 200),
+        ("api/runs/0/probe?scalar=element_quality&cell=3", 200),
+        ("api/runs/0/probe?scalar=element_quality&cell=4", 404),
+        ("api/runs/1", 404),
+        ("api/model?since=x", 400),
+    ] {
+        assert_eq!(page.own(path).0, status, "{path}");
+    }
+    // Each state of the file is one of the page, whatever it is.
+    fs::write(&file, FLIGHT.replace("7800", "-7800")).unwrap();
+    let faulty = json("api/model?since=1");
+    assert_eq!((&faulty["version"], &faulty["has_bodies"]), (&2.into(), &true.into()));
+    assert!(faulty["faults"][0]["line"].as_u64().unwrap() > 0 && faulty["faults"][0]["code"] == "E0110", "{}", faulty["faults"]);
+    fs::write(&file, "run = {").unwrap();
+    assert_eq!(json("api/model?since=2")["has_bodies"], false);
+    fs::remove_file(&file).unwrap();
+    assert_eq!(json("api/model?since=3")["faults"][0]["code"], "E0101");
+    fs::write(&file, FLIGHT.replace("[2, 2]", "[4, 4]")).unwrap();
+    let again = json("api/model?since=4");
+    assert_eq!((&again["version"], again["faults"].as_array().unwrap().len()), (&5.into(), 0), "{again}");
+    let run = json("api/runs/0");
+    assert_eq!((&run["elements"], &run["frames"][0]["number"]), (&16.into(), &5.into()));
+    drop(page);
+    // A model is shown alone.
+    let answer = embate(&folder, ["view", "model.toml", "out", "--no-open"]);
+    assert!(answer.code == Some(2) && answer.err.contains("alone"), "{}", answer.err);
 }

@@ -4,7 +4,7 @@ use super::{Meshed, Unit};
 use crate::abaqus::import::quoted;
 use crate::numbers::{grouped, significant};
 use crate::outline::{cross, dot};
-use embate_solver::mesh::cell::{Cell, CellKind};
+use embate_solver::mesh::cell::Cell;
 use embate_solver::mesh::geometry::CellGeometry;
 use embate_solver::mesh::surface::{self, Corners, Facet};
 use embate_solver::model::MeshGroup;
@@ -147,17 +147,9 @@ impl Meshed {
         if is_flat { format!("({})", first.map(|n| significant(three(n + 0.0))).join(", ")) } else { "curved".to_string() }
     }
 
-    /// Shape of a tetrahedron, whatever the order of its nodes: six times its volume over the third power of
-    /// its longest edge; of other cells that of [`CellGeometry::shape_quality`].
+    /// See [`CellGeometry::shape_quality`].
     fn shape(&self, cell: Cell<'_>) -> f64 {
-        let positions = &self.mesh.positions;
-        let cell = cell.of_corners();
-        if cell.kind != CellKind::Tetrahedron {
-            return Dim::<3>::shape_quality(cell, positions);
-        }
-        let square = |[a, b]: [u32; 2]| (0..3).map(|d| (positions[b as usize][d] - positions[a as usize][d]).powi(2)).sum::<f64>();
-        let longest = cell.edges().map(square).fold(0.0, f64::max);
-        6.0 * Dim::<3>::size(cell, positions) / (longest * longest.sqrt())
+        Dim::<3>::shape_quality(cell.of_corners(), &self.mesh.positions)
     }
 
     fn middle(&self, cell: Cell<'_>) -> Vector {

@@ -35,7 +35,7 @@ enum Severity {
 }
 
 /// One fault or warning with its place.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
     /// Its kind.
     pub kind: &'static Message,
@@ -53,6 +53,8 @@ pub struct Diagnostic {
     pub consequence: String,
     /// What to do; may be empty.
     pub help: String,
+    /// Where in the bodies it is, m, as far as that is known.
+    pub places: Vec<[f64; 3]>,
 }
 
 /// The line that a fault shows, and the marked bytes in it; no text for a line that is too long to show.
@@ -79,6 +81,7 @@ struct Problem {
     consequence: String,
     help: String,
     place: Option<Place>,
+    places: Vec<[f64; 3]>,
 }
 
 /// Collects faults; knows which paths are faulty already, so that no fault is reported twice.
@@ -98,7 +101,13 @@ impl Faults {
 
     /// A fault that leaves the values at and under `path` meaningful.
     pub(crate) fn beside(&mut self, kind: &'static Message, path: &str, place: Option<Place>, (message, help): (String, String)) {
-        self.problems.push(Problem { kind, path: path.to_string(), message, consequence: String::new(), help, place });
+        self.problems.push(Problem { kind, path: path.to_string(), message, consequence: String::new(), help, place, places: Vec::new() });
+    }
+
+    /// A fault that was found in the model, or when a simulation was made of it.
+    pub(crate) fn of_model(&mut self, fault: Fault) {
+        let Fault { kind, path, message, help, places } = fault;
+        self.problems.push(Problem { kind, path, message, consequence: String::new(), help, place: None, places });
     }
 
     /// Warnings of a model that has no faults.
@@ -110,6 +119,7 @@ impl Faults {
             consequence: consequence.clone(),
             help: help.clone(),
             place: None,
+            places: Vec::new(),
         };
         Self { problems: warnings.iter().map(of).collect(), severity: Severity::Warning, ..Self::default() }
     }
@@ -187,6 +197,7 @@ impl Faults {
                 message: problem.message,
                 consequence: problem.consequence,
                 help: problem.help,
+                places: problem.places,
             });
         }
         let mut diagnostics = Diagnostics { rendered: String::new(), count: entries.len(), entries, lines, severity: self.severity };
@@ -239,6 +250,12 @@ impl Cursor {
 }
 
 impl Diagnostics {
+    /// None.
+    #[must_use]
+    pub(crate) fn none() -> Self {
+        Faults::default().into_diagnostics(&[], None)
+    }
+
     /// Faults without a text that they could point into.
     pub(crate) fn plain(kind: &'static Message, file: String, message: String, help: String) -> Self {
         let mut faults = Faults::default();

@@ -86,6 +86,19 @@ pub fn load_with_additions(
     Template::load_with(path, &[added], set, reach)?.with_meshes(given).loaded(&[])
 }
 
+/// [`load_with_places`] of a model as far as it can be read, with its faults: what is faulty has values that
+/// stand for what is missing. No model where the file is no TOML.
+#[must_use]
+pub fn load_as_far(path: &Path, set: &[String], reach: PathPolicy) -> (Option<Loaded>, Diagnostics) {
+    match Template::load(path, set, reach) {
+        Ok(template) => {
+            let (loaded, faults) = template.loaded_as_far();
+            (Some(loaded), faults)
+        }
+        Err(faults) => (None, faults),
+    }
+}
+
 /// [`load_with_places`] of a model with faults of one kind alone: as if it had none; `None` where it has
 /// others.
 #[must_use]
@@ -198,9 +211,7 @@ impl Loaded {
     #[must_use]
     pub fn faulty(&self, faults: &[Fault]) -> Diagnostics {
         let mut all = Faults::default();
-        for Fault { kind, path, message, help } in faults {
-            all.beside(kind, path, None, (message.clone(), help.clone()));
-        }
+        faults.iter().cloned().for_each(|fault| all.of_model(fault));
         all.into_diagnostics(&self.sources, Some(&self.root))
     }
 }

@@ -124,6 +124,13 @@ impl Template {
         if faults.is_empty() { Ok(loaded) } else { Err(faults.into_diagnostics(&self.sources, Some(&loaded.root))) }
     }
 
+    /// The model as far as it can be read, and its faults.
+    pub(super) fn loaded_as_far(&self) -> (Loaded, Diagnostics) {
+        let (loaded, faults) = self.read(&[]);
+        let diagnostics = faults.into_diagnostics(&self.sources, Some(&loaded.root));
+        (loaded, diagnostics)
+    }
+
     /// The model, whatever faults of a kind it has; `None` where it has others.
     pub(super) fn loaded_despite(&self, kind: &Message) -> Option<Loaded> {
         let (loaded, faults) = self.read(&[]);
@@ -180,7 +187,7 @@ impl Template {
 fn note(faults: &mut Faults, found: Vec<Fault>) {
     for fault in found {
         if !faults.covers(&fault.path) {
-            faults.beside(fault.kind, &fault.path, None, (fault.message, fault.help));
+            faults.of_model(fault);
         }
     }
 }

@@ -12,6 +12,7 @@ mod body;
 pub(crate) mod colour;
 pub(crate) mod field;
 mod film;
+mod glyphs;
 mod mesh;
 pub(crate) mod neighbourhood;
 mod obstacle;
@@ -31,7 +32,7 @@ mod text;
 mod view;
 
 pub use film::{Film, FilmSettings};
-pub use mesh::mesh_png;
+pub use mesh::{mesh_png, model_png};
 pub(crate) use plots::charts;
 pub use plots::plots;
 pub(crate) use space::base64;

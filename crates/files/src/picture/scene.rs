@@ -4,12 +4,14 @@
 
 use super::body::{Look, Mesh, Values};
 use super::colour::{BORDER, GRID, TEXT, TEXT_FAINT};
+use super::glyphs::{self, Look as GlyphLook};
 use super::obstacle;
 use super::raster::{Canvas, Layer};
 use super::scale::{Ticks, Unit, ticks, unit};
-use super::sheet::{Plan, Sheet, key_width, measures, padded};
+use super::sheet::{Plan, Sheet, key_height, key_width, measures, padded};
 use super::text::{self, Align, Pen, Weight};
 use crate::outline::Line;
+use crate::preview::Glyph;
 
 /// From metres to pixels: equal scale in both directions, y upwards.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +71,12 @@ impl Scene {
         for _ in 0..2 {
             let wide = (right - left).max(20.0);
             let natural = (f64::from(wide) * span[1] / span[0]).min(1e5) as f32;
-            let high = natural.clamp((13.0 * font).min(height_max - top - below).max(20.0), (height_max - top - below).max(20.0)).round();
+            let high = natural
+                .clamp(
+                    (13.0 * font).max(key_height(&plan.key, font)).min(height_max - top - below).max(20.0),
+                    (height_max - top - below).max(20.0),
+                )
+                .round();
             let scale = (f64::from(wide) / span[0]).min(f64::from(high) / span[1]);
             let centre = [0.5 * (view[0][0] + view[1][0]), 0.5 * (view[0][1] + view[1][1])];
             let middle = [f64::from(left + 0.5 * wide), f64::from(top + 0.5 * high)];
@@ -127,6 +134,25 @@ impl Scene {
         self.layer.compose(canvas, self.sheet.plot[0], self.sheet.plot[1]);
         self.draw_symmetry(canvas);
         self.sheet.note(canvas, moment.note);
+    }
+
+    /// Draws glyphs over a moment.
+    pub(super) fn draw_glyphs(&self, glyphs: &[Glyph], canvas: &mut Canvas) {
+        let (zero, [left, top, ..]) = (self.camera.pixel([0.0, 0.0]), self.sheet.plot);
+        let spot = |[x, y, _]: [f64; 3]| {
+            let at = [zero[0] - left as f64 + self.camera.scale * x, zero[1] - top as f64 - self.camera.scale * y];
+            (at.map(|v| v as f32), true)
+        };
+        let seen = |[x, y, _]: [f64; 3]| [x as f32, -y as f32];
+        let look = GlyphLook {
+            spot: &spot,
+            seen: &seen,
+            pixels: self.camera.scale,
+            plot: self.sheet.plot,
+            unit: self.sheet.unit(),
+            font: self.sheet.font,
+        };
+        glyphs::draw(canvas, glyphs, &look);
     }
 
     /// Where obstacles are drawn in one of the mirror images: on its side of the mirror lines, or a floor

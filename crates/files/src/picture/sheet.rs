@@ -3,9 +3,11 @@
 //! `space` lay out the plot and draw in it.
 
 use super::colour::{self, INK, MAP, TEXT, TEXT_FAINT};
+use super::glyphs;
 use super::raster::Canvas;
 use super::scale::{Unit, ticks, unit};
 use super::text::{self, Align, Pen, Weight};
+use crate::preview::GlyphKind;
 
 /// Height of the arrows at the ends of a colour bar, in widths of the bar.
 const ARROW: f32 = 0.8;
@@ -18,8 +20,8 @@ pub(super) enum Key {
     /// A colour bar: name of the field, SI unit, range, whether values lie below or above it, and names of
     /// the values 0, 1, ... if they are states.
     Bar { label: String, si: &'static str, range: [f64; 2], beyond: [bool; 2], states: &'static [&'static str] },
-    /// Names of parts.
-    Parts(Vec<String>),
+    /// Names of parts, and what glyphs stand for.
+    Parts { names: Vec<String>, glyphs: Vec<(&'static GlyphKind, String)> },
 }
 
 /// What a picture is made for.
@@ -106,8 +108,10 @@ impl Sheet {
                     text::draw(&mut self.still, label, x1 + 0.6 * font, baseline, Align::Left, pen);
                 }
             }
-            Key::Parts(names) => {
-                let rows = (((bottom - top) / (1.7 * font)) as usize).max(1);
+            Key::Parts { names, glyphs } => {
+                // Glyphs stand below the parts, half a row further.
+                let rows =
+                    (((bottom - top) / (1.7 * font)) as usize).saturating_sub(if glyphs.is_empty() { 0 } else { glyphs.len() + 1 }).max(1);
                 let shown = if names.len() > rows { rows - 1 } else { names.len() };
                 let x = right + 1.2 * font;
                 let room = width - x - 2.0 * font;
@@ -122,6 +126,15 @@ impl Sheet {
                     let more = format!("and {} more", names.len() - shown);
                     let pen = Pen { colour: TEXT_FAINT, ..pen };
                     text::draw(&mut self.still, &more, x, top + 1.7 * font * shown as f32 + 0.97 * font, Align::Left, pen);
+                }
+                let first = shown as f32 + if shown < names.len() { 1.5 } else { 0.5 };
+                let unit = self.unit();
+                for (row, (kind, label)) in glyphs.iter().enumerate() {
+                    let y = top + 1.7 * font * (first + row as f32);
+                    let side = (1.3 * font) as usize;
+                    glyphs::sample(&mut self.still, kind, [(x - 0.15 * font) as usize, (y - 0.05 * font).max(0.0) as usize, side], unit);
+                    let label = text::fitted(label, font, Weight::Regular, room);
+                    text::draw(&mut self.still, &label, x + 1.5 * font, y + 0.97 * font, Align::Left, pen);
                 }
             }
         }
@@ -170,7 +183,18 @@ pub(super) fn key_width(plan: &Plan<'_>, font: f32, width: f32) -> f32 {
     match &plan.key {
         Key::Empty => 1.5 * font,
         Key::Bar { si, range, states, .. } => 4.0 * font + widest(&Bar::new(si, *range, states).labels),
-        Key::Parts(names) => (4.2 * font + widest(names)).min(0.3 * width),
+        Key::Parts { names, glyphs } => {
+            let labels: Vec<String> = glyphs.iter().map(|(_, label)| label.clone()).collect();
+            (4.2 * font + widest(names).max(widest(&labels))).min(0.3 * width)
+        }
+    }
+}
+
+/// Height that the names of parts and glyphs need right of the plot, pixels; of many parts no more than some.
+pub(super) fn key_height(key: &Key, font: f32) -> f32 {
+    match key {
+        Key::Parts { names, glyphs } if !glyphs.is_empty() => 1.7 * font * (names.len().min(8) + glyphs.len() + 1) as f32,
+        _ => 0.0,
     }
 }
 

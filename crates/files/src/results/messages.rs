@@ -108,7 +108,7 @@ pub(crate) static UNREADABLE: Message = Message {
 pub static NOTHING_TO_SEE: Message = Message {
     code: "E0732",
     title: "results without anything to look at",
-    example: Example::Command("view ."),
+    example: Example::Shell("mkdir empty\nembate view empty\n"),
     cause: "The folder is not one of results, or its run has not written its first frame, or wrote no fields.",
     remedy: "Give the folder that `embate run` wrote, the one with `fields.pvd`; run the model with `output.fields`.",
 };

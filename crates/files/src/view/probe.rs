@@ -1,5 +1,6 @@
 //! Values and places over all frames of a result folder: of a node or of an element.
 
+use super::bodies::Bodies;
 use super::describe::FrameTime;
 use super::folder::{ResultView, frames};
 use crate::picture::field::Scalar;
@@ -49,7 +50,7 @@ impl ResultView {
     pub fn probe(&self, name: &str, place: ProbePlace) -> Result<Option<Probed>, ResultsError> {
         let Some(scalar) = Scalar::of(self.kinds.iter().copied(), name) else { return Ok(None) };
         let is_cell = scalar.kind.location == Location::Cell;
-        let Some(places) = self.places(place, is_cell) else { return Ok(None) };
+        let Some(places) = places(&self.bodies, place, is_cell) else { return Ok(None) };
         let mut probed = Probed { unit: scalar.kind.unit, label: scalar.label(), ..Probed::default() };
         for (FrameTime { time, .. }, file) in frames(&self.path)? {
             let mut reader = VtuReader::open(&file)?;
@@ -68,30 +69,14 @@ impl ResultView {
         Ok(Some(probed))
     }
 
-    /// Nodes or cells whose mean is the value at a place; none where there is no such place.
-    fn places(&self, place: ProbePlace, is_cell: bool) -> Option<Vec<usize>> {
-        let cells = &self.bodies.cells;
-        match place {
-            ProbePlace::Node(node) if node >= self.nodes => None,
-            ProbePlace::Cell(cell) if cell >= cells.len() => None,
-            ProbePlace::Node(node) if !is_cell => Some(vec![node]),
-            ProbePlace::Cell(cell) if is_cell => Some(vec![cell]),
-            ProbePlace::Node(node) => {
-                Some((0..cells.len()).filter(|&cell| cells.cell(cell).iter().any(|&own| own as usize == node)).collect())
-            }
-            ProbePlace::Cell(cell) => Some(cells.cell(cell).iter().map(|&node| node as usize).filter(|&node| node < self.nodes).collect()),
-        }
-    }
-
     /// Where a node, or the mean of the nodes of an element, is in all frames; none where there is no such
     /// place.
     ///
     /// # Errors
     /// As [`ResultView::frame`].
     pub fn track(&self, place: ProbePlace) -> Result<Option<Track>, ResultsError> {
-        let Some(nodes) = self.places(place, false).filter(|nodes| !nodes.is_empty()) else { return Ok(None) };
-        let initial = nodes.iter().map(|&node| self.bodies.initial(node).unwrap_or([f64::NAN; 3])).collect();
-        let mut track = Track { initial: mean(initial), ..Track::default() };
+        let Some(nodes) = places(&self.bodies, place, false).filter(|nodes| !nodes.is_empty()) else { return Ok(None) };
+        let mut track = Track { initial: initial(&self.bodies, &nodes), ..Track::default() };
         for (FrameTime { time, .. }, file) in frames(&self.path)? {
             let mut reader = VtuReader::open(&file)?;
             self.check(&reader)?;
@@ -101,6 +86,24 @@ impl ResultView {
         }
         Ok(Some(track))
     }
+}
+
+/// Nodes or cells whose mean is the value at a place; none where there is no such place.
+pub(super) fn places(bodies: &Bodies, place: ProbePlace, is_cell: bool) -> Option<Vec<usize>> {
+    let (cells, nodes) = (&bodies.cells, bodies.nodes());
+    match place {
+        ProbePlace::Node(node) if node >= nodes => None,
+        ProbePlace::Cell(cell) if cell >= cells.len() => None,
+        ProbePlace::Node(node) if !is_cell => Some(vec![node]),
+        ProbePlace::Cell(cell) if is_cell => Some(vec![cell]),
+        ProbePlace::Node(node) => Some((0..cells.len()).filter(|&cell| cells.cell(cell).iter().any(|&own| own as usize == node)).collect()),
+        ProbePlace::Cell(cell) => Some(cells.cell(cell).iter().map(|&node| node as usize).filter(|&node| node < nodes).collect()),
+    }
+}
+
+/// Mean of the places of some nodes at the beginning, m.
+pub(super) fn initial(bodies: &Bodies, nodes: &[usize]) -> [f64; 3] {
+    mean(nodes.iter().map(|&node| bodies.initial(node).unwrap_or([f64::NAN; 3])).collect())
 }
 
 /// The mean of some places, of which there is one at least.

@@ -10,6 +10,7 @@ mod model_file;
 mod picture;
 mod picture_space;
 mod post_mortem;
+mod preview;
 mod reach;
 mod registries;
 mod report;

@@ -8,8 +8,8 @@ use crate::error::Fault;
 use crate::mesh::surface::Sided;
 use crate::mesh::surface::tributary::Depth;
 use crate::model;
-use crate::model::Window;
 use crate::model::messages::UNKNOWN_NAME;
+use crate::model::{Partners, Window};
 use crate::tensor::Dim;
 use std::collections::BTreeMap;
 
@@ -39,6 +39,7 @@ where
                 Ok((formulation, terms)) => {
                     let window = self.window(&contact.interface);
                     let made = Contact::new(contact.name.clone(), ContactKind::Contact, formulation, terms, window);
+                    let made = if matches!(contact.partners, Partners::Bodies(_)) { made.of_bodies() } else { made };
                     if let Some(ties) = made.ties() {
                         self.tied_once(&format!("contact[{i}].tied"), &contact.name, &ties.nodes, &mut tied);
                     }

@@ -75,7 +75,7 @@ pub fn fault<const D: usize>(model: &Model, path: &str, name: &str, found: &[Pen
         None => (format!("\"{name}\": {}", summed(found)?), help.to_string()),
         Some(hint) => (format!("\"{name}\": {}: all of the bodies", summed(found)?), hint),
     };
-    Some(Fault::new(&PENETRATION, path, message, help))
+    Some(Fault::new(&PENETRATION, path, message, help).at(found.iter().map(|it| it.place)))
 }
 
 /// The line of a contact or obstacle for the overview, if there are penetrations.

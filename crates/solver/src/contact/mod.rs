@@ -50,7 +50,7 @@ use findings::{CAST, Findings, Overlap};
 use springs::{Answer, Answers, Springs, Totals};
 use std::any::Any;
 use std::ops::Range;
-use tied::Ties;
+use tied::{Beside, Held, Ties};
 use traces::Traces;
 use tracker::{Certificate, SearchReport};
 
@@ -102,6 +102,16 @@ where
     /// Its ties, if it has such.
     fn ties(&self) -> Option<Ties> {
         self.within()?.ties()
+    }
+
+    /// What its ties hold, if it has such.
+    fn held(&self) -> Option<&Held> {
+        self.within()?.held()
+    }
+
+    /// How its springs end at what ties of others hold.
+    fn beside(&self) -> Beside {
+        self.within().map_or(Beside::Nodes, |within| within.beside())
     }
 
     /// Lets go of nodes without elements; of what is made again when surfaces change there is nothing to do.
@@ -229,6 +239,8 @@ where
     terms: usize,
     /// When it acts.
     window: Window,
+    /// Whether it leaves out what others tie.
+    is_of_bodies: bool,
     /// Time of the last detection, s.
     time: f64,
     /// Where its springs of this step lie in the list of all.
@@ -254,9 +266,26 @@ where
             checked: Certificate::default(),
             terms,
             window,
+            is_of_bodies: false,
             time: 0.0,
             found: 0..0,
         }
+    }
+
+    /// The same of bodies: it leaves out what others tie.
+    #[must_use]
+    pub fn of_bodies(self) -> Self {
+        Self { is_of_bodies: true, ..self }
+    }
+
+    /// What its ties hold, if it has such and acts all the time.
+    pub(crate) fn held_all_the_time(&self) -> Option<&Held> {
+        self.formulation.held().filter(|_| self.window.is_always())
+    }
+
+    /// Its springs of the step, if it leaves out what others tie.
+    pub(crate) fn beside_ties(&self) -> Option<(Range<usize>, Beside)> {
+        self.is_of_bodies.then(|| (self.found.clone(), self.formulation.beside()))
     }
 
     /// Keeps what it knows of the past; `springs` is how many there are in this step.
@@ -266,7 +295,7 @@ where
     pub(crate) fn persist(&mut self, archive: &mut Archive<'_>, springs: usize) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
-            name: _, kind: _, terms: _, window: _,
+            name: _, kind: _, terms: _, window: _, is_of_bodies: _,
             totals, penetration, has_pressed, friction_work, formulation, checked, time, found,
         } = self;
         persist_each!(archive; totals, penetration, has_pressed, friction_work, checked, time, &mut found.start, &mut found.end);

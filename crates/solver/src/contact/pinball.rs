@@ -23,6 +23,7 @@ pub mod space;
 use super::checked::Checked;
 use super::formulation::{FormulationKind, Setup, Side, both_passes};
 use super::springs::{Answers, End, Slip, Springs};
+use super::tied::Beside;
 use super::{Formulation, Scene, Vector, length};
 use crate::archive::{Archive, ArchiveResult};
 use follower::{Ball, Follower};
@@ -163,6 +164,10 @@ impl Formulation<2> for Pinball {
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         self.follower.persist(archive)
+    }
+
+    fn beside(&self) -> Beside {
+        Beside::Elements
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

@@ -28,6 +28,7 @@ use super::findings::Findings;
 use super::formulation::{FormulationKind, Setup, Side, both_passes};
 use super::law::{Law, penalty};
 use super::springs::{Answers, Patch, Slip, Spring, Springs};
+use super::tied::Beside;
 use super::tied::surfaces::Bound;
 use super::tracker::{Certificate, SearchReport, Tracker};
 use super::{Formulation, Scene, Sweep, Vector};
@@ -442,6 +443,10 @@ impl Formulation<2> for Segment {
         let segments = self.surfaces().map(|surface| self.tracker.targets()[surface].surface.segments.len());
         let is_there = |facing: &Facing| (0..2).all(|k| (facing.pair[k] as usize) < segments[k]);
         archive.check(self.facing.iter().all(is_there), "a segment is not there")
+    }
+
+    fn beside(&self) -> Beside {
+        Beside::Surfaces
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

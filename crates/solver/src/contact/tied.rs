@@ -11,8 +11,12 @@
 //! was stored in pulling and in slip is lost, and reported to the ledger. What is free, and what is so
 //! because its ties are gone, is in ordinary contact with the same surface.
 
+mod beside;
 pub(super) mod nodes;
 pub(super) mod surfaces;
+
+pub use beside::Beside;
+pub(crate) use beside::leave_out_tied;
 
 use super::checked::Checked;
 use super::formulation::{FormulationKind, Setup, Surfaces, one_pass};
@@ -64,7 +68,16 @@ where
     const WORDS: [&'static str; 2];
 
     /// Ties of what is near.
-    fn bind(&self, pending: PendingTies<D>, positions: &[[f64; D]]) -> Vec<Tie<Self::Hold>>;
+    fn bind(&self, pending: &mut PendingTies<D>, positions: &[[f64; D]]) -> Vec<Tie<Self::Hold>>;
+
+    /// Nodes of the target that lie on what these ties hold of the slave, beside those of
+    /// [`Bindable::sides`].
+    fn beneath(&self, _pending: &mut PendingTies<D>, _ties: &[Tie<Self::Hold>], _positions: &[[f64; D]]) -> Vec<u32> {
+        Vec::new()
+    }
+
+    /// Nodes of the slave and of the target that these ties hold, in any order.
+    fn sides(&self, ties: &[Tie<Self::Hold>]) -> [Vec<u32>; 2];
 
     /// What these ties bind.
     fn bound(&self, ties: &[Tie<Self::Hold>]) -> Self::Bound;
@@ -196,6 +209,9 @@ where
     /// Ordinary contact, and what of it is bound.
     loose: L,
     bound: L::Bound,
+    /// See [`Bindable::beneath`].
+    beneath: Vec<u32>,
+    held: Held,
     /// Units that are gone.
     broken: usize,
     /// Energy of the ties that broke in this step, J (in 2D J/m).
@@ -211,7 +227,11 @@ where
     pub(super) fn new(pending: PendingTies<D>, loose: L, at_start: Option<&[[f64; D]]>) -> Result<Self, Fault> {
         let (strength, terms, slave) = (pending.strength, pending.terms, pending.slave);
         let (bound, side) = (loose.bound(&[]), [1.0, -1.0][slave]);
-        let mut tied = Self { ties: Vec::new(), unborn: Some(pending), strength, terms, side, loose, bound, broken: 0, freed: 0.0 };
+        #[rustfmt::skip]
+        let mut tied = Self {
+            ties: Vec::new(), unborn: Some(pending), strength, terms, side, loose, bound, beneath: Vec::new(), held: Held::default(),
+            broken: 0, freed: 0.0,
+        };
         if let Some(positions) = at_start {
             tied.bind(positions);
             if tied.ties.is_empty() {
@@ -226,10 +246,24 @@ where
 
     /// Binds what is near, if that was not done before.
     fn bind(&mut self, positions: &[[f64; D]]) {
-        if let Some(pending) = self.unborn.take() {
-            self.ties = self.loose.bind(pending, positions);
-            self.bound = self.loose.bound(&self.ties);
+        if let Some(mut pending) = self.unborn.take() {
+            self.ties = self.loose.bind(&mut pending, positions);
+            self.beneath = self.loose.beneath(&mut pending, &self.ties, positions);
+            self.note_bound();
+            self.held.first.clone_from(&self.held.now);
         }
+    }
+
+    /// Notes what the ties bind that are there now.
+    fn note_bound(&mut self) {
+        self.bound = self.loose.bound(&self.ties);
+        let [slave, mut target] = self.loose.sides(&self.ties);
+        target.extend(&self.beneath);
+        self.held.now = [slave, target].map(|mut nodes| {
+            nodes.sort_unstable();
+            nodes.dedup();
+            nodes
+        });
     }
 
     /// Lets go of the units of which a spring has a traction above the strength.
@@ -260,7 +294,7 @@ where
         }
         if kept < self.ties.len() {
             self.ties.truncate(kept);
-            self.bound = self.loose.bound(&self.ties);
+            self.note_bound();
         }
     }
 }
@@ -288,22 +322,23 @@ where
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { ties, unborn, strength: _, terms: _, side: _, loose, bound, broken, freed } = self;
+        let Self { ties, unborn, strength: _, terms: _, side: _, loose, bound: _, beneath, held, broken, freed } = self;
         let mut is_unborn = unborn.is_some();
-        persist_each!(archive; &mut is_unborn, ties, broken, freed);
+        persist_each!(archive; &mut is_unborn, ties, broken, freed, beneath, &mut held.first[0], &mut held.first[1]);
         archive.check(unborn.is_some() || !is_unborn, "ties of this contact are there from the start")?;
         if !is_unborn {
             *unborn = None;
         }
         archive.check(ties.iter().all(|tie| loose.is_there(&tie.hold, archive.nodes)), "a tie binds what is not there")?;
-        *bound = loose.bound(ties);
-        loose.persist(archive)
+        loose.persist(archive)?;
+        self.note_bound();
+        Ok(())
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
         let Ok(old) = old.downcast::<Self>() else { return };
-        let Self { ties, unborn, loose, broken, .. } = *old;
-        self.broken = broken;
+        let Self { ties, unborn, loose, broken, beneath, held, .. } = *old;
+        (self.broken, self.beneath, self.held) = (broken, beneath, held);
         if unborn.is_none() && self.unborn.take().is_some() {
             let again = self.loose.again(&loose);
             for unit in units(&ties) {
@@ -312,8 +347,8 @@ where
                 // Ties go with the elements on either side.
                 self.broken += usize::from(self.ties.len() == count);
             }
-            self.bound = self.loose.bound(&self.ties);
         }
+        self.note_bound();
         self.loose.inherit(Box::new(loose));
     }
 
@@ -325,10 +360,23 @@ where
         self.freed
     }
 
+    fn held(&self) -> Option<&Held> {
+        Some(&self.held)
+    }
+
     fn ties(&self) -> Option<Ties> {
         let nodes = self.ties.iter().filter_map(|tie| tie.hold.node()).collect();
         Some(Ties { nodes, held: units(&self.ties).count(), broken: self.broken })
     }
+}
+
+/// Nodes of the slave and of the target that ties hold, ascending.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Held {
+    /// When they were bound.
+    first: [Vec<u32>; 2],
+    /// Without those whose ties are gone.
+    now: [Vec<u32>; 2],
 }
 
 /// What a tied contact holds.

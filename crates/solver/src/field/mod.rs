@@ -70,6 +70,10 @@ impl Cell<'_> {
 pub(crate) trait Moving {
     /// How an element in a state has deformed.
     fn kinematics(&self, place: (usize, usize), state: &ElementState) -> Option<Kinematics>;
+    /// See [`shape_quality`](crate::mesh::geometry::CellGeometry::shape_quality).
+    fn quality(&self, place: (usize, usize)) -> f64;
+    /// Longest stable step of an element, s; 0: it limits none.
+    fn stable_step(&self, place: (usize, usize)) -> f64;
 }
 
 /// Gives the values of a field at a cell.
@@ -226,6 +230,7 @@ fields! {
     beams;
     equations_of_state;
     energy;
+    mesh;
 }
 
 /// Every field, of models of a dimension.

@@ -9,6 +9,7 @@ use crate::contact::traces::{State, Traces, Tractions};
 use crate::dimension::Dimension;
 use crate::field::{Cell, Moving, NodeFields, OfCell, OfNode, Source};
 use crate::mesh::ElementGroup;
+use crate::mesh::geometry::CellGeometry;
 use crate::mesh::kinematics::{Across, Kinematics};
 use crate::model::in_3d;
 use crate::rotation::applied;
@@ -187,6 +188,15 @@ where
             (out_of_plane, hoop_rate) = (mean(1) / mean(0), mean(2) / mean(1));
         }
         Kinematics::new(group.kind, D, &nodes, Across { thickness: 1.0 - state.thinning, out_of_plane, hoop_rate })
+    }
+
+    fn quality(&self, (group, element): (usize, usize)) -> f64 {
+        <Dim<D>>::shape_quality(self.mesh.groups[group].cell(element), &self.positions)
+    }
+
+    fn stable_step(&self, (group, element): (usize, usize)) -> f64 {
+        let step = self.blocks[group].time_step_squared(element).sqrt();
+        if self.rigid[group] || !step.is_finite() { 0.0 } else { step }
     }
 }
 

@@ -223,7 +223,7 @@ fn swept_mesh(model: &Model, index: usize, faults: &mut Vec<Fault>) -> SweptMesh
     let alike = model.parts.iter().filter(|other| other.shares_nodes_with(part));
     let wanted: Vec<&str> = alike.filter_map(|other| other.shape.group_of(*mesh)).collect();
     sweep.swept_mesh(&model.meshes[*mesh], &wanted).unwrap_or_else(|wrong| {
-        let Fault { path: at, kind, message, help } = wrong.at(sweep.key());
+        let Fault { path: at, kind, message, help, .. } = wrong.at(sweep.key());
         faults.push(Fault::new(kind, format!("part[{index}].{at}"), message, help));
         SweptMesh::default()
     })

@@ -395,7 +395,7 @@ where
         for &(user, cell, [wrong, help]) in bad.iter().take(REPORTED_MAX) {
             let place = self.positions[cell[0] as usize].map(|x| format!("{x:.6e}")).join(", ");
             let message = format!("element {user} of part \"{name}\" at ({place}) {wrong}");
-            faults.push(Fault::new(&BAD_ELEMENT, format!("part[{part}]"), message, help));
+            faults.push(Fault::new(&BAD_ELEMENT, format!("part[{part}]"), message, help).at([self.positions[cell[0] as usize]]));
         }
         if bad.len() > REPORTED_MAX {
             faults.push(Fault::new(

@@ -39,6 +39,12 @@ impl Window {
         self.stages.is_some()
     }
 
+    /// Whether it is open at all times.
+    #[must_use]
+    pub fn is_always(&self) -> bool {
+        self.stages.is_none() && self.times[0] <= 0.0 && self.times[1] == f64::INFINITY
+    }
+
     /// Whether it is open at a time, s.
     #[must_use]
     pub fn contains(&self, time: f64) -> bool {

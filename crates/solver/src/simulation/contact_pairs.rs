@@ -4,7 +4,7 @@
 use super::Runs;
 use crate::mesh::Mesh;
 use crate::model::reference::{Reference, Wanted};
-use crate::model::{Contact, Model, Part, Partners};
+use crate::model::{Contact, Model, Part, Partners, Window};
 use crate::tensor::Dim;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -37,8 +37,14 @@ fn line(model: &Model, contact: &Contact, tied: &BTreeMap<[usize; 2], Vec<&Conta
         .iter()
         .filter(|(pair, _)| meets(pair))
         .map(|(pair, ties)| {
-            let ties: Vec<&str> = ties.iter().map(|tie| tie.name.as_str()).collect();
-            format!("{} is tied as well (by {}): where they are pressed together both push{friction}", name(*pair), ties.join(", "))
+            let names: Vec<&str> = ties.iter().map(|tie| tie.name.as_str()).collect();
+            let is_always = |tie: &&Contact| Window::of(model, &tie.interface.stages, tie.interface.active).is_always();
+            let effect = if ties.iter().all(is_always) {
+                "what is tied is left out".into()
+            } else {
+                format!("not all the time, so where they are pressed together both push{friction}")
+            };
+            format!("{} is tied (by {}): {effect}", name(*pair), names.join(", "))
         })
         .collect();
     told.extend(joined.iter().filter(|pair| meets(pair)).map(|pair| format!("{} is joined: the joined faces are left out", name(*pair))));

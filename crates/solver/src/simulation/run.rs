@@ -540,6 +540,7 @@ where
             parts: self.known_parts.overview(system),
             stable_time_step: system.time_step,
             governor: system.governor_in_words(),
+            governor_at: system.governor_place().map(model::in_3d),
             steps_expected: (system.limits.end / system.time_step).ceil() as u64,
             initial_penetrations: self.system.initial_penetrations.clone(),
             contacts: self.contact_lines.clone(),

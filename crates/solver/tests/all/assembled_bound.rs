@@ -2,6 +2,7 @@
 //! forces and Jacobi's rotations, at the start and while bodies deform; stable in runs, with equal bits.
 
 use crate::bodies::*;
+use crate::long::samples;
 use crate::nodal_bound::crooked;
 use crate::patches::{Body, Patch, Spread, every_pair, frequency_squared, material, patch, stiffness};
 use crate::{blocks, solids};
@@ -144,7 +145,7 @@ fn no_deformation_raises_the_frequency_by_more_than_its_bound() {
             let to: Vec<_> = patch.positions.iter().map(|&x| blocks::apply(&f, x).map(|x| x + size * numbers.between(-1.0, 1.0))).collect();
             raised(kind.name, &material, &patch, &to)
         };
-        check(kind.name, &(0..60).map(one).collect::<Vec<_>>());
+        check(kind.name, &(0..samples(60) as usize).map(one).collect::<Vec<_>>());
     }
     for kind in ELEMENTS_OF_SPACE {
         let mut numbers = Spread::new(34);
@@ -156,7 +157,7 @@ fn no_deformation_raises_the_frequency_by_more_than_its_bound() {
             let to: Vec<_> = patch.positions.iter().map(|&x| solids::apply(&f, x).map(|x| x + size * numbers.between(-1.0, 1.0))).collect();
             raised(kind.name, &material, &patch, &to)
         };
-        check(kind.name, &(0..12).map(one).collect::<Vec<_>>());
+        check(kind.name, &(0..samples(12) as usize).map(one).collect::<Vec<_>>());
     }
 }
 

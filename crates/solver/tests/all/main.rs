@@ -96,6 +96,7 @@ mod swept;
 mod surface_ties;
 mod tapered;
 mod through;
+mod ties_beside_bodies;
 mod ties_in_3d;
 mod reported_obstacles;
 mod triangles;

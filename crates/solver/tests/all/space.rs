@@ -2,6 +2,7 @@
 //! motion, stiffness, masses, energy, momentum, the stable step, and the same bits on every instruction set.
 
 use crate::blocks::largest;
+use crate::long::is_long;
 use crate::patches::{
     Body, DENSITY, Patch, Spread, YOUNG, eigenvalues, every_pair_of, frequency_squared, is_damped, material, nodes_of, solids, stiffness,
 };
@@ -545,8 +546,8 @@ fn the_stable_step_bounds_the_frequencies_of_a_strained_body() {
     every_solid_pair(|element, law| {
         let mut numbers = Spread::new(18);
         let mut worst = 0.0f64;
-        for round in 0..4 {
-            let material = material(law, [-0.5, 0.0, 0.3, 0.499][round % 4]);
+        for round in 0..if is_long() { 4 } else { 2 } {
+            let material = material(law, [0.3, 0.499, -0.5, 0.0][round]);
             let (f, stretch) = (near_one(0.2, &mut numbers), numbers.between(0.3, 1.0));
             let mut patch = patch(element, 2, 0.2);
             patch.positions.iter_mut().for_each(|x| x[1] *= stretch);

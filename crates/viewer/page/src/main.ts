@@ -12,6 +12,9 @@ import { fill, h } from "./app/dom";
 import { exportDialog, savePicture } from "./app/export";
 import { faultyRuns, unreachable } from "./app/fault";
 import { listenToKeys } from "./app/keys";
+import { Model, reloadAfter } from "./app/model";
+import type { About } from "./app/model_types";
+import { faultyModel } from "./app/panel_model";
 import { banners, liveBar } from "./app/livebar";
 import { SidePanel } from "./app/panel";
 import { copyText } from "./app/panel_rest";
@@ -36,17 +39,30 @@ async function start(): Promise<void> {
     fill(root, unreachable(fault));
     return;
   }
+  if (served.model) return shownModel(served, requests);
   const faulty = served.runs.filter((run): run is FaultyRun => "fault" in run);
   if (faulty.length === served.runs.length) {
     document.title = "embate: can't be shown";
     fill(root, faultyRuns(faulty));
     return;
   }
-  page(served, requests);
+  page(new App(served, requests));
 }
 
-function page(served: Runs, requests: Requests): void {
+/** The page of a model before it runs, or what is wrong with one of which nothing can be drawn. */
+async function shownModel(served: Runs, requests: Requests): Promise<void> {
+  const about = await requests.json<About>("api/model", 0);
+  if (!about.has_bodies) {
+    document.title = "faults · embate";
+    fill(root, faultyModel(about));
+    return reloadAfter(requests, about);
+  }
   const app = new App(served, requests);
+  app.model = new Model(app, about);
+  page(app);
+}
+
+function page(app: App): void {
   apply(app.view.theme);
   const names = () => {
     const percent = app.live?.progress && !app.live.ended ? `${Math.floor((100 * app.live.progress.time) / (app.live.progress.end ?? app.end))} % · ` : "";
@@ -74,7 +90,7 @@ function page(served: Runs, requests: Requests): void {
   const actions = { help, theme, export: () => exportDialog(app, stage, panel), screenshot: () => void savePicture(app, stage), link: () => void copyText(app, app.link(), "Link to this view copied.") };
   fill(root, h("div", { class: "page" },
     toolbar(app, actions), banners(app), liveBar(app),
-    h("main", { class: "middle" }, h("div", { class: "stage" }, stage.element, pictureTools(app, stage)), new Timeline(app).element), panel.element));
+    h("main", { class: "middle" }, h("div", { class: "stage" }, stage.element, pictureTools(app, stage)), app.model === null && new Timeline(app).element), panel.element));
   listenToKeys(app, stage, picks, actions);
   app.start();
 }

@@ -80,6 +80,8 @@ export interface Runs {
   version: string;
   view: string;
   live: boolean;
+  /** A model before it runs is shown, as a run of one frame. */
+  model: boolean;
   runs: (Run | FaultyRun)[];
 }
 

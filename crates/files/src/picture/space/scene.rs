@@ -9,10 +9,12 @@ use super::raster::{FINE, Samples};
 use super::skin::{Facet, Skin};
 use crate::picture::body::{Values, floats, level};
 use crate::picture::colour::{self, BORDER, DISTINCT, MAP, NO_VALUE, Rgb, SOLID, TEXT, TEXT_FAINT};
+use crate::picture::glyphs::{self, Look};
 use crate::picture::raster::{Canvas, Layer, Shade};
 use crate::picture::scale::{number, ticks, unit};
-use crate::picture::sheet::{Plan, Sheet, key_width, measures, padded};
+use crate::picture::sheet::{Plan, Sheet, key_height, key_width, measures, padded};
 use crate::picture::text::{self, Align, Pen, Weight};
+use crate::preview::Glyph;
 
 /// Lines of bodies and of obstacles at the usual font: thickness, pixels, and strength, of edges of elements
 /// and of outlines.
@@ -22,6 +24,8 @@ const OBSTACLE: Style = Style { edge: [0.9, 0.0], outline: [1.1, 0.5] };
 const GRID: [f32; 2] = [0.9, 0.22];
 /// Half the thickness of a bar, pixels.
 const ROD: f32 = 1.7;
+/// A glyph is seen where nothing is nearer by more than this, pixels.
+const LIFT: f32 = 4.0;
 /// Nodes that are closer to a mirror plane than this fraction of the picture lie on it.
 const ON_PLANE: f64 = 1e-5;
 
@@ -68,7 +72,7 @@ impl Scene {
         let wide = right - left;
         let most = (height_max - top - below).max(20.0);
         let natural = (f64::from(wide) * span[1] / span[0]).min(1e5) as f32;
-        let high = natural.clamp((13.0 * font).min(most), most).round();
+        let high = natural.clamp((13.0 * font).max(key_height(&plan.key, font)).min(most), most).round();
         let scale = (f64::from(wide) / span[0]).min(f64::from(high) / span[1]);
         let plot = [left as usize, top as usize, right as usize, (top + high) as usize];
         let still = Canvas::new(width as usize, (top + high + below).round() as usize);
@@ -123,6 +127,26 @@ impl Scene {
         let obstacles = (!moment.obstacles.is_empty()).then_some(&self.obstacles);
         self.bodies.compose(obstacles, canvas, self.sheet.plot[0], self.sheet.plot[1]);
         self.sheet.note(canvas, moment.note);
+    }
+
+    /// Draws glyphs over a moment; those behind bodies are pale.
+    pub(in crate::picture) fn draw_glyphs(&self, glyphs: &[Glyph], canvas: &mut Canvas) {
+        let [left, top, right, bottom] = self.sheet.plot;
+        let middle = [0.5 * (FINE * (right - left)) as f64, 0.5 * (FINE * (bottom - top)) as f64];
+        let directions = &self.sight.directions;
+        let spot = |place: [f64; 3]| {
+            let [x, y, z] = directions.seen(place);
+            let sample = [middle[0] + self.scale * (x - self.centre[0]), middle[1] - self.scale * (y - self.centre[1]), self.scale * z];
+            let sample = sample.map(|v| v as f32);
+            ([sample[0] / FINE as f32, sample[1] / FINE as f32], self.bodies.is_seen(sample, LIFT * FINE as f32))
+        };
+        let seen = |vector: [f64; 3]| {
+            let [x, y, _] = directions.seen(vector);
+            [x as f32, -y as f32]
+        };
+        let pixels = self.scale / FINE as f64;
+        let look = Look { spot: &spot, seen: &seen, pixels, plot: self.sheet.plot, unit: self.sheet.unit(), font: self.sheet.font };
+        glyphs::draw(canvas, glyphs, &look);
     }
 
     fn draw_obstacle(&mut self, obstacle: &Solid, sign: [f64; 3]) {

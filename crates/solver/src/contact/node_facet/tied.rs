@@ -2,14 +2,14 @@
 //! foot.
 
 use super::super::projection::node_facet::{Feature, Placed, Projection, Vector};
-use super::super::search::{Pair, Query, Search};
+use super::super::search::{Pair, Query};
 use super::super::springs::{Slip, Spring, Springs, TangentSpace};
 use super::super::tied::nodes::{self, Bond, NodeHold};
 use super::super::tied::{Bindable, NEAR, PendingTies, Tie};
 use super::groups::{bend, halves};
 use super::{NodeFacet, ends, first_edge, tangent};
 use crate::contact::Scene;
-use crate::mesh::surface::Corners;
+use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::tensor::{Dim, dot};
 
 /// A triangle, and the shares of its corners in the node's foot at the start.
@@ -20,9 +20,18 @@ impl Bindable<3> for NodeFacet {
     type Bound = Vec<bool>;
     const WORDS: [&'static str; 2] = ["node", "a facet's width"];
 
-    fn bind(&self, mut pending: PendingTies<3>, positions: &[Vector]) -> Vec<Tie<NodeHold<Place>>> {
-        let bonds = self.near(&mut *pending.search, pending.thickness, positions);
-        nodes::ties(bonds, self.slaves(), &pending)
+    fn bind(&self, pending: &mut PendingTies<3>, positions: &[Vector]) -> Vec<Tie<NodeHold<Place>>> {
+        let bonds = near(pending, self.slaves(), self.tracker.target(0), positions);
+        nodes::ties(bonds, self.slaves(), pending)
+    }
+
+    fn beneath(&self, pending: &mut PendingTies<3>, ties: &[Tie<NodeHold<Place>>], positions: &[Vector]) -> Vec<u32> {
+        let (own, targets) = (&self.tracker.surfaces()[self.tracker.slave(0)], &self.tracker.target(0).nodes);
+        nodes::beneath(near(pending, targets, own, positions), targets, &own.facets, ties)
+    }
+
+    fn sides(&self, ties: &[Tie<NodeHold<Place>>]) -> [Vec<u32>; 2] {
+        nodes::sides(ties, &self.tracker.target(0).facets)
     }
 
     fn bound(&self, ties: &[Tie<NodeHold<Place>>]) -> Vec<bool> {
@@ -70,41 +79,41 @@ impl NodeFacet {
     fn slaves(&self) -> &[u32] {
         &self.tracker.surfaces()[self.tracker.slave(0)].nodes
     }
+}
 
-    /// Those of the slaves that are near a facet, ascending, with their places on the nearest one.
-    fn near(&self, search: &mut dyn Search<3>, thickness: f64, positions: &[Vector]) -> Vec<Bond<Place>> {
-        let (slaves, surface) = (self.slaves(), self.tracker.target(0));
-        let placed = Placed { surface, positions };
-        let triangles: Vec<[u32; 3]> = surface.facets.iter().flat_map(halves).collect();
-        let width = |facet: u32| placed.area(facet).sqrt();
-        let widest = (0..surface.facets.len() as u32).map(width).fold(0.0, f64::max);
-        // The middle of a facet of four nodes may be off both halves, by less than its width.
-        let reach = thickness + 1.01 * NEAR * widest + bend(surface, positions);
-        let query = Query { positions_old: positions, positions_new: positions, slaves, facets: &triangles, reach };
-        let mut pairs = Vec::new();
-        search.pairs(&query, &mut pairs);
-        let of_slave = |pairs: &[Pair]| {
-            let slave = pairs[0].slave;
-            let node = slaves[slave as usize];
-            if surface.nodes.binary_search(&node).is_ok() {
-                return None;
+/// Those of some nodes that are near a facet, in their order, with their places on the nearest one.
+fn near(pending: &mut PendingTies<3>, slaves: &[u32], surface: &SpaceSurface, positions: &[Vector]) -> Vec<Bond<Place>> {
+    let thickness = pending.thickness;
+    let placed = Placed { surface, positions };
+    let triangles: Vec<[u32; 3]> = surface.facets.iter().flat_map(halves).collect();
+    let width = |facet: u32| placed.area(facet).sqrt();
+    let widest = (0..surface.facets.len() as u32).map(width).fold(0.0, f64::max);
+    // The middle of a facet of four nodes may be off both halves, by less than its width.
+    let reach = thickness + 1.01 * NEAR * widest + bend(surface, positions);
+    let query = Query { positions_old: positions, positions_new: positions, slaves, facets: &triangles, reach };
+    let mut pairs = Vec::new();
+    pending.search.pairs(&query, &mut pairs);
+    let of_slave = |pairs: &[Pair]| {
+        let slave = pairs[0].slave;
+        let node = slaves[slave as usize];
+        if surface.nodes.binary_search(&node).is_ok() {
+            return None;
+        }
+        let mut facets: Vec<u32> = pairs.iter().map(|pair| pair.facet / 2).collect();
+        facets.sort_unstable();
+        facets.dedup();
+        let mut best: Option<(f64, u32, usize)> = None;
+        for facet in facets {
+            if let Some((distance, triangle)) = placed.nearest_triangle(positions[node as usize], facet)
+                && distance <= thickness + NEAR * width(facet)
+                && best.is_none_or(|(nearest, ..)| distance < nearest)
+            {
+                best = Some((distance, facet, triangle));
             }
-            let mut facets: Vec<u32> = pairs.iter().map(|pair| pair.facet / 2).collect();
-            facets.sort_unstable();
-            facets.dedup();
-            let mut best: Option<(f64, u32, usize)> = None;
-            for facet in facets {
-                if let Some((distance, triangle)) = placed.nearest_triangle(positions[node as usize], facet)
-                    && distance <= thickness + NEAR * width(facet)
-                    && best.is_none_or(|(nearest, ..)| distance < nearest)
-                {
-                    best = Some((distance, facet, triangle));
-                }
-            }
-            let (_, facet, triangle) = best?;
-            let (place, gap, _) = placed.above(positions[node as usize], facet, triangle)?;
-            Some(Bond { slave, facet, place: (triangle as u32, place), gap })
-        };
-        pairs.chunk_by(|a, b| a.slave == b.slave).filter_map(of_slave).collect()
-    }
+        }
+        let (_, facet, triangle) = best?;
+        let (place, gap, _) = placed.above(positions[node as usize], facet, triangle)?;
+        Some(Bond { slave, facet, place: (triangle as u32, place), gap })
+    };
+    pairs.chunk_by(|a, b| a.slave == b.slave).filter_map(of_slave).collect()
 }

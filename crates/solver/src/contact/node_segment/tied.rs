@@ -1,12 +1,13 @@
 //! What ties bind nodes to in 2D: a segment, at a place along it.
 
 use super::super::projection::node_segment::Projection;
-use super::super::search::{Pair, Query, Search};
+use super::super::search::{Pair, Query};
 use super::super::springs::{Slip, Spring, Springs};
 use super::super::tied::nodes::{self, Bond, NodeHold};
 use super::super::tied::{Bindable, NEAR, PendingTies, Tie};
 use super::super::{Scene, Vector, length};
 use super::{NodeSegment, ends};
+use crate::mesh::surface::Surface;
 
 impl Bindable<2> for NodeSegment {
     /// Along the segment: 0 and 1 are its nodes.
@@ -14,9 +15,19 @@ impl Bindable<2> for NodeSegment {
     type Bound = Vec<bool>;
     const WORDS: [&'static str; 2] = ["node", "a segment's length"];
 
-    fn bind(&self, mut pending: PendingTies<2>, positions: &[Vector]) -> Vec<Tie<NodeHold<f64>>> {
-        let bonds = self.near(&mut *pending.search, pending.thickness, positions);
-        nodes::ties(bonds, self.slaves(), &pending)
+    fn bind(&self, pending: &mut PendingTies<2>, positions: &[Vector]) -> Vec<Tie<NodeHold<f64>>> {
+        let bonds = near(pending, self.slaves(), &self.tracker.target(0).surface, positions);
+        nodes::ties(bonds, self.slaves(), pending)
+    }
+
+    fn beneath(&self, pending: &mut PendingTies<2>, ties: &[Tie<NodeHold<f64>>], positions: &[Vector]) -> Vec<u32> {
+        let own = &self.tracker.targets()[self.tracker.slave(0)].surface;
+        let targets = &self.tracker.target(0).surface.nodes;
+        nodes::beneath(near(pending, targets, own, positions), targets, &own.segments, ties)
+    }
+
+    fn sides(&self, ties: &[Tie<NodeHold<f64>>]) -> [Vec<u32>; 2] {
+        nodes::sides(ties, &self.tracker.target(0).surface.segments)
     }
 
     fn bound(&self, ties: &[Tie<NodeHold<f64>>]) -> Vec<bool> {
@@ -56,33 +67,33 @@ impl NodeSegment {
     fn slaves(&self) -> &[u32] {
         &self.tracker.targets()[self.tracker.slave(0)].surface.nodes
     }
+}
 
-    /// Those of the slaves that are near a segment, ascending, with their places on the nearest one.
-    fn near(&self, search: &mut dyn Search<2>, thickness: f64, positions: &[Vector]) -> Vec<Bond<f64>> {
-        let (slaves, surface) = (self.slaves(), &self.tracker.target(0).surface);
-        let longest = surface.segments.iter().map(|&segment| length(segment, positions)).fold(0.0, f64::max);
-        let reach = thickness + 1.01 * NEAR * longest;
-        let query = Query { positions_old: positions, positions_new: positions, slaves, facets: &surface.segments, reach };
-        let mut pairs = Vec::new();
-        search.pairs(&query, &mut pairs);
-        let of_slave = |pairs: &[Pair]| {
-            let node = slaves[pairs[0].slave as usize];
-            if surface.nodes.binary_search(&node).is_ok() {
-                return None;
+/// Those of some nodes that are near a segment, in their order, with their places on the nearest one.
+fn near(pending: &mut PendingTies<2>, slaves: &[u32], surface: &Surface<2>, positions: &[Vector]) -> Vec<Bond<f64>> {
+    let thickness = pending.thickness;
+    let longest = surface.segments.iter().map(|&segment| length(segment, positions)).fold(0.0, f64::max);
+    let reach = thickness + 1.01 * NEAR * longest;
+    let query = Query { positions_old: positions, positions_new: positions, slaves, facets: &surface.segments, reach };
+    let mut pairs = Vec::new();
+    pending.search.pairs(&query, &mut pairs);
+    let of_slave = |pairs: &[Pair]| {
+        let node = slaves[pairs[0].slave as usize];
+        if surface.nodes.binary_search(&node).is_ok() {
+            return None;
+        }
+        let mut best: Option<(f64, Bond<f64>)> = None;
+        for pair in pairs {
+            let Some([along, gap, whole]) = place(positions, node, surface.segments[pair.facet as usize]) else { continue };
+            let beyond = f64::max(0.0, (along - 0.5 * whole).abs() - 0.5 * whole);
+            let distance = (gap * gap + beyond * beyond).sqrt();
+            if distance <= thickness + NEAR * whole && best.as_ref().is_none_or(|(nearest, _)| distance < *nearest) {
+                best = Some((distance, Bond { slave: pair.slave, facet: pair.facet, place: along / whole, gap }));
             }
-            let mut best: Option<(f64, Bond<f64>)> = None;
-            for pair in pairs {
-                let Some([along, gap, whole]) = place(positions, node, surface.segments[pair.facet as usize]) else { continue };
-                let beyond = f64::max(0.0, (along - 0.5 * whole).abs() - 0.5 * whole);
-                let distance = (gap * gap + beyond * beyond).sqrt();
-                if distance <= thickness + NEAR * whole && best.as_ref().is_none_or(|(nearest, _)| distance < *nearest) {
-                    best = Some((distance, Bond { slave: pair.slave, facet: pair.facet, place: along / whole, gap }));
-                }
-            }
-            best.map(|(_, bond)| bond)
-        };
-        pairs.chunk_by(|a, b| a.slave == b.slave).filter_map(of_slave).collect()
-    }
+        }
+        best.map(|(_, bond)| bond)
+    };
+    pairs.chunk_by(|a, b| a.slave == b.slave).filter_map(of_slave).collect()
 }
 
 /// Where a node is seen from a segment: along it from its beginning, and above it, m; and the length of the

@@ -18,6 +18,7 @@ use super::super::projection::node_facet::Placed;
 use super::super::spin;
 use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Slip, Springs};
+use super::super::tied::Beside;
 use super::super::tracker::SearchReport;
 use super::super::{Formulation, Scene, Sweep};
 use super::follower::{self, Follower};
@@ -98,6 +99,10 @@ impl Formulation<3> for Pinball {
         follower.persist(archive)?;
         persist_each!(archive; &mut follower.report.steps, &mut follower.report.searches);
         Ok(())
+    }
+
+    fn beside(&self) -> Beside {
+        Beside::Elements
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

@@ -54,6 +54,7 @@ use super::super::search::registry;
 use super::super::spin;
 use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Slip, Spring, Springs};
+use super::super::tied::Beside;
 use super::super::tied::surfaces::Bound;
 use super::super::tracker::{Certificate, SearchReport};
 use super::super::{Formulation, Scene, Sweep};
@@ -380,6 +381,10 @@ impl Formulation<3> for Segment {
         let facets = [0, 1].map(|k| self.surface(k).facets.len());
         let is_there = |facing: &Facing| (0..2).all(|k| (facing.pair[k] as usize) < facets[k]) && facing.owner < 2;
         archive.check(self.facing.iter().all(is_there), "a facet is not there")
+    }
+
+    fn beside(&self) -> Beside {
+        Beside::Surfaces
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {

@@ -33,7 +33,7 @@ impl Bindable<2> for Segment {
     type Bound = Bound;
     const WORDS: [&'static str; 2] = ["segment", "its length"];
 
-    fn bind(&self, mut pending: PendingTies<2>, positions: &[Vector]) -> Vec<Tie<Hold>> {
+    fn bind(&self, pending: &mut PendingTies<2>, positions: &[Vector]) -> Vec<Tie<Hold>> {
         let lists = self.segments();
         let longest = lists.iter().flat_map(|list| list.iter()).map(|&segment| length(segment, positions)).fold(0.0, f64::max);
         let reach = pending.thickness + 1.01 * NEAR * longest;
@@ -41,6 +41,10 @@ impl Bindable<2> for Segment {
         let mut ties = Vec::new();
         pairs.into_iter().for_each(|pair| self.bind_pair(pair, pending.thickness, positions, &mut ties));
         ties
+    }
+
+    fn sides(&self, ties: &[Tie<Hold>]) -> [Vec<u32>; 2] {
+        surfaces::sides(ties, self.segments())
     }
 
     fn bound(&self, ties: &[Tie<Hold>]) -> Bound {

@@ -76,6 +76,9 @@ use std::ops::Range;
 /// Both sides' ways together, and what shares beyond a facet's rim may add.
 const BOTH: f64 = 2.2;
 
+/// Gap of a spring that is left out, m.
+const FAR: f64 = 1e12;
+
 /// A value for each direction along a surface.
 pub type Along<const D: usize> = <Dim<D> as TangentSpace<D>>::TangentVector<f64>;
 
@@ -557,6 +560,15 @@ where
         let is_free = self.terms[terms].tangential == Tangential::Free;
         self.has_tangential |= self.terms_of.len() < self.list.len() && !is_free;
         self.terms_of.resize(self.list.len(), terms as u32);
+    }
+
+    /// Opens those springs of a contact that are `left_out`: as if what they are between were far apart.
+    pub(super) fn open_where(&mut self, range: Range<usize>, left_out: impl Fn(&Self, &Spring<D>) -> bool) {
+        for number in range {
+            if left_out(self, &self.list[number]) {
+                self.list[number].gap = FAR;
+            }
+        }
     }
 
     /// Where a spring is along the surface.

@@ -9,6 +9,7 @@ use crate::archive::{Archive, ArchiveResult, Persist, Plain, persist_each};
 use crate::contact::formulation::Surfaces;
 use crate::contact::segment::ByNodes;
 use crate::contact::springs::Spring;
+use crate::mesh::surface::Corners;
 use crate::tensor::Dim;
 
 /// A slave near a facet.
@@ -59,6 +60,26 @@ pub(in crate::contact) fn ties<P, const D: usize>(bonds: Vec<Bond<P>>, slaves: &
         Tie { hold: NodeHold { node, slave, facet, place }, gap, stiffness: input.stiffness_at(of, facet), area: input.slaves[of].area }
     };
     bonds.into_iter().map(tie).collect()
+}
+
+/// Nodes of the target near the facets of the slave of which all nodes are bound; `near` those facets, by the
+/// index among `targets`.
+pub(in crate::contact) fn beneath<P, Q, F: Corners>(
+    near: Vec<Bond<Q>>,
+    targets: &[u32],
+    facets: &[F],
+    ties: &[Tie<NodeHold<P>>],
+) -> Vec<u32> {
+    // Ascending as the slaves are.
+    let is_bound = |node: &u32| ties.binary_search_by_key(node, |tie| tie.hold.node).is_ok();
+    let is_on = |bond: &Bond<Q>| facets[bond.facet as usize].corners().iter().all(is_bound);
+    near.into_iter().filter(is_on).map(|bond| targets[bond.slave as usize]).collect()
+}
+
+/// The bound nodes, and those of the facets to which they are bound.
+pub(in crate::contact) fn sides<P, F: Corners>(ties: &[Tie<NodeHold<P>>], facets: &[F]) -> [Vec<u32>; 2] {
+    let targets = ties.iter().flat_map(|tie| facets[tie.hold.facet as usize].corners()).copied();
+    [ties.iter().map(|tie| tie.hold.node).collect(), targets.collect()]
 }
 
 /// Which of `count` slaves are bound.

@@ -103,6 +103,11 @@ impl Bound {
     }
 }
 
+/// Nodes of both surfaces that ties hold.
+pub(in crate::contact) fn sides<F: Corners, const N: usize>(ties: &[Tie<PairHold<N>>], facets: [&[F]; 2]) -> [Vec<u32>; 2] {
+    [0, 1].map(|k| ties.iter().flat_map(|tie| facets[k][tie.hold.pair[k] as usize].corners()).copied().collect())
+}
+
 /// Pairs, ascending, among which are all of which a point of one is nearer to the other than `reach`, m;
 /// those that share a node are not among them. Each of the second facets is `cuts` of the `simplices`.
 pub(in crate::contact) fn candidates<const D: usize>(

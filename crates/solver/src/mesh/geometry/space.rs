@@ -24,16 +24,12 @@ impl CellGeometry<3> for Dim<3> {
     }
     fn shape_quality(cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
         let Some(least) = Self::min_corner_jacobian(cell, positions) else { return 1.0 };
-        if cell.kind.dimension() == 2 {
-            let square = |edge: [u32; 2]| {
-                let [a, b] = edge.map(|node| positions[node as usize]);
-                dot(minus(b, a), minus(b, a))
-            };
-            return least / cell.edges().map(square).fold(0.0, f64::max);
-        }
-        let all = corners(cell.kind).flat_map(|(corner, others)| edges(cell, corner, others, positions));
-        let longest = all.map(|edge| dot(edge, edge)).fold(0.0, f64::max);
-        least / (longest * longest.sqrt())
+        let square = |edge: [u32; 2]| {
+            let [a, b] = edge.map(|node| positions[node as usize]);
+            dot(minus(b, a), minus(b, a))
+        };
+        let longest = cell.edges().map(square).fold(0.0, f64::max);
+        if cell.kind.dimension() == 2 { least / longest } else { least / (longest * longest.sqrt()) }
     }
     fn inverse_height(facet: [u32; 4], cell: Cell<'_>, positions: &[[f64; 3]]) -> f64 {
         let areas = <Self as Tributary<3>>::shares(Depth::Plane, facet, positions);

@@ -4,6 +4,7 @@
 import type { Run, Runs } from "../types";
 import { Events } from "./events";
 import { Live } from "./live";
+import type { Model } from "./model";
 import { Player } from "./player";
 import { Gone, Refusal, type Requests } from "./requests";
 import { FrameStore, Session } from "./session";
@@ -26,6 +27,8 @@ export class App {
   readonly live: Live | null;
   readonly first: View;
   readonly player: Player;
+  /** The model that is shown before it runs. */
+  model: Model | null = null;
   view: View;
   note: Note | null = null;
   /** What a click in the picture does. */
@@ -42,7 +45,7 @@ export class App {
     const good = served.runs.map((run, index) => ({ run, index })).filter((one): one is { run: Run; index: number } => !("fault" in one.run));
     this.sessions = good.map(({ run, index }) => new Session(index, run, requests, this.store, this.events));
     const runs = this.sessions.map((session) => session.run);
-    this.first = firstView(runs);
+    this.first = { ...firstView(runs), ...(served.model ? { tab: "model" as const } : {}) };
     const text = location.hash.length > 1 ? location.hash : served.view;
     this.view = this.there(viewOf(text, this.first, runs[0]!));
     this.live = served.live && this.sessions[0] ? new Live(this.sessions[0], requests, this.events) : null;

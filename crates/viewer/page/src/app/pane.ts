@@ -2,12 +2,14 @@
 // Keys on the canvas turn and move it; a click without a movement sets a probe.
 
 import type { Frame, Topology, Vector } from "../types";
+import { ModelGlyphs } from "../viewport/model_glyphs";
 import { Viewport, type Mark, type Pick, type Ruler } from "../viewport/viewport";
 import type { App } from "./app";
 import { colourBands, colourRange, LINES, PROBE_COLOURS } from "./colours";
-import { h } from "./dom";
+import { fill, h } from "./dom";
 import { quantity } from "./format";
 import { Legend } from "./legend";
+import type { Model } from "./model";
 import { measured } from "./panel_measure";
 import type { Session } from "./session";
 import { Readout } from "./readout";
@@ -65,9 +67,34 @@ export class Pane {
       };
       new ResizeObserver(() => this.viewport?.resize()).observe(this.canvas);
       this.listen();
+      if (app.model !== null) this.follow(app.model, this.viewport);
     }
     app.events.on(["view", "shown", "range", "probe"], () => this.update());
     app.events.on("theme", () => this.viewport?.setDark(isDark(app.view.theme)));
+  }
+
+  /** Draws the glyphs of a model before it runs, and says what they are where the pointer is. */
+  private follow(model: Model, viewport: Viewport): void {
+    const glyphs = new ModelGlyphs();
+    const tip = h("div", { class: "glyph-tip", hidden: true });
+    this.element.append(tip);
+    viewport.drawOver = (paper, sight) => glyphs.draw(paper, model.about.kinds, model.about.glyphs, model.hidden, sight);
+    this.app.events.on("model", () => {
+      viewport.run = this.session.run;
+      viewport.redraw();
+    });
+    this.canvas.addEventListener("pointermove", (event) => {
+      const box = this.canvas.getBoundingClientRect();
+      const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+      const glyph = event.buttons === 0 ? glyphs.at(x, y) : null;
+      tip.hidden = glyph === null;
+      if (glyph === null) return;
+      const label = model.about.kinds.find((kind) => kind.name === glyph.kind)?.label ?? glyph.kind;
+      fill(tip, h("strong", {}, glyph.name === "" ? label : `${label}: ${glyph.name}`), h("p", {}, glyph.text));
+      tip.style.left = `${Math.min(x + 14, box.width - 260)}px`;
+      tip.style.top = `${y + 14}px`;
+    });
+    this.canvas.addEventListener("pointerleave", () => (tip.hidden = true));
   }
 
   private fail(detail = ""): void {

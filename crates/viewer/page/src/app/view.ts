@@ -5,7 +5,7 @@ import type { Run } from "../types";
 import { firstState, type Camera, type MapName, type SectionPlane, type ViewState } from "../viewport/viewport";
 import { glyphFields, planeText } from "./wish";
 
-export const TABS = ["view", "energy", "contacts", "probes", "parts", "messages", "about"] as const;
+export const TABS = ["model", "view", "energy", "contacts", "probes", "parts", "messages", "about"] as const;
 export type Tab = (typeof TABS)[number];
 export type Theme = "auto" | "light" | "dark";
 /** Colours over the whole run, over the frame shown, or between own numbers (`picture.range`). */

@@ -15,6 +15,7 @@ import { Ghost } from "./ghost";
 import { drawOverlay, type Shown } from "./overlay";
 import { picked } from "./picked";
 import { Picker } from "./picking";
+import type { Sight } from "./model_glyphs";
 import { Obstacles } from "./obstacles";
 import { PlaneHandles, planeShown, type SectionPlane, type View as PlaneView } from "./plane";
 import { type Colouring, Skin } from "./skin";
@@ -120,6 +121,8 @@ const REST = 250;
 const TIMED = 20_000;
 
 export class Viewport {
+  /** Draws over the picture what the page wants there. */
+  drawOver: ((paper: CanvasRenderingContext2D, sight: Sight) => void) | null = null;
   /** The user moved the camera (to link two viewports). */
   onCamera?: (camera: Camera) => void;
   /** The user moved the plane of the section; `ended`: and has let go. */
@@ -164,7 +167,7 @@ export class Viewport {
 
   constructor(
     readonly canvas: HTMLCanvasElement,
-    readonly run: Run,
+    public run: Run,
     readonly options: { dark: boolean; quantity: (value: number, unit: string) => string },
   ) {
     const paper = canvas.getContext("2d", { alpha: false });
@@ -367,6 +370,11 @@ export class Viewport {
     this.renderer.dispose();
   }
 
+  /** What is drawn over the picture has changed. */
+  redraw(): void {
+    this.request();
+  }
+
   /** Draws at once, and whole; `bare`: without handles. */
   draw(bare = false): void {
     this.isBare = bare;
@@ -545,9 +553,25 @@ export class Viewport {
     this.paper.fillRect(0, 0, width, height);
     this.paper.drawImage(this.hidden, 0, 0);
     drawOverlay(this.paper, this.shown(width, height, unit));
+    this.drawGlyphs(unit);
     const took = performance.now() - begin;
     this.cost[level] = took;
     Object.assign(this.figures, { triangles, level, milliseconds: took });
+  }
+
+  /** Glyphs of a model before it runs lie over everything. */
+  private drawGlyphs(unit: number): void {
+    if (this.drawOver === null || this.frame === null) return;
+    const { right, up, back } = this.rig.basis;
+    this.paper.save();
+    this.paper.scale(unit, unit);
+    this.drawOver(this.paper, {
+      project: (place) => this.project(place),
+      along: (vector) => [dot(vector, right), -dot(vector, up)],
+      towards: (vector) => dot(vector, back),
+      scale: this.canvas.getBoundingClientRect().height / this.rig.camera.height,
+    });
+    this.paper.restore();
   }
 
   private shown(width: number, height: number, unit: number): Shown {

@@ -24,7 +24,7 @@ impl Bindable<3> for Segment {
     type Bound = Bound;
     const WORDS: [&'static str; 2] = ["facet", "its width"];
 
-    fn bind(&self, mut pending: PendingTies<3>, positions: &[Vector]) -> Vec<Tie<Hold>> {
+    fn bind(&self, pending: &mut PendingTies<3>, positions: &[Vector]) -> Vec<Tie<Hold>> {
         let lists = self.facets();
         let triangles: Vec<[u32; 3]> = lists[1].iter().flat_map(halves).collect();
         let width = |facet: &[u32; 4]| Frame::new(*facet, positions).area.sqrt();
@@ -34,6 +34,10 @@ impl Bindable<3> for Segment {
         let mut ties = Vec::new();
         pairs.into_iter().for_each(|pair| self.bind_pair(pair, pending.thickness, positions, &mut ties));
         ties
+    }
+
+    fn sides(&self, ties: &[Tie<Hold>]) -> [Vec<u32>; 2] {
+        surfaces::sides(ties, self.facets())
     }
 
     fn bound(&self, ties: &[Tie<Hold>]) -> Bound {

@@ -125,3 +125,18 @@ test("of many elements the new bodies are there before all was checked", async (
   await done();
   await server.kill();
 });
+
+test("nodes of a model are probed and measured before it runs", async () => {
+  const { file } = written("measured", cubes(4, 0.03));
+  const server = await view(file);
+  const { page, done } = await pageAt(`${server.address}#tab=probes&measure=0:0:4`);
+  await until(async () => (await page.locator(".measure tbody tr").count()) === 4, "the distance of two nodes");
+  // four elements along 100 mm
+  assert.match(await page.locator(".measure caption").textContent(), /^100 mm, change 0/);
+  assert.equal(await page.locator(".measures .plot:visible").count(), 0, "nothing over time");
+  await page.getByLabel("Node", { exact: true }).fill("3");
+  await page.getByRole("button", { name: "Add" }).click();
+  await until(async () => /node 3/.test(await page.locator(".probe-list").textContent()), "a probe");
+  await done();
+  await server.kill();
+});

@@ -16,7 +16,7 @@ import { TABS, type Tab } from "./view";
 const WORDS: Record<Tab, string> = { model: "Model", view: "View", energy: "Energy", contacts: "Contacts", probes: "Probes", parts: "Parts", messages: "Messages", about: "About" };
 
 /** Tabs of a model before it runs: nothing has happened yet. */
-const OF_MODEL: Tab[] = ["model", "view", "parts", "about"];
+const OF_MODEL: Tab[] = ["model", "view", "probes", "parts", "about"];
 
 export class SidePanel {
   readonly element: HTMLElement;

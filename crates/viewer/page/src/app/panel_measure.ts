@@ -70,8 +70,8 @@ export function measurePanel(app: App, picks: Picks): { element: HTMLElement; up
       const found = measured(tracks, sessionOf(measure), measure);
       fillTable(rows[i]!, found, app.run.dimension);
     });
-    head.hidden = plot.element.hidden = measures.length === 0;
-    if (measures.length === 0) return;
+    head.hidden = plot.element.hidden = measures.length === 0 || app.model !== null;
+    if (head.hidden) return;
     const wanted = measures.map((measure, i): Wanted => ({ label: name(measure), unit: "m", colour: LINES[i % LINES.length]!, of: () => over(tracks, sessionOf(measure), measure, kind) }));
     const { times, lines } = linesOf(app, wanted, [app.sessions[0]!]);
     plot.set(kind === "distance" ? "Distance" : `Distance along ${kind}`, times, lines);

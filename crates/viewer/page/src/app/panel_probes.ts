@@ -26,7 +26,9 @@ interface Part {
 
 export function probesPanel(app: App, picks: Picks): Part {
   const { probes } = picks;
-  const parts = [probeForm(app, probes), probeList(app, probes), probePlots(app, probes), measurePanel(app, picks), modelProbes(app)];
+  // of a model before it runs there is nothing over time
+  const overTime = app.model === null;
+  const parts = [probeForm(app, probes), probeList(app, probes), ...(overTime ? [probePlots(app, probes)] : []), measurePanel(app, picks), ...(overTime ? [modelProbes(app)] : [])];
   return {
     element: h("div", {}, ...parts.map((part) => part.element)),
     update: () => parts.forEach((part) => part.update()),

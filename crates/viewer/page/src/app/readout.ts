@@ -1,4 +1,5 @@
-// The value under the mouse, at the lower edge of a picture: shown when the mouse rests, gone when anything moves.
+// The value under the mouse, at the lower edge of a picture: shown when the mouse rests, gone when anything
+// moves.
 
 import type { Pick } from "../viewport/viewport";
 import type { App } from "./app";

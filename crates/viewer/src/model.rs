@@ -39,8 +39,8 @@ impl ShownModel {
         self.current.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What is shown after the state `seen`, when there is something else; else what is shown a while later, or
-    /// when the server ends.
+    /// What is shown after the state `seen`, when there is something else; else what is shown a while later,
+    /// or when the server ends.
     pub(crate) async fn after(&self, seen: usize, mut stopped: watch::Receiver<bool>) -> Arc<ModelView> {
         let mut versions = self.versions.subscribe();
         let changed = versions.wait_for(|version| *version != seen);

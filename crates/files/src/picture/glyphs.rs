@@ -1,5 +1,6 @@
-//! Glyphs of a model over the picture of its mesh: arrows, supports, dots, rings, lines and outlines of planes.
-//! What they stand for comes from [`crate::preview`]; `scene` and `space` say where places are in the picture.
+//! Glyphs of a model over the picture of its mesh: arrows, supports, dots, rings, lines and outlines of
+//! planes. What they stand for comes from [`crate::preview`]; `scene` and `space` say where places are in the
+//! picture.
 
 use super::colour::{INK, Rgb, WHITE, mix};
 use super::raster::{Canvas, Layer, Shade};
@@ -179,7 +180,8 @@ impl Brush<'_> {
         );
     }
 
-    /// A triangle whose tip is at the point and that stands against the direction; a square where there is none.
+    /// A triangle whose tip is at the point and that stands against the direction; a square where there is
+    /// none.
     fn support(&mut self, at: [f32; 2], [x, y]: [f32; 2], colour: Rgb) {
         let size = SUPPORT * self.unit;
         let length = x.hypot(y);

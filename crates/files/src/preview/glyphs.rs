@@ -33,8 +33,8 @@ pub struct Glyph {
     pub text: String,
     /// Where its symbols are, m.
     pub points: Vec<[f64; 3]>,
-    /// Direction of each symbol: of the longest arrow of a kind 1 long; of a dot the outward normal of its surface; of
-    /// a ring its radius, m, in x.
+    /// Direction of each symbol: of the longest arrow of a kind 1 long; of a dot the outward normal of its
+    /// surface; of a ring its radius, m, in x.
     pub vectors: Vec<[f64; 3]>,
 }
 
@@ -69,8 +69,8 @@ pub(super) fn governor(at: [f64; 3], text: &str) -> Glyph {
     Glyph { kind: &GOVERNOR, name: String::new(), path: "run".into(), text: text.into(), points: vec![at], vectors: vec![[0.0; 3]] }
 }
 
-/// Rings around what is faulty: places that a fault names, or else the symbols of the section or the part that
-/// it is in.
+/// Rings around what is faulty: places that a fault names, or else the symbols of the section or the part
+/// that it is in.
 pub(super) fn of_faults(faults: &Diagnostics, glyphs: &[Glyph], model: &Model, places: &Places<'_>) -> Vec<Glyph> {
     let ring = |path: &str, text: &str, points: Vec<[f64; 3]>, radius: f64| Glyph {
         kind: &FAULT,

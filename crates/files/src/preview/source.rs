@@ -39,8 +39,8 @@ pub struct Preview {
 }
 
 impl Preview {
-    /// Reads a model file, or `model.toml` of a folder, with `set` keys overridden; `make` makes simulations. With
-    /// it comes that of a model without faults.
+    /// Reads a model file, or `model.toml` of a folder, with `set` keys overridden; `make` makes simulations.
+    /// With it comes that of a model without faults.
     #[must_use]
     pub fn read(
         path: &Path,
@@ -68,8 +68,8 @@ impl Preview {
         }
     }
 
-    /// The bodies and glyphs of a model without faults in its file, before it is made ready to run: for large models,
-    /// of which [`Preview::read`] takes long. `None` where there are faults.
+    /// The bodies and glyphs of a model without faults in its file, before it is made ready to run: for large
+    /// models, of which [`Preview::read`] takes long. `None` where there are faults.
     #[must_use]
     pub fn sketch(path: &Path, set: &[String], reach: PathPolicy, make: &dyn Fn(&Model) -> Result<Simulation, Error>) -> Option<Self> {
         let (loaded, faults) = model_file::load_as_far(path, set, reach);
@@ -125,8 +125,8 @@ fn reported(loaded: &Loaded, path: &Path, error: &Error) -> Diagnostics {
     }
 }
 
-/// A simulation of the sound parts of a model, of an elastic material, and nothing else; `None` if there are no
-/// such parts.
+/// A simulation of the sound parts of a model, of an elastic material, and nothing else; `None` if there are
+/// no such parts.
 fn sound(model: &Model, faults: &Diagnostics, make: &dyn Fn(&Model) -> Result<Simulation, Error>) -> Option<Simulation> {
     let mut bad: BTreeSet<usize> = faults.entries.iter().filter_map(|fault| part_of(&fault.path)).collect();
     for attempt in 0..ATTEMPTS {

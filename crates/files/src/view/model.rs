@@ -1,5 +1,5 @@
-//! A model before it runs as the page gets it: its bodies at the start as a run of one frame, and what is said
-//! of it: glyphs, faults and warnings with their lines, a table of parts.
+//! A model before it runs as the page gets it: its bodies at the start as a run of one frame, and what is
+//! said of it: glyphs, faults and warnings with their lines, a table of parts.
 
 use super::bodies::Bodies;
 use super::container::Container;
@@ -30,7 +30,8 @@ pub struct ModelView {
 }
 
 impl ModelView {
-    /// That of what was found of the model file `path`; `before`: what was shown of the file before it changed.
+    /// That of what was found of the model file `path`; `before`: what was shown of the file before it
+    /// changed.
     #[must_use]
     pub fn new(path: &Path, preview: Preview, before: Option<&Self>) -> Self {
         let version = before.map_or(1, |before| before.version + 1);

@@ -68,8 +68,11 @@ fn is_sound(simulation: &Simulation, case: &str) {
     assert!(linear < 1e-12 && angular < 1e-12 && summary.ledger_residual < 1e-11, "{case}: {linear} {angular} {summary:?}");
 }
 
+/// Makes a model of a formulation of the tie, its strength (Pa), and how much wider the lower block is (m).
+type Make = fn(Formulation, f64, f64) -> Model;
+
 /// Both models, and the axis along which their blocks come together.
-const MODELS: [(fn(Formulation, f64, f64) -> Model, &str); 2] = [(plane, "y"), (solid, "z")];
+const MODELS: [(Make, &str); 2] = [(plane, "y"), (solid, "z")];
 
 #[test]
 fn what_is_tied_moves_as_without_the_contact_of_bodies() {

@@ -1,5 +1,5 @@
-// The page of a model before it runs: glyphs over the bodies, faults with their lines, and that it follows the
-// file, within a second.
+// The page of a model before it runs: glyphs over the bodies, faults with their lines, and that it follows
+// the file, within a second.
 
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";

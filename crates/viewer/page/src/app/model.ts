@@ -1,6 +1,6 @@
 // A model before it runs: what is said of it now, and what follows when its file changes. The server answers
-// when there is a new state; the picture then takes the new frame, and where parts or dimension are others the
-// page is made again, with the view that stands in its address.
+// when there is a new state; the picture then takes the new frame, and where parts or dimension are others
+// the page is made again, with the view that stands in its address.
 
 import type { Run } from "../types";
 import type { App } from "./app";

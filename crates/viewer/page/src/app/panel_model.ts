@@ -54,7 +54,7 @@ function picture(kind: GlyphKind): HTMLCanvasElement {
 function table(about: About): HTMLElement | null {
   if (about.parts.length === 0) return null;
   const step = (part: PartRow) => (part.is_rigid ? "rigid" : quantity(part.stable_step, "s", 3));
-  const size = (part: PartRow) => part.size.map((side) => digits(side * 1e3, 4)).join(" × ");
+  const size = (part: PartRow) => part.size.map((side) => digits(side * 1e3, 3)).join(" × ");
   const rows = about.parts.map((part) => h("tr", { title: `waves ${quantity(part.wave_speed, "m/s", 3)}, ${whole(part.nodes)} nodes` },
     h("th", { scope: "row" }, part.name), h("td", {}, ...part.kinds.map(([kind, count]) => h("div", {}, `${whole(count)} ${kind}`))),
     h("td", { class: "number" }, `${digits(part.mass, 3)} ${about.mass_unit}`), h("td", { class: "number" }, size(part)),

@@ -1,5 +1,6 @@
-// Glyphs of a model before it runs, drawn over the picture: supports, arrows, dots, rings, lines and outlines of
-// planes, each with a light rim by which it is seen on any ground. What is under the pointer is found by place.
+// Glyphs of a model before it runs, drawn over the picture: supports, arrows, dots, rings, lines and outlines
+// of planes, each with a light rim by which it is seen on any ground. What is under the pointer is found by
+// place.
 
 import type { Vector } from "../types";
 import type { Glyph, GlyphKind } from "../app/model_types";

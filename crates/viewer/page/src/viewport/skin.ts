@@ -3,7 +3,7 @@
 // program of the id pass.
 
 import { type BufferGeometry, type RawShaderMaterial, type Texture } from "three";
-import type { Topology } from "../types";
+import type { Frame, Topology } from "../types";
 import type { Pickable } from "./picking";
 import { markOutlines } from "./outline";
 import { PICK_FRAGMENT, SKIN_FRAGMENT, SKIN_VERTEX } from "./shaders";
@@ -26,6 +26,15 @@ function facetsAround(facets: Uint32Array, nodes: number): { starts: Uint32Array
   const around = new Uint32Array(starts[nodes]!);
   for (let i = 0; i < facets.length; i++) if (isCorner(i)) around[next[facets[i]!]!++] = i >> 2;
   return { starts, around };
+}
+
+/** Values of a frame; behind those of corners each node's own, for the coarser skin. */
+export function valuesOf({ location, values }: Frame, { levels, facets, nodeNumbers }: Topology): Float32Array {
+  if (location !== "corner" || levels.length === 0) return values;
+  const all = new Float32Array(values.length + nodeNumbers.length);
+  all.set(values);
+  facets.forEach((node, corner) => (all[values.length + node] = values[corner]!));
+  return all;
 }
 
 interface Level {

@@ -18,7 +18,7 @@ import { Picker } from "./picking";
 import type { Sight } from "./model_glyphs";
 import { Obstacles } from "./obstacles";
 import { PlaneHandles, planeShown, type SectionPlane, type View as PlaneView } from "./plane";
-import { type Colouring, Skin } from "./skin";
+import { type Colouring, Skin, valuesOf } from "./skin";
 import { imageSigns, Stage } from "./stage";
 
 export type { MapName } from "../colormap";
@@ -221,7 +221,8 @@ export class Viewport {
     if (this.topology === null || frame.positions.length !== this.topology.initial.length) return;
     this.frame = frame;
     this.stage.positions.set(frame.positions);
-    this.setValues(frame, this.topology);
+    this.stage.shared.nodeRows.value = frame.values.length;
+    this.stage.values.setValues(valuesOf(frame, this.topology));
     this.stage.refresh();
     this.force = largestOf(frame.arrows, this.force);
     this.arrows.set(frame.arrowNodes, frame.arrows, this.force);
@@ -230,17 +231,6 @@ export class Viewport {
     this.obstacles.setFrame(frame, this.current.mirror, this.topology.origin);
     this.follow();
     this.request(true);
-  }
-
-  /** Values of a frame; behind those of corners each node's own, for the coarser skin. */
-  private setValues(frame: Frame, topology: Topology): void {
-    if (frame.location !== "corner" || topology.levels.length === 0) return this.stage.values.setValues(frame.values);
-    const corners = frame.values.length;
-    const all = new Float32Array(corners + topology.nodeNumbers.length);
-    all.set(frame.values);
-    topology.facets.forEach((node, corner) => (all[corners + node] = frame.values[corner]!));
-    this.stage.shared.nodeRows.value = corners;
-    this.stage.values.setValues(all);
   }
 
   private setGlyphs(): void {

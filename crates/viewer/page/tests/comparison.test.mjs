@@ -39,7 +39,7 @@ test("two runs stand side by side with one time, one camera and one range", asyn
 test("time goes on to the end of the longer run; the plots show both, the second dashed", async () => {
   const { page, done } = await pageAt(server.address + "#tab=energy");
   await key(page, "End");
-  assert.match(await time(page), /^10\.0/);
+  await until(async () => /^10\.0/.test(await time(page)), "the end of the longer run");
   await page.locator(".tab-body .plot-list").first().waitFor();
   await until(async () => {
     const names = await page.locator(".tab-body .plot-list .name").allTextContents();

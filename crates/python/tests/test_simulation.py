@@ -206,6 +206,37 @@ def test_solids_are_drawn_from_outside(tmp_path: Path) -> None:
     assert (tmp_path / "solid.png").stat().st_size > 5000
 
 
+@pytest.mark.parametrize("size", [(0.2, 0.004), (0.01, 0.2), (0.1, 0.1), (0.006, 0.007, 0.03), (0.2, 0.2, 0.01), (0.3, 0.02, 0.02)])
+def test_pictures_fit_their_bodies_and_labels_stand_apart(size: tuple[float, ...]) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    form = "rectangle" if len(size) == 2 else "box"
+    parts = [
+        {form: {"corner": [k * 1.1 * size[0]] + [0.0] * (len(size) - 1), "size": list(size), "elements": [2] * len(size)}, "name": f"body{k}", "material": "steel"}
+        for k in range(2)
+    ]
+    simulation = embate.Model(name="sizes", run={"end": "1 us"}, material={"steel": STEEL}, part=parts).simulation()
+    for field in (None, "von_mises"):
+        axes = simulation.plot(field)
+        figure = axes.figure
+        figure.canvas.draw()
+        whole, width, height = figure.bbox, *figure.get_size_inches()
+        if len(size) == 2:
+            # The bodies fill what the figure is for; what is beside and around them has a fixed size.
+            box = axes.get_window_extent()
+            assert width - box.width / figure.dpi < 2.7 and height - box.height / figure.dpi < 2.7, (size, field)
+        for axis in [axes.xaxis, axes.yaxis] + ([axes.zaxis] if len(size) == 3 else []):
+            labels = [label.get_window_extent() for label in axis.get_ticklabels() if label.get_text() and label.get_visible()]
+            low, high = sorted(axis.get_view_interval())
+            shown = [box for box, at in zip(labels, axis.get_ticklocs()) if low <= at <= high]
+            assert not any(one.overlaps(other) for k, one in enumerate(shown) for other in shown[:k]), (size, field, axis.axis_name)
+            name = axis.label.get_window_extent()
+            assert whole.x0 <= name.x0 and whole.y0 <= name.y0 and name.x1 <= whole.x1 and name.y1 <= whole.y1, (size, field, axis.axis_name)
+        plt.close(figure)
+
+
 def test_tables_of_pandas(model: embate.Model) -> None:
     pytest.importorskip("pandas")
     history = model.simulation().run(10e-6).history

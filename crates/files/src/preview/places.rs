@@ -4,6 +4,7 @@ use crate::outline::{cross, dot};
 use crate::picture::space::Skinner;
 use embate_solver::output::{Cells, Frame};
 use embate_solver::simulation::Simulation;
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A segment or facet of the outside of the bodies.
@@ -19,16 +20,21 @@ pub(super) struct Places<'a> {
     simulation: &'a Simulation,
     pub(super) cells: &'a Cells,
     pub(super) frame: &'a Frame,
-    facets: Vec<Facet>,
+    /// Found when a surface is first asked for: of large meshes that takes long.
+    facets: OnceCell<Vec<Facet>>,
     /// Lower and upper corner of all bodies, m.
     pub(super) bounds: [[f64; 3]; 2],
 }
 
 impl<'a> Places<'a> {
     pub(super) fn new(simulation: &'a Simulation, cells: &'a Cells, frame: &'a Frame) -> Self {
-        let facets = if frame.dimension == 3 { facets_in_3d(cells, frame) } else { segments(cells, frame) };
         let bounds = bounds((0..frame.nodes()).map(|node| frame.place(node)));
-        Self { simulation, cells, frame, facets, bounds }
+        Self { simulation, cells, frame, facets: OnceCell::new(), bounds }
+    }
+
+    fn facets(&self) -> &[Facet] {
+        let find = || if self.frame.dimension == 3 { facets_in_3d(self.cells, self.frame) } else { segments(self.cells, self.frame) };
+        self.facets.get_or_init(find)
     }
 
     /// Diagonal of the bodies' box, m.
@@ -55,7 +61,7 @@ impl<'a> Places<'a> {
     /// without normals.
     pub(super) fn of_surface(&self, name: &str) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
         let nodes: BTreeSet<u32> = self.nodes(name).into_iter().collect();
-        let own = self.facets.iter().filter(|facet| facet.corners.iter().all(|corner| nodes.contains(corner)));
+        let own = self.facets().iter().filter(|facet| facet.corners.iter().all(|corner| nodes.contains(corner)));
         let (middles, normals): (Vec<_>, Vec<_>) = own.map(|facet| (facet.middle, facet.normal)).unzip();
         if !middles.is_empty() {
             return (middles, normals);

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 FACES: dict[str, list[list[int]]] = {kind["name"]: kind["faces"] for kind in _embate.cells() if kind["dimension"] == 3}
 #: Surfaces, which are polygons as they are.
 POLYGONS: set[str] = {kind["name"] for kind in _embate.cells() if kind["dimension"] == 2}
+#: Height of bodies over their width below which a legend of colours lies under them.
+FLAT = 0.45
+#: Units of lengths on axes, m; the data of the axes are in m.
+LENGTHS = (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6))
 VTK: dict[str, int] = {kind["name"]: kind["vtk"] for kind in _embate.cells()}
 
 
@@ -55,9 +59,13 @@ def plot(
 
     cells, index, parts = state._layout()
     is_solid = state.dimension == 3
-    if ax is None:
-        _, ax = plt.subplots(subplot_kw={"projection": "3d"} if is_solid else {}, layout="constrained")
     points = state.position
+    height = _height(points)
+    is_flat, is_new = height < FLAT and not is_solid, ax is None
+    if is_new and is_solid:
+        _, ax = plt.subplots(subplot_kw={"projection": "3d"}, layout="constrained")
+    elif is_new:
+        _, ax = plt.subplots(figsize=_figure_size(height, field is not None and colorbar), layout="constrained")
     alive = state._alive()
     polygons, owners = _faces(cells, index, alive)
     at_cells, at_nodes, label = _values(state, field, component)
@@ -94,12 +102,17 @@ def plot(
         ax.add_collection(LineCollection(list(points[cells["line"]]), colors="0.2"))
     _frame(ax, points, is_solid)
     if field is not None and colorbar:
-        ax.figure.colorbar(colours, ax=ax, label=label, shrink=0.8, pad=0.14 if is_solid else 0.05)
+        if is_flat and is_new:
+            ax.figure.colorbar(colours, ax=ax, label=label, location="bottom", shrink=0.8, aspect=40)
+        else:
+            ax.figure.colorbar(colours, ax=ax, label=label, shrink=0.8, pad=0.14 if is_solid else 0.05)
     elif field is None and len(names) > 1:
         from matplotlib.patches import Patch
 
         tab = plt.get_cmap("tab10")
-        ax.legend(handles=[Patch(color=tab(k % 10), label=name) for k, name in enumerate(names)], loc="best", fontsize="small")
+        # Beside the bodies where there is room for it.
+        where: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.02, 1.0), "borderaxespad": 0.0} if is_new else {"loc": "best"}
+        ax.legend(handles=[Patch(color=tab(k % 10), label=name) for k, name in enumerate(names)], fontsize="small", **where)
     ax.set_title(f"{state._name}, t = {_seconds(state.time)}", fontsize="medium")
     return ax
 
@@ -157,19 +170,50 @@ def _values(
     return (values, None, label) if kind["location"] == "cells" else (None, values, label)
 
 
+def _box(points: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """Lower and upper corner of what is shown, with a margin, m."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    room = 0.05 * max((high - low).max(), 1e-12)
+    return low - room, high + room
+
+
+def _height(points: np.ndarray[Any, Any]) -> float:
+    """Extent in y over that in x."""
+    if not len(points):
+        return 0.75
+    low, high = _box(points)
+    return float((high[1] - low[1]) / (high[0] - low[0]))
+
+
+def _figure_size(height: float, has_bar: bool) -> tuple[float, float]:
+    """Width and height of a new figure, inches, that bodies of this ratio of height to width fill."""
+    widest, highest, beside, around = 5.0, 4.6, 2.0, 0.9
+    wide = min(widest, max(highest / height, 1.5))
+    high = min(max(wide * height, 0.6), highest)
+    return wide + beside, high + around + (0.8 if height < FLAT and has_bar else 0.0)
+
+
 def _frame(ax: Any, points: np.ndarray[Any, Any], is_solid: bool) -> None:
     if not len(points):
         return
-    low, high = points.min(axis=0), points.max(axis=0)
-    room = 0.05 * max((high - low).max(), 1e-12)
-    ax.set_xlim(low[0] - room, high[0] + room)
-    ax.set_ylim(low[1] - room, high[1] + room)
-    ax.set_xlabel("x (m)")
-    ax.set_ylabel("y (m)")
+    low, high = _box(points)
+    longest = (high - low).max()
+    unit, size = next(((unit, size) for unit, size in LENGTHS if longest > 2.0 * size), LENGTHS[-1])
+    axes = [ax.xaxis, ax.yaxis] + ([ax.zaxis] if is_solid else [])
+    for axis, name, length in zip(axes, "xyz", high - low):
+        axis.set_major_formatter(lambda value, _: f"{value / size:.6g}".replace("-", "\N{MINUS SIGN}"))
+        # Labels of short axes would lie over each other.
+        axis.get_major_locator().set_params(nbins=max(1, round((5 if is_solid else 9) * length / longest)))
+        axis.set_label_text(f"{name} ({unit})")
+    ax.set_xlim(low[0], high[0])
+    ax.set_ylim(low[1], high[1])
     if is_solid:
-        ax.set_zlim(low[2] - room, high[2] + room)
-        ax.set_zlabel("z (m)")
-        ax.set_box_aspect(high - low + 2 * room)
+        ax.set_zlim(low[2], high[2])
+        # Smaller than the figure: names of axes are not cut, below tall bodies neither.
+        ax.set_box_aspect(high - low, zoom=0.78 if (high - low)[2] == longest else 0.88)
+        # Distances of names are in units of the box's other sides; numbers of z are between its name and its axis.
+        for k, axis in enumerate(axes):
+            axis.labelpad = (8 if k == 2 else 4) * min(longest / np.delete(high - low, k).max(), 12.0)
     else:
         ax.set_aspect("equal")
 

@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "gallery.md"
 IMAGES = ROOT / "docs" / "images"
 EXAMPLES = sorted(path.parent.name for path in (ROOT / "examples").glob("*/model.toml"))
+HASHES = ROOT / "crates" / "cli" / "tests" / "hashes.txt"
 LOOK = "What to look at"
 PICTURE_BYTES, FILM_BYTES, ALL_BYTES = 80_000, 300_000, 3_000_000
 # Parts of the whole time that are shown.
@@ -229,6 +230,7 @@ def make(embate: Path, example: str, runs: int) -> str:
 def faults(sections: dict[str, str]) -> list[str]:
     """What is missing or stale."""
     found = [f"docs/gallery.md: {example} is no example" for example in sections if example not in EXAMPLES]
+    hashes = dict(line.split() for line in HASHES.read_text(encoding="utf-8").splitlines() if line.strip())
     for example in EXAMPLES:
         part = sections.get(example)
         if part is None:
@@ -237,6 +239,8 @@ def faults(sections: dict[str, str]) -> list[str]:
         try:
             if part.strip() != again(example, part).strip():
                 found.append(f"docs/gallery.md: {example} does not say what examples/{example}/README.md says; `docs/gallery.py --text` writes it again")
+            if f"`{hashes.get('examples/' + example)}`" not in part:
+                found.append(f"docs/gallery.md: {example} has other results now; `docs/gallery.py --embate PROGRAM {example}` writes it again")
             for name in re.findall(rf"\((images/[\w/-]*{example}\.\w+)\)", part):
                 if not (PAGE.parent / name).is_file():
                     found.append(f"docs/{name} is missing")

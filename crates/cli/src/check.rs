@@ -5,7 +5,7 @@ use crate::input::{self, ModelArguments};
 use crate::numbers::{grouped, table, with_unit};
 use crate::{Failure, terminal};
 use clap::Args;
-use embate_files::preview::Preview;
+use embate_files::preview::{Preview, Source};
 use embate_files::results::messages::NO_PICTURES;
 use embate_files::{picture, results};
 use embate_solver::model::Model;
@@ -31,8 +31,8 @@ const WORST: usize = 100;
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
     let ModelArguments { model: path, set, leave } = &arguments.model;
     let make = |model: &Model| input::simulation(model, &Options::default());
-    let (preview, simulation) = Preview::read(path, set, leave.reach(), &make);
-    let (Some(model), Some(simulation)) = (&preview.model, simulation) else {
+    let (preview, simulation) = Source::read(path, set, leave.reach()).preview(&make);
+    let (Some(model), Some(simulation), Some(overview)) = (&preview.model, simulation, &preview.overview) else {
         // What is faulty is seen best in the picture, where there is one.
         if let Some(model) = preview.model.as_ref().filter(|_| preview.has_bodies())
             && let Ok(folder) = input::folder(arguments.out.as_deref(), input::default_folder(model))
@@ -45,7 +45,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Failure> {
     if preview.warnings.count > 0 {
         terminal::report_error(&preview.warnings.rendered);
     }
-    let mut text = overview_text(model, &simulation.overview());
+    let mut text = overview_text(model, overview);
     if arguments.time_step {
         text.push_str(&time_step_text(model, &simulation.time_step_costs(WORST)));
     }

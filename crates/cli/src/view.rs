@@ -9,7 +9,7 @@ use crate::watch::{Page, ShownRun};
 use crate::{Failure, terminal};
 use clap::Args;
 use embate_files::model_file::FILE_NAME;
-use embate_files::preview::Preview;
+use embate_files::preview::{Preview, Source};
 use embate_files::results::ResultsError;
 use embate_files::view::ResultView;
 use embate_solver::simulation::Options;
@@ -85,14 +85,15 @@ fn view_model(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), Failur
     }
     let path = &arguments.folder;
     let make = |model: &_| input::simulation(model, &Options::default());
-    let read = || {
-        let (preview, _) = Preview::read(path, &arguments.set, arguments.leave.reach(), &make);
+    let read = || Source::read(path, &arguments.set, arguments.leave.reach());
+    let checked = |source: Source| {
+        let (preview, _) = source.preview(&make);
         report(&preview);
         preview
     };
     let file = if path.is_dir() { path.join(FILE_NAME) } else { path.clone() };
     let before = Seen::of(&[file]);
-    let first = read();
+    let first = checked(read());
     let mut is_large = first.cells.len() > LARGE;
     let mut seen = before.with(&first.files);
     let shown = ShownModel::new(path, first);
@@ -101,10 +102,11 @@ fn view_model(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), Failur
     while !interrupt.is_pressed() {
         std::thread::sleep(PAUSE);
         if let Some(now) = seen.change() {
-            if is_large && let Some(sketch) = Preview::sketch(path, &arguments.set, arguments.leave.reach(), &make) {
+            let source = read();
+            if is_large && let Some(sketch) = source.sketch(&make) {
                 shown.show(sketch);
             }
-            let preview = read();
+            let preview = checked(source);
             is_large = preview.cells.len() > LARGE;
             seen = now.with(&preview.files);
             shown.show(preview);

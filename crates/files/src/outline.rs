@@ -236,6 +236,15 @@ pub(crate) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     Some(scaled.map(|c| c / length))
 }
 
+/// The box around places, m: its lower and its upper corner; none of none.
+pub(crate) fn box_around(places: impl Iterator<Item = [f64; 3]>) -> Option<[[f64; 3]; 2]> {
+    let sound = places.filter(|place| place.iter().all(|x| x.is_finite()));
+    sound.fold(None, |around, place| {
+        let [low, high] = around.unwrap_or([place, place]);
+        Some([[0, 1, 2].map(|k| low[k].min(place[k])), [0, 1, 2].map(|k| high[k].max(place[k]))])
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,9 +5,9 @@ use super::kinds::{
     BOUNDARY, CAVITY, CONNECTION, CONTACT, CUT, FAULT, FORCE, GOVERNOR, GRAVITY, GlyphKind, MASS, MOMENT, MOTION, PRESSURE, PROBE, SUPPORT,
     SYMMETRY, TIE, VELOCITY,
 };
-use super::places::{Places, bounds, mean, scaled};
+use super::places::{Places, mean};
 use crate::model_file::{Diagnostics, Loaded};
-use crate::outline::{cross, dot};
+use crate::outline::{box_around, cross, dot, unit};
 use embate_solver::model::{Constraint, Drive, Load, Model, Partners, ProbeAt};
 use serde::{Serialize, Serializer};
 
@@ -96,7 +96,7 @@ pub(super) fn of_faults(faults: &Diagnostics, glyphs: &[Glyph], model: &Model, p
             return Some(ring(&fault.path, &text, points, 0.0));
         }
         let number = fault.path.strip_prefix("part[")?.split(']').next()?.parse::<usize>().ok()?;
-        let [low, high] = bounds(places.of_nodes(&model.parts.get(number)?.name).into_iter());
+        let [low, high] = box_around(places.of_nodes(&model.parts.get(number)?.name).into_iter())?;
         let middle = [0, 1, 2].map(|d| 0.5 * (low[d] + high[d]));
         let radius = 0.5 * (0..3).map(|d| (high[d] - low[d]).powi(2)).sum::<f64>().sqrt();
         (radius > 0.0).then(|| ring(&fault.path, &text, vec![middle], 1.05 * radius))
@@ -163,7 +163,7 @@ impl Maker<'_> {
                 let sign = if matches!(rotation.speed, Drive::Constant(speed) if speed < 0.0) { -1.0 } else { 1.0 };
                 let around = |&x: &[f64; 3]| {
                     let arm = [0, 1, 2].map(|d| x[d] - rotation.about.centre[d]);
-                    Some((x, scaled(cross(rotation.about.direction, arm))?.map(|v| sign * v)))
+                    Some((x, unit(cross(rotation.about.direction, arm))?.map(|v| sign * v)))
                 };
                 moved.extend(points.iter().filter_map(around));
             }
@@ -232,22 +232,22 @@ impl Maker<'_> {
             let path = format!("load[{index}]");
             match load {
                 Load::Gravity { parts, acceleration, .. } => {
-                    let Some(way) = scaled(*acceleration) else { continue };
+                    let Some(way) = unit(*acceleration) else { continue };
                     let symbols: Vec<_> = self.middles(parts).into_iter().map(|x| (x, way)).collect();
                     self.add(&GRAVITY, "gravity", path, &symbols, FEW / 2);
                 }
                 Load::Centrifugal { parts, about, .. } => {
-                    let Some(along) = scaled(about.direction) else { continue };
+                    let Some(along) = unit(about.direction) else { continue };
                     let outwards = |x: [f64; 3]| {
                         let arm = [0, 1, 2].map(|d| x[d] - about.centre[d]);
                         let on_axis = dot(arm, along);
-                        Some((x, scaled([0, 1, 2].map(|d| arm[d] - on_axis * along[d]))?))
+                        Some((x, unit([0, 1, 2].map(|d| arm[d] - on_axis * along[d]))?))
                     };
                     let symbols: Vec<_> = self.middles(parts).into_iter().filter_map(outwards).collect();
                     self.add(&GRAVITY, "centrifugal", path, &symbols, FEW / 2);
                 }
                 Load::Force { on, force: vector, .. } | Load::Moment { on, moment: vector, .. } => {
-                    let Some(way) = scaled(*vector) else { continue };
+                    let Some(way) = unit(*vector) else { continue };
                     let kind = if matches!(load, Load::Force { .. }) { &FORCE } else { &MOMENT };
                     let symbols: Vec<_> = self.places.of_nodes(on).into_iter().map(|x| (x, way)).collect();
                     self.add(kind, on, path, &symbols, FEW / 2);
@@ -306,7 +306,7 @@ impl Maker<'_> {
         }
         for (index, joint) in model.joints.iter().enumerate() {
             let half = 0.05 * self.places.size();
-            let along = scaled(joint.axis).unwrap_or([0.0, 0.0, 1.0]);
+            let along = unit(joint.axis).unwrap_or([0.0, 0.0, 1.0]);
             let along = if self.places.frame.dimension < 3 { [1.0, 0.0, 0.0] } else { along };
             let ends = [half, -half].map(|by| [0, 1, 2].map(|d| joint.at[d] + by * along[d]));
             self.add_all(&CONNECTION, &joint.name, format!("joint[{index}]"), ends.to_vec());

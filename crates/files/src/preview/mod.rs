@@ -13,4 +13,4 @@ mod source;
 
 pub use glyphs::Glyph;
 pub use kinds::{GlyphKind, KINDS, Symbol};
-pub use source::Preview;
+pub use source::{Preview, Source};

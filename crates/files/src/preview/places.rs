@@ -1,6 +1,6 @@
 //! Where things of a model are: nodes and surfaces by their names, with outward normals.
 
-use crate::outline::{cross, dot};
+use crate::outline::{box_around, cross, unit};
 use crate::picture::space::Skinner;
 use embate_solver::output::{Cells, Frame};
 use embate_solver::simulation::Simulation;
@@ -28,7 +28,7 @@ pub(super) struct Places<'a> {
 
 impl<'a> Places<'a> {
     pub(super) fn new(simulation: &'a Simulation, cells: &'a Cells, frame: &'a Frame) -> Self {
-        let bounds = bounds((0..frame.nodes()).map(|node| frame.place(node)));
+        let bounds = box_around((0..frame.nodes()).map(|node| frame.place(node))).unwrap_or_default();
         Self { simulation, cells, frame, facets: OnceCell::new(), bounds }
     }
 
@@ -80,7 +80,7 @@ impl<'a> Places<'a> {
 
     /// The piece of a plane (in 2D of a line) that is as large as the bodies, as an outline.
     pub(super) fn plane(&self, point: [f64; 3], normal: [f64; 3]) -> Vec<[f64; 3]> {
-        let Some(n) = scaled(normal) else { return Vec::new() };
+        let Some(n) = unit(normal) else { return Vec::new() };
         let middle = [0, 1, 2].map(|d| 0.5 * (self.bounds[0][d] + self.bounds[1][d]));
         let height = (0..3).map(|d| (middle[d] - point[d]) * n[d]).sum::<f64>();
         let foot = [0, 1, 2].map(|d| middle[d] - height * n[d]);
@@ -93,17 +93,11 @@ impl<'a> Places<'a> {
         let axis = (0..3).min_by(|&a, &b| n[a].abs().total_cmp(&n[b].abs())).unwrap_or(0);
         let mut other = [0.0; 3];
         other[axis] = 1.0;
-        let Some(t) = scaled(cross(n, other)) else { return Vec::new() };
+        let Some(t) = unit(cross(n, other)) else { return Vec::new() };
         let u = cross(n, t);
         let [a, b] = [along(t), along(u)];
         [[-a, -b], [a, -b], [a, b], [-a, b]].map(|[v, w]| [0, 1, 2].map(|d| foot[d] + v * t[d] + w * u[d])).to_vec()
     }
-}
-
-/// A vector of length one; `None` of one without direction.
-pub(super) fn scaled(v: [f64; 3]) -> Option<[f64; 3]> {
-    let length = dot(v, v).sqrt();
-    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
 }
 
 /// Mean of places; none of none.
@@ -116,15 +110,6 @@ pub(super) fn mean(places: impl Iterator<Item = [f64; 3]>) -> Option<[f64; 3]> {
     (count > 0.0).then(|| sum.map(|x| x / count))
 }
 
-/// Lower and upper corner of finite places.
-pub(super) fn bounds(places: impl Iterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
-    let sound = places.filter(|place| place.iter().all(|x| x.is_finite()));
-    let found = sound.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |[low, high], place| {
-        [[0, 1, 2].map(|d| low[d].min(place[d])), [0, 1, 2].map(|d| high[d].max(place[d]))]
-    });
-    if found[0][0] <= found[1][0] { found } else { [[0.0; 3]; 2] }
-}
-
 fn facets_in_3d(cells: &Cells, frame: &Frame) -> Vec<Facet> {
     let place = |node: u32| if (node as usize) < frame.nodes() { frame.place(node as usize) } else { [f64::NAN; 3] };
     let (facets, _) = Skinner::new(cells, &place).seen(cells, &[]);
@@ -133,7 +118,7 @@ fn facets_in_3d(cells: &Cells, frame: &Frame) -> Vec<Facet> {
         let minus = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k] - b[k]);
         let mut corners = facet.corners.to_vec();
         corners.dedup();
-        let normal = scaled(cross(minus(c, a), minus(d, b))).or_else(|| scaled(cross(minus(b, a), minus(c, a))))?;
+        let normal = unit(cross(minus(c, a), minus(d, b))).or_else(|| unit(cross(minus(b, a), minus(c, a))))?;
         Some(Facet { middle: mean(corners.iter().map(|&node| place(node)))?, corners, normal })
     };
     facets.into_iter().filter_map(of).collect()
@@ -153,7 +138,7 @@ fn segments(cells: &Cells, frame: &Frame) -> Vec<Facet> {
     }
     let of = |[a, b]: [u32; 2]| {
         let [from, to] = [a, b].map(|node| frame.place(node as usize));
-        let normal = scaled([to[1] - from[1], from[0] - to[0], 0.0])?;
+        let normal = unit([to[1] - from[1], from[0] - to[0], 0.0])?;
         Some(Facet { corners: vec![a, b], middle: [0, 1, 2].map(|d| 0.5 * (from[d] + to[d])), normal })
     };
     edges.into_values().flatten().filter_map(of).collect()

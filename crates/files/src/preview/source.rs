@@ -38,46 +38,57 @@ pub struct Preview {
     pub files: Vec<PathBuf>,
 }
 
-impl Preview {
-    /// Reads a model file, or `model.toml` of a folder, with `set` keys overridden; `make` makes simulations.
-    /// With it comes that of a model without faults.
+/// A model file as far as it could be read, with its faults, before it is made ready to run.
+#[derive(Debug)]
+pub struct Source {
+    path: PathBuf,
+    loaded: Option<Loaded>,
+    faults: Diagnostics,
+    files: Vec<PathBuf>,
+}
+
+impl Source {
+    /// Reads a model file, or `model.toml` of a folder, with `set` keys overridden.
     #[must_use]
-    pub fn read(
-        path: &Path,
-        set: &[String],
-        reach: PathPolicy,
-        make: &dyn Fn(&Model) -> Result<Simulation, Error>,
-    ) -> (Self, Option<Simulation>) {
+    pub fn read(path: &Path, set: &[String], reach: PathPolicy) -> Self {
         let (loaded, faults) = model_file::load_as_far(path, set, reach);
         let files = files(path, loaded.as_ref());
-        let Some(loaded) = loaded else { return (Self::nothing(None, faults, files), None) };
-        let made = if faults.count > 0 { Err(faults) } else { make(&loaded.model).map_err(|error| reported(&loaded, path, &error)) };
+        Self { path: path.into(), loaded, faults, files }
+    }
+
+    /// The bodies and glyphs of a model without faults in its file: for large models, of which
+    /// [`Source::preview`] takes long. `None` where there are faults. `make` makes simulations.
+    #[must_use]
+    pub fn sketch(&self, make: &dyn Fn(&Model) -> Result<Simulation, Error>) -> Option<Preview> {
+        let loaded = self.loaded.as_ref().filter(|_| self.faults.count == 0)?;
+        let simulation = sound(&loaded.model, &self.faults, make)?;
+        Some(Preview::of(loaded, &simulation, Diagnostics::none(), self.files.clone()))
+    }
+
+    /// All that is seen; with it comes the simulation of a model without faults.
+    #[must_use]
+    pub fn preview(self, make: &dyn Fn(&Model) -> Result<Simulation, Error>) -> (Preview, Option<Simulation>) {
+        let Self { path, loaded, faults, files } = self;
+        let Some(loaded) = loaded else { return (Preview::nothing(None, faults, files), None) };
+        let made = if faults.count > 0 { Err(faults) } else { make(&loaded.model).map_err(|error| reported(&loaded, &path, &error)) };
         match made {
             Ok(simulation) => {
                 let overview = simulation.overview();
-                let mut preview = Self::of(&loaded, &simulation, Diagnostics::none(), files);
+                let mut preview = Preview::of(&loaded, &simulation, Diagnostics::none(), files);
                 preview.warnings = loaded.reported(simulation.model_warnings());
                 preview.glyphs.extend(overview.governor_at.map(|at| glyphs::governor(at, &overview.governor)));
                 preview.overview = Some(overview);
                 (preview, Some(simulation))
             }
             Err(faults) => match sound(&loaded.model, &faults, make) {
-                Some(simulation) => (Self::of(&loaded, &simulation, faults, files), None),
-                None => (Self::nothing(Some(loaded.model), faults, files), None),
+                Some(simulation) => (Preview::of(&loaded, &simulation, faults, files), None),
+                None => (Preview::nothing(Some(loaded.model), faults, files), None),
             },
         }
     }
+}
 
-    /// The bodies and glyphs of a model without faults in its file, before it is made ready to run: for large
-    /// models, of which [`Preview::read`] takes long. `None` where there are faults.
-    #[must_use]
-    pub fn sketch(path: &Path, set: &[String], reach: PathPolicy, make: &dyn Fn(&Model) -> Result<Simulation, Error>) -> Option<Self> {
-        let (loaded, faults) = model_file::load_as_far(path, set, reach);
-        let loaded = loaded.filter(|_| faults.count == 0)?;
-        let simulation = sound(&loaded.model, &faults, make)?;
-        Some(Self::of(&loaded, &simulation, Diagnostics::none(), files(path, Some(&loaded))))
-    }
-
+impl Preview {
     /// Whether all faults were looked for.
     #[must_use]
     pub fn is_checked(&self) -> bool {

@@ -6,6 +6,7 @@
 
 use super::container::Container;
 use super::levels::{self, Level};
+use crate::outline::box_around;
 use crate::picture::space::{Bar, Facet, Skinner};
 use embate_solver::output::{Cells, Shown};
 use serde_json::json;
@@ -87,7 +88,7 @@ impl Bodies {
             now.chunks_exact(dimension.max(1)).map(|own| std::array::from_fn(|d| own.get(d).copied().unwrap_or(0.0))).collect();
         let place = |node: u32| initial.get(node as usize).copied().unwrap_or([f64::NAN; 3]);
         let skinner = Skinner::new(&cells, &place);
-        let size = size(initial.iter().copied()).unwrap_or_default();
+        let size = box_around(initial.iter().copied()).unwrap_or_default();
         let origin = [0, 1, 2].map(|k| 0.5 * (size[0][k] + size[1][k]));
         Self { cells, dimension, skinner, initial, origin, found: Mutex::default() }
     }
@@ -192,7 +193,7 @@ impl Bodies {
     /// The box around all bodies at the beginning, m; none without bodies.
     #[must_use]
     pub fn size(&self) -> Option<[[f64; 3]; 2]> {
-        size(self.initial.iter().copied())
+        box_around(self.initial.iter().copied())
     }
 }
 
@@ -202,15 +203,6 @@ impl Topology {
     pub fn gone(&self) -> &[u32] {
         &self.gone
     }
-}
-
-/// The box around places, m.
-pub(super) fn size(places: impl Iterator<Item = [f64; 3]>) -> Option<[[f64; 3]; 2]> {
-    let sound = places.filter(|place| place.iter().all(|x| x.is_finite()));
-    sound.fold(None, |size, place| {
-        let [low, high] = size.unwrap_or([place, place]);
-        Some([[0, 1, 2].map(|k| low[k].min(place[k])), [0, 1, 2].map(|k| high[k].max(place[k]))])
-    })
 }
 
 /// Ascending places as ranges, with those between them where these are few: asking for a range costs more

@@ -2,13 +2,13 @@
 //! sections, obstacles. Taken piece by piece from what is shown, a file that was read or a simulation between
 //! two steps; of a model in 3D no more than its skin is asked for, unless it is cut or averaged.
 
-use super::bodies::{self, Bodies, Topology};
+use super::bodies::{Bodies, Topology};
 use super::container::Container;
 use super::glyphs;
 use super::request::{FrameRequest, SectionRequest};
 use super::section::{Section, heights};
 use super::values::{Colours, joined, range, taken};
-use crate::outline::{LineReader, Surface};
+use crate::outline::{LineReader, Surface, box_around};
 use embate_solver::output::{Outline, Shown};
 use serde_json::{Value, json};
 
@@ -122,7 +122,7 @@ pub fn gone(shown: &dyn Shown) -> Vec<u32> {
 #[must_use]
 pub fn outlines(shown: &dyn Shown) -> Vec<Outline> {
     let frame = shown.outlined();
-    let near = bodies::size((0..frame.nodes()).map(|node| frame.place(node))).unwrap_or_default();
+    let near = box_around((0..frame.nodes()).map(|node| frame.place(node))).unwrap_or_default();
     let mut reader = LineReader::default();
     if shown.dimension() == 3 {
         let surfaces = reader.surfaces(&frame).into_iter().map(|surface| surface.piece(near));

@@ -7,6 +7,7 @@ use super::request::FrameRequest;
 use super::section::Section;
 use crate::picture::field::Scalar;
 use embate_solver::output::{Location, Shown};
+use std::cell::OnceCell;
 
 /// The scalar of a request, and what a frame holds of it.
 pub(super) struct Colours<'a> {
@@ -14,6 +15,8 @@ pub(super) struct Colours<'a> {
     scalar: Scalar,
     field: usize,
     averages: Option<Averages>,
+    /// Of all nodes or cells, read when the first of some sections asks.
+    everywhere: OnceCell<Vec<f64>>,
 }
 
 impl<'a> Colours<'a> {
@@ -23,7 +26,7 @@ impl<'a> Colours<'a> {
         let name = frame_request.scalar.as_deref()?;
         let scalar = Scalar::of(kinds.iter().copied(), name)?;
         let field = kinds.iter().position(|kind| kind.name == scalar.kind.name)?;
-        let mut colours = Self { name, scalar, field, averages: None };
+        let mut colours = Self { name, scalar, field, averages: None, everywhere: OnceCell::new() };
         if frame_request.averaged && !scalar.at_nodes() {
             let values = colours.all(shown, bodies.cells.len());
             colours.averages = Some(Averages::new(&bodies.cells, shown.nodes(), topology.gone(), &values));
@@ -75,7 +78,8 @@ impl<'a> Colours<'a> {
                 section.with_middles(points.map(|(point, &part)| point.between(point.nodes.map(|node| averages.at(part, node)))).collect()),
             );
         }
-        let values = self.all(shown, if self.scalar.at_nodes() { shown.nodes() } else { bodies.cells.len() });
+        let places = if self.scalar.at_nodes() { shown.nodes() } else { bodies.cells.len() };
+        let values = self.everywhere.get_or_init(|| self.all(shown, places));
         let value = |place: u32| values.get(place as usize).copied().unwrap_or(f64::NAN);
         if self.scalar.at_nodes() {
             single(section.with_middles(section.points.iter().map(|point| point.between(point.nodes.map(value))).collect()))

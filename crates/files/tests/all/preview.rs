@@ -2,7 +2,7 @@
 
 use embate_files::PathPolicy;
 use embate_files::picture::model_png;
-use embate_files::preview::{Glyph, Preview};
+use embate_files::preview::{Glyph, Preview, Source};
 use embate_files::results::film_settings;
 use embate_files::view::{FrameRequest, ModelView, ProbePlace, RangeOf};
 use embate_solver::simulation::{Options, Simulation};
@@ -47,7 +47,7 @@ fn written(name: &str, text: &str) -> PathBuf {
 }
 
 fn read(folder: &Path) -> Preview {
-    Preview::read(folder, &[], PathPolicy::Folder, &|model| Simulation::new(model, &Options::default())).0
+    Source::read(folder, &[], PathPolicy::Folder).preview(&|model| Simulation::new(model, &Options::default())).0
 }
 
 fn of<'a>(preview: &'a Preview, kind: &str, path: &str) -> &'a Glyph {

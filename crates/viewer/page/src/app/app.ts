@@ -82,6 +82,11 @@ export class App {
     return { ...view, probes, measures: view.measures.filter((m) => isNode(m.run, m.a) && isNode(m.run, m.b)) };
   }
 
+  /** The run of a probe or a distance, by its number; the first where it is not shown. */
+  sessionOf({ run }: { run: number }): Session {
+    return this.sessions.find((session) => session.index === run) ?? this.sessions[0]!;
+  }
+
   /** The first run is the one that gives names, units and first choices. */
   get run(): Run {
     return this.sessions[0]!.run;

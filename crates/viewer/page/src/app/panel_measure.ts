@@ -45,8 +45,7 @@ export function measurePanel(app: App, picks: Picks): { element: HTMLElement; up
   const head = row("Plotted", choose);
   const button = h("button", { type: "button", class: "small", onclick: () => app.use(app.tool === "measure" ? "node" : "measure") });
   const hint = h("p", { class: "quiet", role: "status" });
-  const sessionOf = (measure: Measure) => app.sessions.find((session) => session.index === measure.run) ?? app.sessions[0]!;
-  const name = (measure: Measure) => `${measure.a} – ${measure.b}${app.isComparison ? (sessionOf(measure) === app.sessions[0] ? " (A)" : " (B)") : ""}`;
+  const name = (measure: Measure) => `${measure.a} – ${measure.b}${app.isComparison ? (app.sessionOf(measure) === app.sessions[0] ? " (A)" : " (B)") : ""}`;
   let listed = "";
   let rows: HTMLElement[] = [];
 
@@ -67,12 +66,12 @@ export function measurePanel(app: App, picks: Picks): { element: HTMLElement; up
       }));
     }
     measures.forEach((measure, i) => {
-      const found = measured(tracks, sessionOf(measure), measure);
+      const found = measured(tracks, app.sessionOf(measure), measure);
       fillTable(rows[i]!, found, app.run.dimension);
     });
     head.hidden = plot.element.hidden = measures.length === 0 || app.model !== null;
     if (head.hidden) return;
-    const wanted = measures.map((measure, i): Wanted => ({ label: name(measure), unit: "m", colour: LINES[i % LINES.length]!, of: () => over(tracks, sessionOf(measure), measure, kind) }));
+    const wanted = measures.map((measure, i): Wanted => ({ label: name(measure), unit: "m", colour: LINES[i % LINES.length]!, of: () => over(tracks, app.sessionOf(measure), measure, kind) }));
     const { times, lines } = linesOf(app, wanted, [app.sessions[0]!]);
     plot.set(kind === "distance" ? "Distance" : `Distance along ${kind}`, times, lines);
   };

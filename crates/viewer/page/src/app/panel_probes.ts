@@ -71,7 +71,7 @@ function probeForm(app: App, probes: Probes): Part {
 }
 
 function placed(app: App): { place: ProbePlace; session: App["sessions"][number]; colour: string }[] {
-  return app.view.probes.map((place, i) => ({ place, session: app.sessions.find((s) => s.index === place.run) ?? app.sessions[0]!, colour: PROBE_COLOURS[i % PROBE_COLOURS.length]! }));
+  return app.view.probes.map((place, i) => ({ place, session: app.sessionOf(place), colour: PROBE_COLOURS[i % PROBE_COLOURS.length]! }));
 }
 
 /** The probes with their values now. */

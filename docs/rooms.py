@@ -37,6 +37,7 @@ LAYERS = {
 # Crates, each with what it is.
 CRATES = {
     "lanes": "vector lanes, threads",
+    "remesh": "new meshes, transfer",
     "solver": "the method",
     "files": "formats",
     "viewer": "page in the browser",

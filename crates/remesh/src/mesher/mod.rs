@@ -1,0 +1,1 @@
+//! Meshes of a region that is given by its outline.

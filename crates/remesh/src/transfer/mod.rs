@@ -1,0 +1,1 @@
+//! The state of a mesh on another one.

@@ -29,7 +29,9 @@ pub(super) fn mesh(bodies: Bodies, contents: &Contents, reader: &Reader, scale: 
     // In 3D, if there is a volume or surfaces are meant to be shells.
     let highest = groups.iter().map(|group| group.dimension).max().unwrap_or(2).max(2);
     let (dimension, least) = if bodies == Bodies::Sheets { (3, 2) } else { (highest, highest) };
-    let resolved: Vec<Vec<Cell>> = groups.iter().map(|group| resolve(group, dimension, &index, reader, &mut faults)).collect();
+    let has_quadrilaterals = groups.iter().flat_map(|group| &group.cells).any(|cell| cell.shape == CellKind::Quadrilateral);
+    let takes_corners = dimension == 3 || has_quadrilaterals;
+    let resolved: Vec<Vec<Cell>> = groups.iter().map(|group| resolve(group, takes_corners, &index, reader, &mut faults)).collect();
     if !faults.is_empty() {
         return Err(faults.into_list(source));
     }
@@ -194,13 +196,13 @@ impl Cell<'_> {
     }
 }
 
-/// The cells of a group in a mesh of this dimension: in 3D a triangle of six nodes is a shell, or the side of
-/// a ten-node tetrahedron, and has its corners.
-fn resolve<'a>(group: &Group<'a>, dimension: u8, index: &NodeIndex, reader: &Reader, faults: &mut Faults) -> Vec<Cell<'a>> {
+/// The cells of a group, triangles of six nodes with their corners alone: in 3D they are shells, or sides of
+/// ten-node tetrahedra, and beside quadrilaterals their nodes between corners would hang free.
+fn resolve<'a>(group: &Group<'a>, takes_corners: bool, index: &NodeIndex, reader: &Reader, faults: &mut Faults) -> Vec<Cell<'a>> {
     let mut cells = Vec::with_capacity(group.cells.len());
     for &file in &group.cells {
         let shape = match file.shape {
-            CellKind::Triangle6 if dimension == 3 => CellKind::Triangle,
+            CellKind::Triangle6 if takes_corners => CellKind::Triangle,
             shape => shape,
         };
         let mut cell = Cell { file, shape, nodes: [0; MOST_NODES] };

@@ -68,7 +68,7 @@ fn dimension_of(kind: i32) -> usize {
     match kind {
         15 => 0,
         1 | 8 => 1,
-        2 | 3 | 9 => 2,
+        2 | 3 | 9 | 16 => 2,
         _ => 3,
     }
 }

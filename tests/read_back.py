@@ -28,8 +28,8 @@ try:
 except ImportError:
     vtkXMLUnstructuredGridReader = None
 
-VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13, "tetra10": 24}
-SOLIDS = {VTK_TYPES[name] for name in ("tetra", "hexahedron", "wedge", "tetra10")}
+VTK_TYPES = {"line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13, "triangle6": 22, "tetra10": 24}
+SOLIDS = {VTK_TYPES[name] for name in ("tetra", "tetra10", "hexahedron", "wedge")}
 # Components of stress in the plane and in space.
 STRESSES = [["xx", "yy", "zz", "xy"], ["xx", "yy", "zz", "xy", "yz", "zx"]]
 # Has no value where nothing is near.

@@ -65,6 +65,7 @@ const REDUCED: &str = "hourglass control by stiffness after Flanagan and Belytsc
 const BENT: &str = "no incompatible modes: an assumed strain keeps bending from locking";
 const ONE_POINT: &str = "one point in the plane, with a physical stabilisation against hourglass modes";
 const COMPOSITE: &str = "made of twelve tetrahedra, with mean dilatation and masses that contact can use; sides in it are straight";
+const OF_FOUR: &str = "made of four triangles, with mean dilatation and masses that contact can use; sides in it are straight";
 const CORNERS: &str = "of first order: the nodes between its corners are left out";
 const TRIANGLE: &str = "transverse shear is that of MITC3";
 
@@ -72,9 +73,9 @@ const fn kind(name: &'static str, cell: CellKind, family: Family, element: &'sta
     ElementKind { name, cell, family, element, differs, nodes_in_deck: cell.nodes() }
 }
 
-/// A solid of second order that is computed by its corners.
-const fn reduced(name: &'static str, cell: CellKind, element: &'static str, nodes_in_deck: usize) -> ElementKind {
-    ElementKind { name, cell, family: Family::Solid, element, differs: CORNERS, nodes_in_deck }
+/// One of second order that is computed by its corners.
+const fn reduced(name: &'static str, cell: CellKind, family: Family, element: &'static str, nodes_in_deck: usize) -> ElementKind {
+    ElementKind { name, cell, family, element, differs: CORNERS, nodes_in_deck }
 }
 
 impl ElementKind {
@@ -140,14 +141,30 @@ pub(super) static KINDS: &[ElementKind] = &[
     kind("CPE4", CellKind::Quadrilateral, STRAIN, "quad4", ""),
     kind("CPE4R", CellKind::Quadrilateral, STRAIN, "quad4_reduced", REDUCED),
     kind("CPE4I", CellKind::Quadrilateral, STRAIN, "quad4_reduced_assumed_strain", BENT),
+    kind("CPE6", CellKind::Triangle6, STRAIN, "tri6", OF_FOUR),
+    kind("CPE6M", CellKind::Triangle6, STRAIN, "tri6", OF_FOUR),
+    kind("CPE6H", CellKind::Triangle6, STRAIN, "tri6", OF_FOUR),
+    kind("CPE6MH", CellKind::Triangle6, STRAIN, "tri6", OF_FOUR),
+    reduced("CPE8", CellKind::Quadrilateral, STRAIN, "quad4", 8),
+    reduced("CPE8R", CellKind::Quadrilateral, STRAIN, "quad4", 8),
     kind("CPS3", CellKind::Triangle, STRESS, "tri3", ""),
     kind("CPS4", CellKind::Quadrilateral, STRESS, "quad4", ""),
     kind("CPS4R", CellKind::Quadrilateral, STRESS, "quad4_reduced", REDUCED),
     kind("CPS4I", CellKind::Quadrilateral, STRESS, "quad4_reduced_assumed_strain", BENT),
+    kind("CPS6", CellKind::Triangle6, STRESS, "tri6", OF_FOUR),
+    kind("CPS6M", CellKind::Triangle6, STRESS, "tri6", OF_FOUR),
+    reduced("CPS8", CellKind::Quadrilateral, STRESS, "quad4", 8),
+    reduced("CPS8R", CellKind::Quadrilateral, STRESS, "quad4", 8),
     kind("CAX3", CellKind::Triangle, ROUND, "tri3", ""),
     kind("CAX4", CellKind::Quadrilateral, ROUND, "quad4", ""),
     kind("CAX4R", CellKind::Quadrilateral, ROUND, "quad4_reduced", REDUCED),
     kind("CAX4I", CellKind::Quadrilateral, ROUND, "quad4_reduced_assumed_strain", BENT),
+    kind("CAX6", CellKind::Triangle6, ROUND, "tri6", OF_FOUR),
+    kind("CAX6M", CellKind::Triangle6, ROUND, "tri6", OF_FOUR),
+    kind("CAX6H", CellKind::Triangle6, ROUND, "tri6", OF_FOUR),
+    kind("CAX6MH", CellKind::Triangle6, ROUND, "tri6", OF_FOUR),
+    reduced("CAX8", CellKind::Quadrilateral, ROUND, "quad4", 8),
+    reduced("CAX8R", CellKind::Quadrilateral, ROUND, "quad4", 8),
     kind("SAX1", CellKind::Line, Family::Line("axisymmetric"), "shell2", ""),
     kind("B21", CellKind::Line, Family::Line("plane_stress"), "shell2", ""),
     kind("S3", CellKind::Triangle, Family::Shell, "shell3", TRIANGLE),
@@ -165,9 +182,9 @@ pub(super) static KINDS: &[ElementKind] = &[
     kind("C3D10I", CellKind::Tetrahedron10, Family::Solid, "tet10", COMPOSITE),
     kind("C3D10H", CellKind::Tetrahedron10, Family::Solid, "tet10", COMPOSITE),
     kind("C3D10MH", CellKind::Tetrahedron10, Family::Solid, "tet10", COMPOSITE),
-    reduced("C3D15", CellKind::Wedge, "wedge6", 15),
-    reduced("C3D20", CellKind::Hexahedron, "hex8", 20),
-    reduced("C3D20R", CellKind::Hexahedron, "hex8", 20),
+    reduced("C3D15", CellKind::Wedge, Family::Solid, "wedge6", 15),
+    reduced("C3D20", CellKind::Hexahedron, Family::Solid, "hex8", 20),
+    reduced("C3D20R", CellKind::Hexahedron, Family::Solid, "hex8", 20),
     kind("C3D6", CellKind::Wedge, Family::Solid, "wedge6", ""),
     kind("C3D8", CellKind::Hexahedron, Family::Solid, "hex8", ""),
     kind("C3D8R", CellKind::Hexahedron, Family::Solid, "hex8_reduced", REDUCED),
@@ -209,12 +226,9 @@ pub(super) fn named(name: &str, is_3d: bool) -> Found {
         };
     }
     const FIRST: &str =
-        "use elements with nodes at their corners only, such as CPE4R, CPS4R, CAX4R, CPE3, C3D8R or C3D4; of second order C3D10M";
+        "use elements with nodes at their corners only, such as CPE4R, CPS4R, CAX4R, CPE3, C3D8R or C3D4; of second order CPE6M or C3D10M";
     let starts = |all: &[&str]| all.iter().any(|start| name.starts_with(start));
-    if starts(&[
-        "CPE6", "CPE8", "CPS6", "CPS8", "CAX6", "CAX8", "S6", "S8", "S9", "M3D6", "M3D8", "M3D9", "CGAX6", "CGAX8", "C3D15", "C3D20",
-        "C3D27",
-    ]) {
+    if starts(&["S6", "S8", "S9", "M3D6", "M3D8", "M3D9", "CGAX6", "CGAX8", "C3D15", "C3D20", "C3D27"]) {
         Found::Refused("is of second order: its lumped masses and its contact are not sound in an explicit computation", FIRST)
     } else if starts(&["SC6", "SC8", "CSS", "R3D"]) {
         Found::Refused(
@@ -242,7 +256,9 @@ mod tests {
     #[test]
     fn elements_of_second_order_and_others_are_refused_with_the_reason() {
         let named = |name: &str| super::named(name, true);
-        assert!(matches!(named("CPE8R"), Found::Refused(why, _) if why.contains("second order")));
+        assert!(matches!(named("S8R"), Found::Refused(why, _) if why.contains("second order")));
+        assert!(matches!(named("CPE6M"), Found::Refused(why, _) if why.contains("beside bodies in 3D")));
+        assert!(matches!(named("CPE8H"), Found::Refused(why, _) if why.contains("hybrid")));
         assert!(matches!(named("C3D27"), Found::Refused(why, _) if why.contains("second order")));
         assert!(matches!(named("C3D5"), Found::Refused(why, _) if why.contains("pyramid")));
         assert!(matches!(named("R3D4"), Found::Refused(why, _) if why.contains("rigid surface")));
@@ -262,6 +278,7 @@ mod tests {
             _ => Vec::new(),
         };
         assert_eq!(of("CPE3"), [[1, 2], [2, 3], [3, 1]]);
+        assert_eq!((of("CPE6M"), of("CPE8R")), (of("CPE3"), of("CPE4R")), "the mesh knows the nodes between corners");
         assert_eq!(of("CPS4R"), [[1, 2], [2, 3], [3, 4], [4, 1]]);
         // Faces of shells, then their edges, where they are no areas of 2D.
         assert_eq!(of("SAX1"), [[1, 2], [2, 1]]);

@@ -32,9 +32,9 @@ pub(super) static DECK_MESH: Message = Message {
     code: "E0233",
     title: "a mesh of a deck that can't be computed",
     example: Example::Deck("*NODE\n1, 0, 0\n2, 1, 0\n3, 0, 1\n4, 1, 1\n*ELEMENT, TYPE=R3D4\n1, 1, 2, 4, 3\n"),
-    cause: "Elements are of a type that can't be computed, such as 2D elements of second order; 2D elements and solids are in one deck; \
+    cause: "Elements are of a type that can't be computed, such as shells of second order; 2D elements and solids are in one deck; \
         nodes lie off the plane, or instances are turned out of it.",
-    remedy: "Write a plane mesh of elements such as CPE4R, CPE3, CPS4R or CAX4R, or solids such as C3D8R, C3D6, C3D10M or C3D4.",
+    remedy: "Write a plane mesh of elements such as CPE4R, CPE3, CPS4R, CAX4R or CPE6M, or solids such as C3D8R, C3D6, C3D10M or C3D4.",
 };
 
 pub(super) static UNITS: Message = Message {

@@ -57,17 +57,17 @@ impl<'a> Check<'a> {
                 self.fault("lines without length", cell, message, "remove it, or merge the nodes and mesh again");
             }
             (2, 2) => {
-                let area = area(cell.file.shape, &x);
-                let n = cell.file.shape.corners();
+                let area = area(cell.shape, &x);
+                let n = cell.shape.corners();
                 let turns_left = (0..n).filter(|&k| cross(x[k], x[(k + 1) % n], x[(k + 1) % n], x[(k + 2) % n]) > 0.0).count();
-                self.surface(cell, cell.file.shape == CellKind::Quadrilateral && turns_left == 2, area, longest);
+                self.surface(cell, cell.shape == CellKind::Quadrilateral && turns_left == 2, area, longest);
             }
             (2, 3) => {
-                let (crosses, area) = of_3d(cell.file.shape, &x);
+                let (crosses, area) = of_3d(cell.shape, &x);
                 self.surface(cell, crosses, area, longest);
             }
             (3, _) => {
-                let volume = signed_volume(cell.file.shape, &x);
+                let volume = signed_volume(cell.shape, &x);
                 if volume.abs() <= NOTHING * longest * longest.sqrt() {
                     let message = || format!("has no volume ({volume:e} m³)");
                     let help = "its nodes lie in a plane, on one another, or not in order; mesh again";

@@ -25,14 +25,9 @@ impl ElementKind {
     }
 
     /// The kind of cell that it becomes; `None`: it can't be computed. Of the second order only the
-    /// tetrahedron has one; of others the first nodes are the corners, and are kept.
+    /// tetrahedron and the triangle have one; of others the first nodes are the corners, and are kept.
     pub(super) fn cell(&self) -> Option<CellKind> {
         CellKind::of_gmsh(self.number).or_else(|| Some(REDUCED.iter().find(|(number, _)| *number == self.number)?.1))
-    }
-
-    /// Whether nodes of it are left out in a body.
-    pub(super) fn is_reduced(&self) -> bool {
-        self.cell().is_some_and(|cell| cell.nodes() < self.nodes)
     }
 
     /// The places of its nodes in the cell: Gmsh exchanges the last two of a tetrahedron of ten.
@@ -54,11 +49,10 @@ const fn kind(number: i64, name: &'static str, dimension: u8, nodes: usize) -> E
     ElementKind { number, name, dimension, nodes }
 }
 
-/// Cells of second order, and those of their corners. The side of a ten-node tetrahedron is such a triangle:
-/// the mesh knows the nodes between its corners.
-const REDUCED: [(i64, CellKind); 8] = [
+/// Cells of second order, and those of their corners. The side of a six-node triangle is such a line: the
+/// mesh knows the nodes between its corners.
+const REDUCED: [(i64, CellKind); 7] = [
     (8, CellKind::Line),
-    (9, CellKind::Triangle),
     (10, CellKind::Quadrilateral),
     (12, CellKind::Hexahedron),
     (13, CellKind::Wedge),
@@ -201,7 +195,8 @@ mod tests {
         for kind in &computed {
             let cell = kind.cell().unwrap();
             assert_eq!(cell.dimension(), usize::from(kind.dimension), "{}", kind.name);
-            assert!(if kind.is_reduced() { cell.nodes() < kind.nodes } else { cell.nodes() == kind.nodes }, "{}", kind.name);
+            let is_reduced = REDUCED.iter().any(|(number, _)| *number == kind.number);
+            assert!(if is_reduced { cell.nodes() < kind.nodes } else { cell.nodes() == kind.nodes }, "{}", kind.name);
         }
         assert!(!computed.iter().any(|kind| kind.is_pyramid()));
     }

@@ -12,7 +12,7 @@ use super::reader::Reader;
 use super::views::{Place, View};
 use crate::gmsh::messages::{ELEMENT_TYPE, NODE, PHYSICAL_GROUP};
 use embate_solver::error::Fault;
-use embate_solver::mesh::cell::MOST_NODES;
+use embate_solver::mesh::cell::{CellKind, MOST_NODES};
 use embate_solver::model::{FieldValues, ImportedMesh, MeshField, MeshGroup};
 use std::collections::BTreeMap;
 
@@ -26,14 +26,16 @@ pub(super) fn mesh(bodies: Bodies, contents: &Contents, reader: &Reader, scale: 
     let mut faults = Faults::default();
     let groups = groups(contents, reader, &mut faults);
     let index = NodeIndex::new(&contents.nodes, reader, &mut faults);
-    let resolved: Vec<Vec<Cell>> = groups.iter().map(|group| resolve(group, &index, reader, &mut faults)).collect();
+    // In 3D, if there is a volume or surfaces are meant to be shells.
+    let highest = groups.iter().map(|group| group.dimension).max().unwrap_or(2).max(2);
+    let (dimension, least) = if bodies == Bodies::Sheets { (3, 2) } else { (highest, highest) };
+    let has_quadrilaterals = groups.iter().flat_map(|group| &group.cells).any(|cell| cell.shape == CellKind::Quadrilateral);
+    let takes_corners = dimension == 3 || has_quadrilaterals;
+    let resolved: Vec<Vec<Cell>> = groups.iter().map(|group| resolve(group, takes_corners, &index, reader, &mut faults)).collect();
     if !faults.is_empty() {
         return Err(faults.into_list(source));
     }
     let mut used = vec![false; contents.nodes.len()];
-    // In 3D, if there is a volume or surfaces are meant to be shells.
-    let highest = groups.iter().map(|group| group.dimension).max().unwrap_or(2).max(2);
-    let (dimension, least) = if bodies == Bodies::Sheets { (3, 2) } else { (highest, highest) };
     for cell in resolved.iter().flatten().filter(|cell| cell.file.kind.dimension >= least) {
         cell.nodes().iter().for_each(|&node| used[node as usize] = true);
     }
@@ -48,23 +50,23 @@ pub(super) fn mesh(bodies: Bodies, contents: &Contents, reader: &Reader, scale: 
         return Err(faults.into_list(source));
     }
     let mut mesh = nodes.mesh(source, &groups, &resolved);
-    mesh.notes = notes(&groups);
+    mesh.notes = notes(&groups, &resolved);
     mesh.fields = contents.views.iter().map(|view| nodes.field(view, &index, &resolved, scale)).collect();
     Ok(mesh)
 }
 
 /// Bodies that are no longer of second order.
-fn notes(groups: &[Group]) -> Vec<String> {
+fn notes(groups: &[Group], resolved: &[Vec<Cell>]) -> Vec<String> {
     let bodies = groups.iter().map(|group| group.dimension).max().unwrap_or(0);
     let mut notes = Vec::new();
-    for group in groups.iter().filter(|group| group.dimension == bodies) {
-        let mut kinds: BTreeMap<i64, (usize, &FileCell)> = BTreeMap::new();
-        for cell in group.cells.iter().filter(|cell| cell.kind.is_reduced()) {
-            kinds.entry(cell.kind.number).or_insert((0, cell)).0 += 1;
+    for (group, cells) in groups.iter().zip(resolved).filter(|(group, _)| group.dimension == bodies) {
+        let mut kinds: BTreeMap<i64, (usize, &Cell)> = BTreeMap::new();
+        for cell in cells.iter().filter(|cell| cell.shape.nodes() < cell.file.kind.nodes) {
+            kinds.entry(cell.file.kind.number).or_insert((0, cell)).0 += 1;
         }
         for (count, first) in kinds.into_values() {
             let (name, cell) = (&group.name, first.shape.facts());
-            let what = format!("group {name:?} has {count} elements of the type {:?}", first.kind.name);
+            let what = format!("group {name:?} has {count} elements of the type {:?}", first.file.kind.name);
             notes.push(format!("{what}, which become {} of {} nodes", cell.plural, cell.nodes));
         }
     }
@@ -183,20 +185,28 @@ impl NodeIndex {
 /// A cell with node indices instead of tags.
 pub(super) struct Cell<'a> {
     pub(super) file: &'a FileCell,
+    /// The kind of cell that it is here.
+    pub(super) shape: CellKind,
     nodes: [u32; MOST_NODES],
 }
 
 impl Cell<'_> {
     pub(super) fn nodes(&self) -> &[u32] {
-        &self.nodes[..self.file.shape.nodes()]
+        &self.nodes[..self.shape.nodes()]
     }
 }
 
-fn resolve<'a>(group: &Group<'a>, index: &NodeIndex, reader: &Reader, faults: &mut Faults) -> Vec<Cell<'a>> {
+/// The cells of a group, triangles of six nodes with their corners alone: in 3D they are shells, or sides of
+/// ten-node tetrahedra, and beside quadrilaterals their nodes between corners would hang free.
+fn resolve<'a>(group: &Group<'a>, takes_corners: bool, index: &NodeIndex, reader: &Reader, faults: &mut Faults) -> Vec<Cell<'a>> {
     let mut cells = Vec::with_capacity(group.cells.len());
     for &file in &group.cells {
-        let mut cell = Cell { file, nodes: [0; MOST_NODES] };
-        for k in 0..file.shape.nodes() {
+        let shape = match file.shape {
+            CellKind::Triangle6 if takes_corners => CellKind::Triangle,
+            shape => shape,
+        };
+        let mut cell = Cell { file, shape, nodes: [0; MOST_NODES] };
+        for k in 0..shape.nodes() {
             match index.of(file.nodes[k]) {
                 Some(node) => cell.nodes[k] = node,
                 None => faults.add("references to missing nodes", || {
@@ -297,7 +307,7 @@ impl<'a> Nodes<'a> {
                 };
                 if own.len() == count && self.is_turned(cell) {
                     let mut order: Vec<u32> = (0..count as u32).collect();
-                    cell.file.shape.reflect(&mut order);
+                    cell.shape.reflect(&mut order);
                     own = order.iter().map(|&at| own[at as usize]).collect();
                 }
                 own
@@ -309,7 +319,7 @@ impl<'a> Nodes<'a> {
 
     /// Whether a cell of the file is turned round in the mesh.
     fn is_turned(&self, cell: &Cell) -> bool {
-        cell.file.kind.dimension == self.dimension && form::is_turned(cell.file.shape, &self.corners(cell))
+        cell.file.kind.dimension == self.dimension && form::is_turned(cell.shape, &self.corners(cell))
     }
 
     /// The mesh of the used nodes; nothing is wrong with it any more.
@@ -323,7 +333,7 @@ impl<'a> Nodes<'a> {
         let oriented = |cell: &Cell| {
             let mut nodes: Vec<u32> = cell.nodes().iter().map(|&node| dense[node as usize]).collect();
             if self.is_turned(cell) {
-                cell.file.shape.reflect(&mut nodes);
+                cell.shape.reflect(&mut nodes);
             }
             nodes
         };

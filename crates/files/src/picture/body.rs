@@ -16,9 +16,9 @@ pub(super) struct Mesh {
 
 #[derive(Clone, Copy, Debug)]
 struct DrawnCell {
-    /// Corners; the last is given again for those that are missing.
-    nodes: [u32; 4],
-    /// Number of corners.
+    /// Nodes around it; the last is given again for those that are missing.
+    nodes: [u32; 6],
+    /// Number of them.
     corners: u8,
     part: u32,
     /// Index in the frame's cell fields.
@@ -78,9 +78,10 @@ impl Mesh {
             // Parts beyond any sensible number are a fault elsewhere; here they only must not cost memory.
             let part = cells.parts.get(index).copied().unwrap_or(0).min(cells.kinds.len() as u32);
             let (nodes, corners) = match cells.nodes.get(range[0] as usize..range[1] as usize) {
-                Some(&[a, b]) => ([a, b, b, b], 2),
-                Some(&[a, b, c]) => ([a, b, c, c], 3),
-                Some(&[a, b, c, d]) => ([a, b, c, d], 4),
+                Some(&[a, b]) => ([a, b, b, b, b, b], 2),
+                Some(&[a, b, c]) => ([a, b, c, c, c, c], 3),
+                Some(&[a, b, c, d]) => ([a, b, c, d, d, d], 4),
+                Some(&[a, b, c, d, e, f]) => ([a, d, b, e, c, f], 6),
                 _ => continue,
             };
             mesh.part_count = mesh.part_count.max(part as usize + 1);
@@ -106,8 +107,9 @@ impl Mesh {
         }
         for cell in &self.cells {
             let Some(corners) = corners(points, cell) else { continue };
-            let area = quad_area(&corners);
-            let longest = (0..4).map(|k| length([cell.nodes[k], cell.nodes[(k + 1) % 4]])).fold(0.0, f32::max);
+            let [a, b, c, d, e, f] = corners;
+            let area = quad_area(&[a, b, c, d]) + quad_area(&[a, d, e, f]);
+            let longest = (0..6).map(|k| length([cell.nodes[k], cell.nodes[(k + 1) % 6]])).fold(0.0, f32::max);
             let sum = &mut sums[cell.part as usize];
             sum.area += area;
             sum.heights += if longest > 0.0 { area / longest } else { 0.0 };
@@ -172,7 +174,7 @@ impl Mesh {
 /// Levels at the corners, where values live at nodes. Some fields have values on the surface alone: a cell
 /// with a side there shows them through to its other side, so that they can be seen; a cell without such a
 /// side has no levels.
-fn node_levels(cell: &DrawnCell, values: Values<'_>) -> Option<[f32; 4]> {
+fn node_levels(cell: &DrawnCell, values: Values<'_>) -> Option<[f32; 6]> {
     let Values::Nodes(values, range) = values else { return None };
     let count = usize::from(cell.corners);
     let known = cell.nodes.map(|node| values.get(node as usize).and_then(|v| level(*v, range)));
@@ -184,7 +186,7 @@ fn node_levels(cell: &DrawnCell, values: Values<'_>) -> Option<[f32; 4]> {
             [a, b] => a.or(b),
         }
     };
-    let mut levels = [0.0; 4];
+    let mut levels = [0.0; 6];
     for (k, found) in levels[..count].iter_mut().enumerate() {
         *found = known[k].or_else(|| through(k)).filter(|_| has_side)?;
     }
@@ -222,8 +224,8 @@ fn edges(cells: &[DrawnCell]) -> Vec<Edge> {
     sides.chunk_by(|a, b| a.0 == b.0).map(edge).collect()
 }
 
-fn corners(points: &[[f32; 2]], cell: &DrawnCell) -> Option<[[f32; 2]; 4]> {
-    let mut corners = [[0.0; 2]; 4];
+fn corners(points: &[[f32; 2]], cell: &DrawnCell) -> Option<[[f32; 2]; 6]> {
+    let mut corners = [[0.0; 2]; 6];
     for (corner, node) in corners.iter_mut().zip(cell.nodes) {
         *corner = *points.get(node as usize)?;
         if !(corner[0].is_finite() && corner[1].is_finite()) {
@@ -252,9 +254,9 @@ pub(super) fn level(value: f32, range: [f64; 2]) -> Option<f32> {
     (!level.is_nan()).then(|| level.clamp(0.0, (LEVELS - 1) as f64) as f32)
 }
 
-/// Fills a cell whose colour varies linearly from corner to corner: a triangle as it is, a quadrilateral as
-/// four around its middle.
-fn smooth(layer: &mut Layer, map: &[[f32; 3]], corners: &[[f32; 2]], levels: &[f32; 4]) {
+/// Fills a cell whose colour varies linearly from corner to corner: a triangle as it is, others as triangles
+/// around their middle.
+fn smooth(layer: &mut Layer, map: &[[f32; 3]], corners: &[[f32; 2]], levels: &[f32; 6]) {
     let count = corners.len();
     if count == 3 {
         return triangle(layer, map, [corners[0], corners[1], corners[2]], [levels[0], levels[1], levels[2]]);
@@ -322,8 +324,8 @@ mod tests {
             [0, 1].map(|k| node_levels(&mesh.cells[k], values))
         };
         // Cells 0 1 4 3 and 1 2 5 4.
-        assert_eq!(levels([10.0, 20.0, nan, nan, nan, nan]), [Some([10.0, 20.0, 20.0, 10.0]), None]);
-        assert_eq!(levels([nan, 20.0, 30.0, nan, nan, 50.0]), [None, Some([20.0, 30.0, 50.0, 35.0])]);
+        assert_eq!(levels([10.0, 20.0, nan, nan, nan, nan]), [Some([10.0, 20.0, 20.0, 10.0, 0.0, 0.0]), None]);
+        assert_eq!(levels([nan, 20.0, 30.0, nan, nan, 50.0]), [None, Some([20.0, 30.0, 50.0, 35.0, 0.0, 0.0])]);
         assert_eq!(levels([nan; 6]), [None, None]);
     }
 

@@ -145,7 +145,7 @@ impl<'a> Scene<'a> {
         let mut labels = Vec::new();
         // The failure location's own last, so that its line lies above those of others.
         for (k, cell) in self.near.cells.iter().enumerate().rev() {
-            let corners: Vec<[f64; 2]> = cell.nodes.iter().map(|&node| seen(moment.positions[node])).collect();
+            let corners: Vec<[f64; 2]> = cell.kind.around().map(|k| seen(moment.positions[cell.nodes[k]])).collect();
             if !corners.iter().all(|x| is_finite(*x)) {
                 continue;
             }

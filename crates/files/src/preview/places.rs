@@ -132,7 +132,7 @@ fn segments(cells: &Cells, frame: &Frame) -> Vec<Facet> {
         if kind.dimension() != 2 {
             continue;
         }
-        for [a, b] in kind.cell(cells.cell(cell)).edges() {
+        for [a, b] in kind.cell(cells.cell(cell)).pieces_of_edges() {
             edges.entry([a.min(b), a.max(b)]).and_modify(|edge| *edge = None).or_insert(Some([a, b]));
         }
     }

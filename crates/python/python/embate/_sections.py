@@ -1140,8 +1140,8 @@ class Sections:
         *,
         name: str,
         material: str,
-        element: Literal["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_viscous", "quad4_reduced_assumed_strain", "bar2", "beam2", "shell2", "shell4", "shell4_full", "shell3", "hex8", "hex8_reduced", "hex8_reduced_viscous", "hex8_reduced_assumed_strain", "wedge6", "tet4", "tet4_anp", "tet10"] | None = None,
-        element_triangles: Literal["tri3", "tri3_anp"] | None = None,
+        element: Literal["quad4", "quad4_full", "quad4_reduced", "quad4_reduced_viscous", "quad4_reduced_assumed_strain", "tri6", "bar2", "beam2", "shell2", "shell4", "shell4_full", "shell3", "hex8", "hex8_reduced", "hex8_reduced_viscous", "hex8_reduced_assumed_strain", "wedge6", "tet4", "tet4_anp", "tet10"] | None = None,
+        element_triangles: Literal["tri3", "tri3_anp", "tri6"] | None = None,
         area: Quantity | None = None,
         section: Section | None = None,
         profile: Profile | None = None,
@@ -1194,7 +1194,8 @@ class Sections:
             `shell2` for shells in 2D, `shell4` for those in 3D (`shell3` where they are of
             triangles only).
         element_triangles
-            What triangles are, where the part has some; those of shells in 3D are `shell3`.
+            What triangles are, where the part has some; those of shells in 3D are `shell3`. With
+            `tri6` a mesh of three-node triangles gets a node in the middle of each edge.
         area
             Cross-section of bars per metre of depth, such as `"1e-4 m"` for one square centimetre
             in each metre; between solids whole, `"1e-4 m^2"`.

@@ -34,7 +34,6 @@ OTHER_NAMES = {
 #: Cells of second order of which the corners, the first nodes, are taken: names, and types of Gmsh.
 REDUCED: dict[str | int, str] = {
     "line3": "line",
-    "triangle6": "triangle",
     "quad8": "quad",
     "quad9": "quad",
     "hexahedron20": "hexahedron",
@@ -42,7 +41,6 @@ REDUCED: dict[str | int, str] = {
     "wedge15": "wedge",
     "wedge18": "wedge",
     8: "line",
-    9: "triangle",
     10: "quad",
     12: "hexahedron",
     13: "wedge",
@@ -66,7 +64,7 @@ class Mesh:
     points : array, shape (n, 2) or (n, 3)
         Positions, in metres (or in the unit that ``scale`` of the part's mesh says).
     cells : dict of array
-        Nodes of cells by their kind (``quad``, ``triangle``, ``hexahedron``, ``tetra``, ``tetra10``, ``wedge``, ``line``, ``vertex``), counted from 0 and in the order of VTK.
+        Nodes of cells by their kind (``quad``, ``triangle``, ``triangle6``, ``hexahedron``, ``tetra``, ``tetra10``, ``wedge``, ``line``, ``vertex``), counted from 0 and in the order of VTK.
     groups : dict, optional
         Name -> {kind: indices of cells of that kind}. Without groups all cells of the highest dimension are the group ``all``.
     """

@@ -21,7 +21,7 @@ use super::Report;
 use super::batch::{ElementBatch, Resistance};
 use super::damping::step_squared;
 use super::kernel::FixedState;
-use super::strain::{Tensor, averages, circumference, deformation, flow, initial_width, matrix, scale_of_points};
+use super::strain::{Tensor, averages, circumference, deformation, encloses, flow, gradients, initial_portions, initial_width, matrix};
 use super::strip::{Parts, StripBuffers, prefetch_next};
 use crate::element::{Corners, Element, Held, Map, PATTERNS, Pulls, map};
 use crate::material::Family;
@@ -148,6 +148,8 @@ struct Geometry<L, const D: usize, const N: usize, const P: usize> {
     /// Of an element that is composite: slope of its volume, and its volume over the sum of its points'.
     slope: [[L; D]; N],
     scale: L,
+    /// See [`Element::portions`].
+    portions: [L; P],
 }
 
 impl<E: Element<D, N, P>, S: FixedState, const D: usize, const N: usize, const P: usize> Parts for ForcesKernel<'_, E, S, D, N, P>
@@ -203,11 +205,15 @@ where
             stored = stored * L::splat(0.5);
         }
         let live = L::load(&self.input.elements[batch].live, at);
-        // In 2D all counts as if it were dilatation.
-        let thickness = E::thickness(&geometry.x, &geometry.map, geometry.area, &geometry.slope);
+        // In 2D all counts as if it were dilatation, but of elements that are composite.
+        let size = if encloses::<E, D, N, P>(S::STATE) { geometry.volume } else { geometry.area };
+        let thickness = E::thickness(&geometry.x, &geometry.map, size, &geometry.slope, S::STATE);
         let dilating_squared = thickness.squared();
-        let characteristic_length_squared =
-            if D == 3 && self.input.is_elastic { thickness.squared_with((shear_least + shear_least) / modulus) } else { dilating_squared };
+        let characteristic_length_squared = if (D == 3 || E::COMPOSITE) && self.input.is_elastic {
+            thickness.squared_with((shear_least + shear_least) / modulus)
+        } else {
+            dilating_squared
+        };
         let mass = L::load(&self.input.elements[batch].mass_least, at);
         let (mut pressure, mut stiffening) = (zero, L::splat(1.0));
         if let Some(coefficients) = self.input.viscosity {
@@ -223,7 +229,7 @@ where
                 [modulus, bulk_waves, shear, mass],
                 [characteristic_length_squared, dilating_squared],
             );
-            stiffening = if D == 2 { stiffening.max(held.stiffening) } else { stiffening * held.stiffening };
+            stiffening = if D == 2 && !E::COMPOSITE { stiffening.max(held.stiffening) } else { stiffening * held.stiffening };
         }
         let mut nodal = self.nodal(batch, at, &geometry, pressure, &held);
         if E::HOURGLASS > 0 && !E::WARPED {
@@ -304,14 +310,19 @@ where
             }
         }
         let nothing = L::splat(-0.0);
+        let portions = match self.input.family {
+            Family::Rate => E::portions(&x),
+            Family::Hyperelastic => initial_portions::<E, _, D, N, P>(S::STATE, self.input.initial, batch, at),
+        };
         let mut geometry = Geometry {
             x,
-            map: self.map(batch, at, &x),
+            map: self.map(batch, at, &x, &portions),
             depth: [one; P],
             area: nothing,
             volume: nothing,
             slope: [[zero; D]; N],
             scale: one,
+            portions,
         };
         for p in 0..P {
             let own = geometry.map.determinants[p] * L::splat(E::WEIGHTS[p]);
@@ -319,14 +330,17 @@ where
             if S::STATE.is_plane_stress {
                 geometry.depth[p] = L::load(&self.input.history[(batch * P + p) * self.input.history_width + self.input.thickness], at);
             } else if S::STATE.is_axisymmetric {
-                geometry.depth[p] = circumference(&x, &E::shape(E::POINTS[p]));
+                geometry.depth[p] = circumference(&x, &E::shares(p));
             }
             geometry.volume += if S::STATE.is_plane_stress || S::STATE.is_axisymmetric { own * geometry.depth[p] } else { own };
         }
-        if E::COMPOSITE {
-            (geometry.volume, geometry.slope) = E::enclosed(&x);
-            geometry.area = geometry.volume;
-            geometry.scale = scale_of_points::<E, L, D, N, P>(geometry.volume, &geometry.map.determinants);
+        if encloses::<E, D, N, P>(S::STATE) {
+            let of_points = geometry.volume;
+            (geometry.volume, geometry.slope) = E::enclosed(&x, S::STATE);
+            geometry.scale = geometry.volume / of_points;
+            if !S::STATE.is_axisymmetric {
+                geometry.area = geometry.volume;
+            }
         }
         geometry
     }
@@ -335,8 +349,8 @@ where
     /// forces the slope of the energy: F of the mean is no ratio of present and initial maps, but adj(F)
     /// takes adjugates of the start to those of now.
     #[inline(always)]
-    fn map<L: Lane>(&self, batch: usize, at: usize, x: &[[L; D]; N]) -> Map<L, D, P> {
-        let mut map = map::<E, L, D, N, P>(E::gradients(x), &E::warp(x));
+    fn map<L: Lane>(&self, batch: usize, at: usize, x: &[[L; D]; N], portions: &[L; P]) -> Map<L, D, P> {
+        let mut map = map::<E, L, D, N, P>(gradients::<E, _, D, N, P>(S::STATE, x, portions), &E::warp(x));
         if E::WARPED && matches!(self.input.family, Family::Hyperelastic) {
             let (width, jacobians) = (initial_width::<E, D, N, P>(S::STATE), E::gradients(x));
             for p in 0..P {
@@ -360,7 +374,7 @@ where
             stress = stress.plus(Tensor::<D, L>::load(&self.input.damped[point * components..(point + 1) * components], at));
         }
         let mut weight = match self.input.family {
-            Family::Rate if E::COMPOSITE => geometry.scale * L::splat(E::WEIGHTS[p]),
+            Family::Rate if encloses::<E, D, N, P>(S::STATE) => geometry.scale * L::splat(E::WEIGHTS[p]),
             Family::Rate => L::splat(E::WEIGHTS[p]),
             Family::Hyperelastic => L::load(&self.input.strip.weight[point], at),
         };
@@ -397,7 +411,7 @@ where
                 let own = stress.trace() * third * weight;
                 weighted = weighted.plus_isotropic(if E::COMPOSITE { own } else { own - mean * share });
             }
-            if self.input.viscosity.is_some() && !E::COMPOSITE {
+            if self.input.viscosity.is_some() && !encloses::<E, D, N, P>(S::STATE) {
                 weighted = weighted.plus_isotropic(pressure * share);
             }
             flux[p] = Dim::<D>::flux(&weighted, &adjugates[p]);
@@ -418,8 +432,14 @@ where
         for i in 0..D {
             pulls.rest[i] = -held.pulls.rest[i];
         }
-        let mut nodal = if E::WARPED { E::divergence_warped(&flux, &pulls) } else { E::divergence(&flux) };
-        if E::COMPOSITE {
+        let mut nodal = if E::WARPED {
+            E::divergence_warped(&flux, &pulls)
+        } else if E::COMPOSITE && S::STATE.is_axisymmetric {
+            E::divergence_around(&flux, &geometry.portions)
+        } else {
+            E::divergence(&flux)
+        };
+        if encloses::<E, D, N, P>(S::STATE) {
             let all = if self.input.viscosity.is_some() { pressure - mean } else { -mean };
             for a in 0..N {
                 for i in 0..D {
@@ -429,7 +449,7 @@ where
         }
         if S::STATE.is_axisymmetric {
             for p in 0..P {
-                let shape = E::shape(E::POINTS[p]);
+                let shape = E::shares(p);
                 for a in 0..N {
                     nodal[a][0] += hoop[p] * L::splat(shape[a]);
                 }
@@ -479,7 +499,7 @@ where
             * (characteristic_length_squared[1] / characteristic_length_squared[0]).sqrt();
         // ζ = (…) l h / h₀² with the thickness h₀ of what dilates alone: the damping is that of the
         // dilatation.
-        let damping = if D == 2 {
+        let damping = if D == 2 && !E::COMPOSITE {
             damping
         } else {
             damping * (characteristic_length_squared[0] * dilating_squared[1] / (characteristic_length_squared[1] * dilating_squared[0]))
@@ -506,7 +526,7 @@ where
         } else {
             v = L::gather_one::<D, N, true>(&self.input.strip.moving, self.input.places, row, at);
         }
-        if E::COMPOSITE {
+        if encloses::<E, D, N, P>(S::STATE) {
             return flow(&geometry.slope, &v);
         }
         let v = E::natural(&v);
@@ -520,7 +540,7 @@ where
                 own += if E::WARPED { flat[i][i] + more[i][i] } else { flat[i][i] };
             }
             if S::STATE.is_axisymmetric {
-                own = own * geometry.depth[p] + determinants[p] * circumference(&v, &E::shape(E::POINTS[p]));
+                own = own * geometry.depth[p] + determinants[p] * circumference(&v, &E::shares(p));
             }
             growth += own * L::splat(E::WEIGHTS[p]);
         }
@@ -566,6 +586,7 @@ where
             mass,
             rate: L::splat(if self.input.time_step > 0.0 { 1.0 / self.input.time_step } else { 0.0 }),
             is_start: self.input.time_step <= 0.0,
+            state: S::STATE,
         };
         let held = self.element.hourglass_forces(&corners, &geometry.map, keep, at);
         let element = &mut self.input.elements[batch];

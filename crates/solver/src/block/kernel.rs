@@ -6,9 +6,9 @@
 //! implementation.
 
 use super::forces::{Forces, ForcesKernel};
-use super::strain::{Strain, StrainKernel, Tensor, averages, initial_width, point_volume, radius, scale_of_points};
+use super::strain::{Strain, StrainKernel, Tensor, averages, encloses, gradients, initial_width, point_volume, radius};
 use super::strip::{ForEachBatch, StripBuffers};
-use crate::element::{Element, ElementOptions, Map, map_of};
+use crate::element::{Element, ElementOptions, Map, map, map_of};
 use crate::stress_state::StressState;
 use crate::tensor::{Dim, Matrix, Space, SymmetricTensor, Turn, product};
 use embate_lanes::{BATCH, Batch, Lane, Level};
@@ -169,17 +169,19 @@ where
 
     fn geometry(&self, positions: &[[f64; D]], geometry: &mut ElementGeometry<D>) {
         let (x, state): ([[f64; D]; N], _) = (corners(positions), self.facts.state);
-        let map = map_of::<E, f64, D, N, P>(&x);
+        let portions = E::portions(&x);
+        let map = map::<E, f64, D, N, P>(gradients::<E, _, D, N, P>(state, &E::natural(&x), &portions), &E::warp(&E::natural(&x)));
         let ElementGeometry { places, volumes, initial, corner_volumes } = geometry;
         places.clear();
         volumes.clear();
         initial.clear();
         let mut corner_sums = [0.0; N];
-        let scale = scale_of_points::<E, f64, D, N, P>(E::enclosed(&x).0, &map.determinants);
+        let own = |p: usize| point_volume::<E, _, D, N, P>(state, map.determinants[p] * E::WEIGHTS[p], &x, p);
+        let scale = if encloses::<E, D, N, P>(state) { E::enclosed(&x, state.of::<D>()).0 / (0..P).map(own).sum::<f64>() } else { 1.0 };
         for p in 0..P {
             let determinant = map.determinants[p];
-            let shape = E::shape(E::POINTS[p]);
-            let volume = scale * point_volume::<E, _, D, N, P>(state, determinant * E::WEIGHTS[p], &x, p);
+            let shape = E::shares(p);
+            let volume = scale * own(p);
             places.push(std::array::from_fn(|d| (0..N).map(|a| shape[a] * x[a][d]).sum()));
             volumes.push(volume);
             for a in 0..N {
@@ -192,6 +194,9 @@ where
             }
             if state.is_axisymmetric {
                 initial.push(radius(&x, &shape));
+            }
+            if state.is_axisymmetric && E::COMPOSITE {
+                initial.push(portions[p]);
             }
         }
         corner_volumes.clear();
@@ -227,7 +232,7 @@ where
 
     fn slope(&self, positions: &[[f64; D]]) -> f64 {
         let x: [[f64; D]; N] = corners(positions);
-        let reference = Reference::<D, P>::of::<E, N>(&x);
+        let reference = Reference::<D, P>::of::<E, N>(&x, self.facts.state);
         let mut slope: f64 = 0.0;
         for p in 0..P {
             let mut square = [[0.0; D]; D];
@@ -241,7 +246,7 @@ where
             }
             let mut own = largest_row(&square);
             if self.facts.state.of::<D>().is_axisymmetric {
-                let shape = E::shape(E::POINTS[p]);
+                let shape = E::shares(p);
                 own += shape.iter().map(|share| share * share).sum::<f64>() / radius(&x, &shape).powi(2);
             }
             slope = slope.max(own.sqrt());
@@ -251,7 +256,7 @@ where
 
     fn deformation(&self, slope: f64, reference: &[[f64; D]], positions: &[[f64; D]]) -> [f64; 2] {
         let (r, x): ([[f64; D]; N], [[f64; D]; N]) = (corners(reference), corners(positions));
-        let (map, state) = (Reference::<D, P>::of::<E, N>(&r), self.facts.state.of::<D>());
+        let (map, state) = (Reference::<D, P>::of::<E, N>(&r, self.facts.state), self.facts.state.of::<D>());
         let (mut change, mut growth, mut least): (f64, f64, f64) = (0.0, 0.0, f64::INFINITY);
         for p in 0..P {
             let f = map.gradient::<E, N>(&x, p);
@@ -268,7 +273,7 @@ where
                 own += (1.0 + own) * slope * unfelt(&f, &r, &x);
             }
             if state.is_axisymmetric {
-                let shape = E::shape(E::POINTS[p]);
+                let shape = E::shares(p);
                 let stretch = radius(&x, &shape) / radius(&r, &shape);
                 own = own.max((1.0 / stretch - 1.0).abs());
                 ratio *= stretch;
@@ -293,21 +298,25 @@ struct Reference<const D: usize, const P: usize> {
     adjugates: [Matrix<f64, D>; P],
     warped: Matrix<f64, D>,
     determinants: [f64; P],
+    portions: [f64; P],
+    state: StressState,
 }
 
 impl<const D: usize, const P: usize> Reference<D, P>
 where
     Dim<D>: Space<D>,
 {
-    fn of<E: Element<D, N, P>, const N: usize>(x: &[[f64; D]; N]) -> Self {
-        let Map { adjugates, warped, determinants } = map_of::<E, f64, D, N, P>(x);
-        Self { adjugates, warped, determinants }
+    fn of<E: Element<D, N, P>, const N: usize>(x: &[[f64; D]; N], state: StressState) -> Self {
+        let (natural, portions) = (E::natural(x), E::portions(x));
+        let jacobians = gradients::<E, _, D, N, P>(state, &natural, &portions);
+        let Map { adjugates, warped, determinants } = map::<E, f64, D, N, P>(jacobians, &E::warp(&natural));
+        Self { adjugates, warped, determinants, portions, state }
     }
 
     /// Gradient of a nodal vector by the reference positions at a point.
     fn gradient<E: Element<D, N, P>, const N: usize>(&self, nodal: &[[f64; D]; N], p: usize) -> Matrix<f64, D> {
         let natural = E::natural(nodal);
-        let mut gradient = product(&E::gradients(&natural)[p], &self.adjugates[p]);
+        let mut gradient = product(&gradients::<E, _, D, N, P>(self.state, &natural, &self.portions)[p], &self.adjugates[p]);
         let more = if E::WARPED { product(&E::warp(&natural), &self.warped) } else { [[0.0; D]; D] };
         for (row, more) in gradient.iter_mut().zip(more) {
             row.iter_mut().zip(more).for_each(|(value, more)| *value = (*value + more) / self.determinants[p]);

@@ -28,12 +28,14 @@ pub(super) struct Measures {
 }
 
 /// Batches of initial geometry per point of a hyperelastic block: inverse Jacobian row by row, volume, and
-/// the radius of an axisymmetric body; of an element that is warped the second matrix.
+/// the radius of an axisymmetric body, and the portion of a composite element ([`Element::portions`]); of an
+/// element that is warped the second matrix.
 pub(super) const fn initial_width<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize>(state: StressState) -> usize
 where
     Dim<D>: Space<D>,
 {
-    D * D + 1 + state.of::<D>().is_axisymmetric as usize + if E::WARPED { D * D } else { 0 }
+    let is_axisymmetric = state.of::<D>().is_axisymmetric;
+    D * D + 1 + is_axisymmetric as usize + (is_axisymmetric && E::COMPOSITE) as usize + if E::WARPED { D * D } else { 0 }
 }
 
 /// Deformation gradient of a point from the Jacobian (and the second matrix of an element that is warped) and
@@ -123,26 +125,7 @@ pub(super) fn point_volume<E: Element<D, N, P>, L: Lane, const D: usize, const N
 where
     Dim<D>: Space<D>,
 {
-    if state.of::<D>().is_axisymmetric { area * circumference(x, &E::shape(E::POINTS[p])) } else { area }
-}
-
-/// Volume of an element that is composite over the weighted sum of its determinants; of another one 1.
-#[inline(always)]
-pub(super) fn scale_of_points<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
-    enclosed: L,
-    determinants: &[L; P],
-) -> L
-where
-    Dim<D>: Space<D>,
-{
-    if !E::COMPOSITE {
-        return L::splat(1.0);
-    }
-    let mut sum = L::splat(-0.0);
-    for p in 0..P {
-        sum += determinants[p] * L::splat(E::WEIGHTS[p]);
-    }
-    enclosed / sum
+    if state.of::<D>().is_axisymmetric { area * circumference(x, &E::shares(p)) } else { area }
 }
 
 /// Whether dilatations are averaged over the element.
@@ -151,6 +134,49 @@ where
     Dim<D>: Space<D>,
 {
     E::MEAN_DILATATION && !state.of::<D>().is_plane_stress
+}
+
+/// Whether the volume is that of the whole element ([`Element::enclosed`]).
+pub(super) const fn encloses<E: Element<D, N, P>, const D: usize, const N: usize, const P: usize>(state: StressState) -> bool
+where
+    Dim<D>: Space<D>,
+{
+    E::COMPOSITE && !state.of::<D>().is_plane_stress
+}
+
+/// Gradients of a nodal vector, of an axisymmetric body with these portions.
+#[inline(always)]
+pub(super) fn gradients<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
+    state: StressState,
+    natural: &[[L; D]; N],
+    portions: &[L; P],
+) -> [Matrix<L, D>; P]
+where
+    Dim<D>: Space<D>,
+{
+    if E::COMPOSITE && state.of::<D>().is_axisymmetric { E::gradients_around(natural, portions) } else { E::gradients(natural) }
+}
+
+/// Portions of the points of a hyperelastic block, which are those of the start: so that forces are the slope
+/// of the energy.
+#[inline(always)]
+pub(super) fn initial_portions<E: Element<D, N, P>, L: Lane, const D: usize, const N: usize, const P: usize>(
+    state: StressState,
+    initial: &[Batch],
+    batch: usize,
+    at: usize,
+) -> [L; P]
+where
+    Dim<D>: Space<D>,
+{
+    let mut portions = [L::splat(0.0); P];
+    if E::COMPOSITE && state.of::<D>().is_axisymmetric {
+        let width = initial_width::<E, D, N, P>(state);
+        for p in 0..P {
+            portions[p] = L::load(&initial[(batch * P + p) * width + D * D + 2], at);
+        }
+    }
+    portions
 }
 
 /// Elements `first..first + batches` (in batches) of a block, ready to be strained.
@@ -270,15 +296,16 @@ where
                 x_middle[a][i] = x[a][i] - step[a][i] * half;
             }
         }
-        let increments = E::gradients(&step);
+        let portions = E::portions(&x_middle);
+        let increments = gradients::<E, _, D, N, P>(S::STATE, &step, &portions);
         let warp_step = E::warp(&step);
         let warp = E::warp(&x_middle);
-        let jacobians = E::gradients(if E::PARTS < N { &x_middle } else { x });
+        let jacobians = gradients::<E, _, D, N, P>(S::STATE, if E::PARTS < N { &x_middle } else { x }, &portions);
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
         let turn = <Rotation<D, L> as Turn<L>>::COMPONENTS;
         // Sums begin with -0: the first addition is none.
         let (mut dilatation, mut volume) = (L::splat(-0.0), L::splat(-0.0));
-        let (mut traces, mut determinants_middle) = ([zero; P], [zero; P]);
+        let mut traces = [zero; P];
         for p in 0..P {
             let mut middle = jacobians[p];
             if E::PARTS == N {
@@ -307,16 +334,13 @@ where
             }
             let mut strain = Dim::<D>::symmetric(&gradient);
             if S::STATE.is_axisymmetric {
-                let shape = E::shape(E::POINTS[p]);
+                let shape = E::shares(p);
                 strain = strain.plus_zz(radius(&step, &shape) / radius(&x_middle, &shape));
             }
             if averages::<E, D, N, P>(S::STATE) {
                 traces[p] = strain.trace();
                 dilatation += traces[p] * own;
                 volume += own;
-            }
-            if E::COMPOSITE {
-                determinants_middle[p] = determinant;
             }
             let (point, [half_way, rotation]) = (batch * P + p, turns);
             // Strain increment and old stress meet at the end of the step; without its half rotation the
@@ -328,9 +352,9 @@ where
                 rotation.store(&mut self.input.strip.rotation[point * turn..(point + 1) * turn], at);
             }
         }
-        if E::COMPOSITE {
-            let (enclosed, slope) = E::enclosed(&x_middle);
-            let scale = scale_of_points::<E, L, D, N, P>(enclosed, &determinants_middle);
+        if encloses::<E, D, N, P>(S::STATE) {
+            let (enclosed, slope) = E::enclosed(&x_middle, S::STATE);
+            let scale = enclosed / volume;
             for p in 0..P {
                 let own = &mut self.input.strip.volume[batch * P + p];
                 (L::load(own, at) * scale).store(own, at);
@@ -382,8 +406,8 @@ where
             let own = determinants[p] * L::splat(E::WEIGHTS[p]);
             volume += point_volume::<E, _, D, N, P>(S::STATE, own, x, p);
         }
-        if E::COMPOSITE {
-            volume = E::enclosed(x).0;
+        if encloses::<E, D, N, P>(S::STATE) {
+            volume = E::enclosed(x, S::STATE).0;
         }
         let initial = L::load(&self.input.volume_initial[batch], at);
         let ratio = volume / initial;
@@ -401,7 +425,8 @@ where
     /// dilatation.
     #[inline(always)]
     fn hyperelastic<L: Lane>(&mut self, batch: usize, at: usize, x: &[[L; D]; N], v: &[[L; D]; N]) {
-        let jacobians = &E::gradients(x);
+        let portions = initial_portions::<E, _, D, N, P>(S::STATE, self.input.initial, batch, at);
+        let jacobians = &gradients::<E, _, D, N, P>(S::STATE, x, &portions);
         let one = L::splat(1.0);
         let width = initial_width::<E, D, N, P>(S::STATE);
         let components = <Tensor<D, L> as SymmetricTensor<L>>::COMPONENTS;
@@ -414,8 +439,8 @@ where
             own_initial.store(&mut self.input.strip.volume[batch * P + p], at);
             volume_initial += own_initial;
         }
-        if E::COMPOSITE {
-            volume = E::enclosed(x).0;
+        if encloses::<E, D, N, P>(S::STATE) {
+            volume = E::enclosed(x, S::STATE).0;
         }
         let ratio_mean = volume / volume_initial;
         if E::HOURGLASS_MODES > 0 {
@@ -442,7 +467,7 @@ where
             let f = deformation::<E, L, D, N, P>(&jacobians[p], x, initial, at);
             let mut stretch = one; // across the plane
             if S::STATE.is_axisymmetric {
-                stretch = radius(x, &E::shape(E::POINTS[p])) / L::load(&initial[D * D + 1], at);
+                stretch = radius(x, &E::shares(p)) / L::load(&initial[D * D + 1], at);
             }
             let ratio_point = Dim::<D>::determinant(&f);
             let ratio_point = if S::STATE.is_axisymmetric { ratio_point * stretch } else { ratio_point };
@@ -452,7 +477,12 @@ where
                 // J.
                 let change = ratio_mean / ratio_point;
                 let root = embate_lanes::math::cbrt(change);
-                weight = if E::COMPOSITE { L::load(&initial[D * D], at) * ratio_mean / determinants[p] } else { weight * change };
+                weight = if E::COMPOSITE {
+                    let own = point_volume::<E, _, D, N, P>(S::STATE, determinants[p], x, p);
+                    L::load(&initial[D * D], at) * ratio_mean / own
+                } else {
+                    weight * change
+                };
                 (ratio, scale) = (ratio_mean, root * root);
             }
             let mut b = Dim::<D>::left_cauchy_green(&f, scale);

@@ -14,7 +14,7 @@ use crate::tensor::Dim;
 /// Elements that lock, and what to take.
 const LOCK: [(&str, &str); 2] = [
     ("tet4", "take `element = \"tet10\"`, for which a coarser mesh of four or ten nodes does, or hexahedra"),
-    ("tri3", "take `element_triangles = \"tri3_anp\"`, or quadrilaterals"),
+    ("tri3", "take `element_triangles = \"tri6\"`, for which a coarser mesh does, or quadrilaterals"),
 ];
 /// From this ratio of K to µ on (a Poisson's ratio of 0.49) a body can't be deformed otherwise than by
 /// keeping its volume.

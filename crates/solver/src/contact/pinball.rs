@@ -26,6 +26,7 @@ use super::springs::{Answers, End, Slip, Springs};
 use super::tied::Beside;
 use super::{Formulation, Scene, Vector, length};
 use crate::archive::{Archive, ArchiveResult};
+use crate::mesh::surface::Corners;
 use follower::{Ball, Follower};
 use std::any::Any;
 
@@ -82,8 +83,10 @@ fn disks_under(side: &Side<'_, 2>, positions: &[Vector]) -> Vec<Disk> {
     let mut disks: Vec<Disk> = Vec::new();
     let mut above: Vec<[u32; 2]> = Vec::new();
     for ((&segment, cell), &stiffness) in side.surface.target.surface.segments.iter().zip(&side.cells).zip(&side.stiffness) {
-        let Some(cell) = cell else { continue };
-        for disk in disks_of_segment(segment, cell.corners(), stiffness, positions) {
+        // Of an element that is made of smaller ones the one that has the segment.
+        let has_it = |part: &[u32; 4]| segment.iter().all(|node| part.contains(node));
+        let Some(part) = cell.and_then(|cell| cell.facets().find(has_it)) else { continue };
+        for disk in disks_of_segment(segment, part.corners(), stiffness, positions) {
             let same = disks.iter().position(|other| disk.is_as(other, positions));
             let Some(at) = same else {
                 disks.push(disk);

@@ -17,6 +17,7 @@
 use super::stiffest::{Metric, Thickness};
 use super::{Element, ElementKind, ElementOptions, Map};
 use crate::mesh::cell::CellKind;
+use crate::stress_state::StressState;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -204,7 +205,7 @@ impl Element<3, 8, 8> for Hex8 {
     }
 
     #[inline(always)]
-    fn thickness<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 8>, volume: L, _: &[[L; 3]; 8]) -> Thickness<L> {
+    fn thickness<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 8>, volume: L, _: &[[L; 3]; 8], _: StressState) -> Thickness<L> {
         let (mut trace, mut spread) = (L::splat(0.0), L::splat(0.0));
         for p in 0..8 {
             let inverse = L::splat(1.0) / map.determinants[p];

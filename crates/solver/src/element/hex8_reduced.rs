@@ -38,6 +38,7 @@ use super::hex8_assumed_strain::{self, bend};
 use super::stiffest::{Metric, Thickness};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls};
 use crate::mesh::cell::CellKind;
+use crate::stress_state::StressState;
 use crate::tensor::{Dim, Matrix, Space, cross, dot, scaled};
 use embate_lanes::{Batch, Lane};
 
@@ -300,7 +301,7 @@ macro_rules! reduced {
             }
             /// Σ_a B_a B_aᵀ is 8 times that of the parts, 64 V = D.
             #[inline(always)]
-            fn thickness<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 1>, _: L, _: &[[L; 3]; 8]) -> Thickness<L> {
+            fn thickness<L: Lane>(_: &[[L; 3]; 8], map: &Map<L, 3, 1>, _: L, _: &[[L; 3]; 8], _: StressState) -> Thickness<L> {
                 let ([a, b, c], [d, e, f]) = (map.adjugates[0], map.warped);
                 let determinant = map.determinants[0];
                 let spectrum = Metric::of(a).and(b).and(c).and(d).and(e).and(f).spectrum();

@@ -20,6 +20,7 @@ mod stiffest;
 mod tet10;
 mod tet4;
 mod tri3;
+mod tri6;
 mod wedge6;
 
 pub use bar2::BAR2;
@@ -36,9 +37,11 @@ pub use stiffest::Thickness;
 pub use tet4::{Tet4, Tet4Anp};
 pub use tet10::Tet10;
 pub use tri3::{Tri3, Tri3Anp};
+pub use tri6::Tri6;
 pub use wedge6::Wedge6;
 
 use crate::mesh::cell::CellKind;
+use crate::stress_state::StressState;
 use crate::tensor::{Dim, Matrix, Space};
 use embate_lanes::{Batch, Lane};
 
@@ -71,7 +74,7 @@ impl ElementKind {
     /// Whether `element_triangles` of a part names it: triangles in 2D.
     #[must_use]
     pub const fn is_triangle(&self) -> bool {
-        matches!(self.cell, CellKind::Triangle) && self.dimension == 2
+        matches!(self.cell, CellKind::Triangle | CellKind::Triangle6) && self.dimension == 2
     }
 }
 
@@ -105,8 +108,9 @@ where
     /// Whether the gradient at its one point is the exact mean over an element that may be warped: then it
     /// takes a second matrix of natural parts, [`Element::warp`].
     const WARPED: bool = false;
-    /// Whether it is made of smaller ones: then gradients at its points are projections of theirs, its volume
-    /// is that of [`Element::enclosed`], which is no sum over points, and so is the mean dilatation.
+    /// Whether it is made of smaller ones: then gradients at its points are projections of theirs. But in
+    /// plane stress its volume is that of [`Element::enclosed`], which is no sum over points, and so is the
+    /// mean dilatation.
     const COMPOSITE: bool = false;
     /// Mass of an undistorted element over that of each node; the stable step counts with them.
     const MASS_RATIOS: [f64; N] = [N as f64; N];
@@ -116,6 +120,11 @@ where
 
     /// Shape functions at natural coordinates.
     fn shape(natural: [f64; D]) -> [f64; N];
+    /// Shares of the nodes in the radius of a point of an axisymmetric body, and in its place.
+    #[inline(always)]
+    fn shares(point: usize) -> [f64; N] {
+        Self::shape(Self::POINTS[point])
+    }
     /// Rows of [`Element::natural`] that mean something.
     const PARTS: usize = N;
     /// A nodal vector in the linear parts from which gradients are made: the values at the nodes themselves,
@@ -149,15 +158,32 @@ where
     fn divergence_warped<L: Lane>(flux: &[Matrix<L, D>; P], _pulls: &Pulls<L, D>) -> [[L; D]; N] {
         Self::divergence(flux)
     }
-    /// Of an element that is composite: the volume that its outside encloses, and its slope by each node.
+    /// Of an element that is composite: the volume that its outside encloses, of an axisymmetric body that of
+    /// the whole circumference, and its slope by each node. Not asked for in plane stress.
     #[inline(always)]
-    fn enclosed<L: Lane>(_nodal: &[[L; D]; N]) -> (L, [[L; D]; N]) {
+    fn enclosed<L: Lane>(_nodal: &[[L; D]; N], _state: StressState) -> (L, [[L; D]; N]) {
         (L::splat(0.0), [[L::splat(0.0); D]; N])
+    }
+    /// Of an element that is composite, in an axisymmetric body: how much of the volume of each point is that
+    /// of the part at its corner.
+    #[inline(always)]
+    fn portions<L: Lane>(_nodal: &[[L; D]; N]) -> [L; P] {
+        [L::splat(0.0); P]
+    }
+    /// [`Element::gradients`] with these portions, where they count.
+    #[inline(always)]
+    fn gradients_around<L: Lane>(natural: &[[L; D]; N], _portions: &[L; P]) -> [Matrix<L, D>; P] {
+        Self::gradients(natural)
+    }
+    /// [`Element::divergence`] with these portions.
+    #[inline(always)]
+    fn divergence_around<L: Lane>(flux: &[Matrix<L, D>; P], _portions: &[L; P]) -> [[L; D]; N] {
+        Self::divergence(flux)
     }
     /// The element's thickness, for the stable step: `natural` are the parts of the positions, `map` is that
     /// of the element's present form, `volume` the weighted sum of its determinants, of a composite one what
-    /// it encloses, and `slope` that of this volume by each node.
-    fn thickness<L: Lane>(natural: &[[L; D]; N], map: &Map<L, D, P>, volume: L, slope: &[[L; D]; N]) -> Thickness<L>;
+    /// it encloses but in plane stress, and `slope` that of this volume by each node.
+    fn thickness<L: Lane>(natural: &[[L; D]; N], map: &Map<L, D, P>, volume: L, slope: &[[L; D]; N], state: StressState) -> Thickness<L>;
     /// Exact ∫ N_a dA of every corner, or ∫ 2πx N_a dA of an axisymmetric body; `None`: the points' sums are
     /// exact enough.
     fn corner_volumes(_nodal: &[[f64; D]; N], _is_axisymmetric: bool) -> Option<[f64; N]> {
@@ -296,6 +322,8 @@ pub struct Corners<L, const D: usize, const N: usize> {
     pub rate: L,
     /// Whether there was none: these are the positions at time zero.
     pub is_start: bool,
+    /// What the plane stands for.
+    pub state: StressState,
 }
 
 /// What hourglass control answers.
@@ -385,6 +413,7 @@ elements! {
         Quad4ReducedAssumedStrain: 4 nodes, 1 points,
         Tri3: 3 nodes, 1 points,
         Tri3Anp: 3 nodes, 1 points,
+        Tri6: 6 nodes, 3 points,
     }
     3 {
         Hex8: 8 nodes, 8 points,

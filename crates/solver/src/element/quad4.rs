@@ -14,6 +14,7 @@
 
 use super::{Element, ElementKind, ElementOptions, Map, Thickness};
 use crate::mesh::cell::CellKind;
+use crate::stress_state::StressState;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -119,7 +120,7 @@ macro_rules! quadrilateral {
                 divergence(flux)
             }
             #[inline(always)]
-            fn thickness<L: Lane>(nodal: &[[L; 2]; 4], map: &Map<L, 2, 4>, volume: L, _: &[[L; 2]; 4]) -> Thickness<L> {
+            fn thickness<L: Lane>(nodal: &[[L; 2]; 4], map: &Map<L, 2, 4>, volume: L, _: &[[L; 2]; 4], _: StressState) -> Thickness<L> {
                 let [numerator, denominator] = characteristic_length_squared(nodal, &map.determinants, volume);
                 Thickness::of_waves(numerator, denominator)
             }

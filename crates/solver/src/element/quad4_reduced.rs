@@ -38,6 +38,7 @@
 use super::quad4::{Quad4Full, distance_squared, shape};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, PATTERNS, Pulls, Thickness};
 use crate::mesh::cell::CellKind;
+use crate::stress_state::StressState;
 use crate::tensor::{Dim, Matrix, Space, scaled};
 use embate_lanes::{Batch, Lane};
 use std::f64::consts::{SQRT_2, TAU};
@@ -394,7 +395,7 @@ macro_rules! reduced {
                 out
             }
             #[inline(always)]
-            fn thickness<L: Lane>(nodal: &[[L; 2]; 4], _: &Map<L, 2, 1>, area: L, _: &[[L; 2]; 4]) -> Thickness<L> {
+            fn thickness<L: Lane>(nodal: &[[L; 2]; 4], _: &Map<L, 2, 1>, area: L, _: &[[L; 2]; 4], _: StressState) -> Thickness<L> {
                 let [numerator, denominator] = characteristic_length_squared(nodal, area);
                 Thickness::of_waves(numerator, denominator)
             }

@@ -54,6 +54,7 @@
 use super::stiffest::{Metric, Thickness, largest};
 use super::{Corners, Element, ElementKind, ElementOptions, Held, Map, Pulls};
 use crate::mesh::cell::{CellKind, Facts};
+use crate::stress_state::StressState;
 use crate::tensor::{Dim, Matrix, Space};
 use embate_lanes::{Batch, Lane, math};
 
@@ -222,7 +223,7 @@ impl Element<3, 10, 4> for Tet10 {
 
     /// From triangles whose corners are taken relative to each other: exact for small elements far away.
     #[inline(always)]
-    fn enclosed<L: Lane>(x: &[[L; 3]; 10]) -> (L, [[L; 3]; 10]) {
+    fn enclosed<L: Lane>(x: &[[L; 3]; 10], _: StressState) -> (L, [[L; 3]; 10]) {
         let (zero, sixth) = (L::splat(0.0), L::splat(1.0 / 6.0));
         let mut slope = [[zero; 3]; 10];
         for triangle in 0..16 {
@@ -251,7 +252,7 @@ impl Element<3, 10, 4> for Tet10 {
     }
 
     #[inline(always)]
-    fn thickness<L: Lane>(_: &[[L; 3]; 10], map: &Map<L, 3, 4>, volume: L, slope: &[[L; 3]; 10]) -> Thickness<L> {
+    fn thickness<L: Lane>(_: &[[L; 3]; 10], map: &Map<L, 3, 4>, volume: L, slope: &[[L; 3]; 10], _: StressState) -> Thickness<L> {
         let (zero, one) = (L::splat(0.0), L::splat(1.0));
         let spectrum = spectrum(map);
         // What the points call the slope, of the same volume.

@@ -16,6 +16,7 @@
 use super::stiffest::{Metric, Thickness};
 use super::{Element, ElementKind, ElementOptions, Map};
 use crate::mesh::cell::CellKind;
+use crate::stress_state::StressState;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -58,7 +59,7 @@ macro_rules! tetrahedron {
                 out
             }
             #[inline(always)]
-            fn thickness<L: Lane>(_: &[[L; 3]; 4], map: &Map<L, 3, 1>, _: L, _: &[[L; 3]; 4]) -> Thickness<L> {
+            fn thickness<L: Lane>(_: &[[L; 3]; 4], map: &Map<L, 3, 1>, _: L, _: &[[L; 3]; 4], _: StressState) -> Thickness<L> {
                 thickness(map)
             }
         }

@@ -14,6 +14,7 @@
 use super::quad4::distance_squared;
 use super::{Element, ElementKind, ElementOptions, Map, Thickness};
 use crate::mesh::cell::CellKind;
+use crate::stress_state::StressState;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 use std::f64::consts::TAU;
@@ -58,7 +59,7 @@ macro_rules! triangle {
                 out
             }
             #[inline(always)]
-            fn thickness<L: Lane>(x: &[[L; 2]; 3], _: &Map<L, 2, 1>, area: L, _: &[[L; 2]; 3]) -> Thickness<L> {
+            fn thickness<L: Lane>(x: &[[L; 2]; 3], _: &Map<L, 2, 1>, area: L, _: &[[L; 2]; 3], _: StressState) -> Thickness<L> {
                 let [numerator, denominator] = characteristic_length_squared(x, area);
                 Thickness::of_waves(numerator, denominator)
             }
@@ -80,7 +81,7 @@ triangle!(
         cell: CellKind::Triangle,
         dimension: 2,
         extruded: Some("wedge6"),
-        is_default: false,
+        is_default: true,
     }
 );
 

@@ -20,6 +20,7 @@
 use super::stiffest::{Metric, Thickness};
 use super::{Element, ElementKind, ElementOptions, Map};
 use crate::mesh::cell::CellKind;
+use crate::stress_state::StressState;
 use crate::tensor::Matrix;
 use embate_lanes::Lane;
 
@@ -100,7 +101,7 @@ impl Element<3, 6, 6> for Wedge6 {
     }
 
     #[inline(always)]
-    fn thickness<L: Lane>(_: &[[L; 3]; 6], map: &Map<L, 3, 6>, volume: L, _: &[[L; 3]; 6]) -> Thickness<L> {
+    fn thickness<L: Lane>(_: &[[L; 3]; 6], map: &Map<L, 3, 6>, volume: L, _: &[[L; 3]; 6], _: StressState) -> Thickness<L> {
         let (scale, height) = (L::splat(0.5f64.sqrt()), L::splat((1.0 / 6.0f64).sqrt()));
         let (mut trace, mut spread) = (L::splat(0.0), L::splat(0.0));
         for p in 0..6 {

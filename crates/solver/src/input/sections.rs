@@ -138,7 +138,11 @@ impl Choices {
             Self::Listed(list) => list(),
             Self::Laws => material::registry().iter().map(|kind| kind.name).collect(),
             Self::EquationsOfState => material::eos::EQUATIONS.iter().map(|kind| kind.name).collect(),
-            Self::Elements => element::registry().iter().filter(|kind| !kind.is_triangle()).map(|kind| kind.name).collect(),
+            // A part of triangles alone may name theirs as its element.
+            Self::Elements => {
+                let known = element::registry().into_iter().filter(|kind| !kind.is_triangle() || kind.cell.has_middles());
+                known.map(|kind| kind.name).collect()
+            }
             Self::Triangles => element::registry().iter().filter(|kind| kind.is_triangle()).map(|kind| kind.name).collect(),
             Self::StressStates => STRESS_STATES.iter().map(|kind| kind.name).collect(),
             Self::ContactLaws => law::LAWS.iter().map(|kind| kind.name).collect(),

@@ -118,8 +118,8 @@ pub(crate) static LOCKING: Message = Message {
     cause: "A nearly incompressible material, or one that flows plastically, in elements that hold the volume one by one: bending and \
         shear are several times too stiff, also with many elements. Of triangles and tetrahedra that is the rule: `tri3` and `tet4` are for \
         foams and brittle fragments.",
-    remedy: "Take `quad4` for `quad4_full`, `tri3_anp` for triangles, `tet10` for tetrahedra: a mesh of four-node tetrahedra becomes one of \
-        ten nodes by itself, and should be coarser.",
+    remedy: "Take `quad4` for `quad4_full`, `tri6` for triangles, `tet10` for tetrahedra: their meshes of three or four nodes get the others by \
+        themselves, and should be coarser.",
 };
 
 pub(crate) static FLUID: Message = Message {

@@ -32,6 +32,8 @@ pub enum CellKind {
     Triangle,
     /// Four nodes, counter-clockwise.
     Quadrilateral,
+    /// Six nodes: a triangle, and the middles of its edges.
+    Triangle6,
     /// Four nodes; seen from the fourth, the first three run counter-clockwise.
     Tetrahedron,
     /// Six nodes: two triangles; seen from the second, the first runs counter-clockwise.
@@ -102,11 +104,12 @@ pub const MOST_NODES: usize = {
 
 impl CellKind {
     /// Every kind.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Point,
         Self::Line,
         Self::Triangle,
         Self::Quadrilateral,
+        Self::Triangle6,
         Self::Tetrahedron,
         Self::Wedge,
         Self::Hexahedron,
@@ -121,6 +124,7 @@ impl CellKind {
             Self::Line => &LINE,
             Self::Triangle => &TRIANGLE,
             Self::Quadrilateral => &QUADRILATERAL,
+            Self::Triangle6 => &TRIANGLE6,
             Self::Tetrahedron => &TETRAHEDRON,
             Self::Wedge => &WEDGE,
             Self::Hexahedron => &HEXAHEDRON,
@@ -162,6 +166,18 @@ impl CellKind {
     #[must_use]
     pub const fn corners(self) -> usize {
         self.facts().corners
+    }
+
+    /// Places of the nodes of a surface in their order around it.
+    pub fn around(self) -> impl Iterator<Item = usize> + Clone {
+        let (corners, steps) = (self.corners(), if self.has_middles() { 2 } else { 1 });
+        (0..self.nodes()).map(move |k| k / steps + if k % steps == 1 { corners } else { 0 })
+    }
+
+    /// Whether it has nodes in the middles of its edges.
+    #[must_use]
+    pub const fn has_middles(self) -> bool {
+        self.nodes() > self.corners()
     }
 
     /// Numberings of the nodes that are the same cell; see [`Facts::symmetries`].
@@ -234,14 +250,20 @@ impl<'a> Cell<'a> {
         &self.nodes[..self.kind.corners()]
     }
 
-    /// The cell of first order with its corners: of a ten-node tetrahedron that of four, of others
-    /// themselves.
+    /// The cell of first order with its corners: of a ten-node tetrahedron that of four, of a six-node
+    /// triangle that of three, of others themselves.
     #[must_use]
     pub fn of_corners(self) -> Self {
         match self.kind {
             CellKind::Tetrahedron10 => CellKind::Tetrahedron.cell(self.corners()),
+            CellKind::Triangle6 => CellKind::Triangle.cell(self.corners()),
             _ => self,
         }
+    }
+
+    /// Nodes of a surface in their order around it, those in the middles of edges too.
+    pub fn around(self) -> impl Iterator<Item = u32> + Clone {
+        self.kind.around().map(move |k| self.nodes[k])
     }
 
     /// Nodes of each edge.
@@ -344,6 +366,21 @@ const TRIANGLE: Facts = Facts {
     division: &[0, 1, 2, 0, 2, 3],
     vtk: 5,
     gmsh: 2,
+};
+
+/// The triangle with the middles of its edges, in the order of Abaqus, Gmsh and VTK.
+const TRIANGLE6: Facts = Facts {
+    name: "triangle6",
+    plural: "six-node triangles",
+    nodes: 6,
+    facets: &[[0, 3, 5, 5], [3, 1, 4, 4], [5, 4, 2, 2], [3, 4, 5, 5]],
+    symmetries: [[0, 1, 2, 3, 4, 5], [1, 2, 0, 4, 5, 3], [2, 0, 1, 5, 3, 4]].as_flattened(),
+    reflection: &[0, 2, 1, 5, 4, 3],
+    reference: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]],
+    extruded: None,
+    vtk: 22,
+    gmsh: 9,
+    ..TRIANGLE
 };
 
 const QUADRILATERAL: Facts = Facts {

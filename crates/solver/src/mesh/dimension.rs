@@ -78,6 +78,7 @@ pub trait Meshed<const D: usize> {
 const MEND: &str = "fix the mesh there";
 const MEND_MIDDLE: &str =
     "move it towards the middle of its edge, or let the mesh generator make straight ones (Gmsh: Mesh.SecondOrderLinear = 1)";
+const FOLDED: &str = "is folded over by a node between its corners";
 const DEGENERATE: &str = "is degenerate or folds over at a corner";
 
 impl Meshed<2> for Dim<2> {
@@ -123,7 +124,8 @@ impl Meshed<2> for Dim<2> {
             })
         };
         if turns().all(|turn| turn > 0.0) {
-            None
+            let is_folded = kind == CellKind::Triangle6 && !subtriangles(places).all(|area| area > 0.0);
+            is_folded.then_some([FOLDED, MEND_MIDDLE])
         } else if turns().all(|turn| turn < 0.0) {
             Some(["has negative area: its nodes run clockwise", "number its nodes counter-clockwise"])
         } else {
@@ -142,7 +144,7 @@ impl Meshed<2> for Dim<2> {
 
     fn add_around(cell: Cell<'_>, sums: &mut [u64]) {
         // Around a node inside each neighbour is once the next one and once the one before.
-        for [a, b] in cell.edges().filter(|_| cell.kind.dimension() == 2) {
+        for [a, b] in cell.pieces_of_edges().filter(|_| cell.kind.dimension() == 2) {
             sums[a as usize] = sums[a as usize].wrapping_add(b.into());
             sums[b as usize] = sums[b as usize].wrapping_sub(a.into());
         }
@@ -193,7 +195,7 @@ impl Meshed<3> for Dim<3> {
         let volumes = || corner_volumes(kind, places);
         if volumes().all(|volume| volume > 0.0) {
             let is_folded = kind == CellKind::Tetrahedron10 && !subtetrahedra(places).all(|volume| volume > 0.0);
-            is_folded.then_some(["is folded over by a node between its corners", MEND_MIDDLE])
+            is_folded.then_some([FOLDED, MEND_MIDDLE])
         } else if volumes().all(|volume| volume < 0.0) {
             Some(["has negative volume: its nodes run the wrong way round", "exchange its lower and its upper nodes"])
         } else {
@@ -225,6 +227,14 @@ impl Meshed<3> for Dim<3> {
             }
         }
     }
+}
+
+/// Twice the areas of the four of which a six-node triangle is made, m².
+fn subtriangles(places: &[[f64; 2]]) -> impl Iterator<Item = f64> {
+    CellKind::Triangle6.facts().facets.iter().map(|facet| {
+        let [a, b, c, _] = facet.map(|k| places[usize::from(k)]);
+        (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
+    })
 }
 
 /// A number that has nothing in common with the one before. Steele, Lea, Flood, OOPSLA 2014 (SplitMix).

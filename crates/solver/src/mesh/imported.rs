@@ -7,7 +7,7 @@
 
 use super::cell::CellKind;
 use super::messages::GROUP;
-use super::middles::Middles;
+use super::middles::{self, Middles};
 use super::placement::{turn_over, turn_pieces_over};
 use super::shapes::sweep::SweptMesh;
 use super::surface::{self, Corners, Facet};
@@ -102,8 +102,8 @@ where
             self.parts.push(PartMesh { name: part.name.clone(), ..PartMesh::default() });
             return;
         };
-        // Of tetrahedra with ten nodes a part may want the corners alone.
-        let is_straight = part.named_element_in(D, CellKind::Tetrahedron).is_some();
+        // Of cells with nodes between corners a part may want the corners alone.
+        let is_straight = part.named_element_in(D, middles::of_first_order(D)).is_some();
         let elements = || group.elements().flatten().map(|cell| if is_straight { cell.of_corners() } else { cell });
         let mut placed = std::mem::take(&mut self.placed[place]);
         placed.numbers.resize(source.positions.len(), NOWHERE);

@@ -30,9 +30,10 @@ section! {
     element: String = Choice(Choices::Elements), Default("\"quad4\""),
         "Kind of element: what quadrilaterals are; `bar2` for bars, `beam2` for beams in 3D, `shell2` for shells in 2D, \
             `shell4` for those in 3D (`shell3` where they are of triangles only).";
-    element_triangles: String = Choice(Choices::Triangles), Optional("`tri3`"),
-        "What triangles are, where the part has some; those of shells in 3D are `shell3`.",
-        read |values| values.or("element_triangles", "tri3".to_string());
+    element_triangles: String = Choice(Choices::Triangles), Optional("`tri3`, of six nodes `tri6`"),
+        "What triangles are, where the part has some; those of shells in 3D are `shell3`. With `tri6` a mesh of three-node \
+            triangles gets a node in the middle of each edge.",
+        read |values| values.or("element_triangles", String::new());
     area: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("only with bars"),
         "Cross-section of bars per metre of depth, such as `\"1e-4 m\"` for one square centimetre in each metre; \
             between solids whole, `\"1e-4 m^2\"`.";

@@ -207,7 +207,7 @@ mod tests {
         let output = Output::default();
         assert_eq!((output.hash_steps, output.pictures, output.mirror), (Some(100), true, [false; 3]));
         let part = Part::default();
-        assert_eq!([part.element.as_str(), &part.element_triangles, &part.stress_state, &part.name], ["quad4", "tri3", "plane_strain", ""]);
+        assert_eq!([part.element.as_str(), &part.element_triangles, &part.stress_state, &part.name], ["quad4", "", "plane_strain", ""]);
         assert_eq!((part.mass_scale, part.rigid, part.stress_initial, part.area), (1.0, None, None, None));
         assert_eq!((Copies::default().count, Copies::default().axis), (0, [0.0, 0.0, 1.0]));
         assert_eq!((InitialStress::default().value, Spring::default().stiffness), ([0.0; 4], 0.0));

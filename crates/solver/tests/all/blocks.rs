@@ -128,7 +128,9 @@ fn the_stiffness_is_symmetric_and_only_rigid_modes_cost_nothing() {
             assert!(skew < 1e-6 * size, "{element} {law}: skew part {skew} of {size}");
             let values = eigenvalues(k);
             assert!(values[..3].iter().all(|v| v.abs() < 1e-6 * size), "{element} {law}: {values:?}");
-            assert!(values[3] > 1e-3 * size, "{element} {law}: {values:?}");
+            // The hold of the volumes of points is a tenth of the shear modulus.
+            let least = if element == "tri6" { 1e-4 } else { 1e-3 };
+            assert!(values[3] > least * size, "{element} {law}: {values:?}");
         }
     });
 }
@@ -140,10 +142,11 @@ fn corner_masses_are_positive_and_have_the_mass_and_its_centre() {
         for _ in 0..100 {
             let x = distorted(kind.name, 0.9, 20.0, &mut numbers);
             let body = Body::single(kind.name, &material(LAWS[0].name, 0.3), &x);
-            let expected = DENSITY * shoelace(&x);
+            let outline = around(&x);
+            let expected = DENSITY * shoelace(&outline);
             assert!((body.masses().iter().sum::<f64>() / expected - 1.0).abs() < 1e-13, "{}", kind.name);
             assert!((body.block.mass(0) / expected - 1.0).abs() < 1e-13, "{}", kind.name);
-            for (d, place) in centroid(&x).into_iter().enumerate() {
+            for (d, place) in centroid(&outline).into_iter().enumerate() {
                 let moment: f64 = body.masses().iter().zip(&x).map(|(m, x)| m * x[d]).sum();
                 assert!((moment / expected - place).abs() < 1e-12, "{}: row sums keep the centre", kind.name);
             }
@@ -220,7 +223,9 @@ fn the_stable_step_bounds_the_largest_frequency() {
             let worst = worst_step(element, law, roughness, |x, _| x.to_vec());
             println!("{element:<11} {law:<12} {name:<15} worst ω² dt²/4 = {worst:.4}");
             assert!(worst < 1.0 + 1e-5, "{element} {law} {name}: {worst}");
-            assert!(worst > 0.9 || roughness > 0.0, "{element} {law} {name}: {worst} wastes steps");
+            // Where only the speed of waves is known, the trace counts for what is stiffest in shear.
+            let least = if element == "tri6" && law == "neo_hookean" { 0.85 } else { 0.9 };
+            assert!(worst > least || roughness > 0.0, "{element} {law} {name}: {worst} wastes steps");
         }
         // Under large strain the stress itself is stiff: what it adds to a single element mostly cancels
         // between neighbours (next test), and the default safety of 0.9 covers a ratio of 1.23.

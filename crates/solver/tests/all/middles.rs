@@ -1,8 +1,12 @@
-//! Meshes of four-node tetrahedra that become ones of ten nodes, and meshes that have ten.
+//! Meshes of four-node tetrahedra that become ones of ten nodes, and meshes that have ten; in 2D triangles of
+//! three and six.
 
 use crate::bodies::*;
+use crate::patches::with_middles;
 use crate::placed::{block, ten};
-use embate_solver::model::{Constraint, Drive, ImportedMesh, Load, LoadTerms, Model, Motion, Part, Probe, ProbeAt, Shape};
+use embate_solver::model::{
+    Constraint, Drive, Formulation, ImportedMesh, Load, LoadTerms, Model, Motion, Part, Polygon, Probe, ProbeAt, Shape,
+};
 use embate_solver::simulation::{Options, Simulation};
 use std::sync::Arc;
 
@@ -123,4 +127,105 @@ fn tetrahedra_beside_others_stay_as_they_are_and_nothing_hangs_in_silence() {
     assert_eq!(rigid(held(block(4), &[("body", "")]), &[0]), 5 * 3 * 3);
     assert_eq!(rigid(held(block(4), &[("body", "tet10")]), &[0]), 9 * 5 * 5, "it is named");
     assert_eq!(rigid(held(halves, &[("body", ""), ("half", "")]), &[1]), 9 * 5 * 5);
+}
+
+/// A plate of triangles with its left side, of three nodes or six.
+fn plate(is_six: bool) -> ImportedMesh {
+    let mut mesh = mapped([4, 2], |u, v| [0.5 * u, 0.25 * v + 0.02 * u * v]);
+    let halves = |cell: &Vec<u32>| [vec![cell[0], cell[1], cell[2]], vec![cell[0], cell[2], cell[3]]];
+    mesh.groups[0].cells = mesh.groups[0].cells.iter().flat_map(halves).collect();
+    if is_six {
+        let mut plane: Vec<[f64; 2]> = mesh.positions.iter().map(|x| [x[0], x[1]]).collect();
+        let cells = with_middles(&mut plane, &mesh.groups[0].cells.concat());
+        mesh.groups[0].cells = cells.chunks(6).map(<[u32]>::to_vec).collect();
+        mesh.positions = plane.into_iter().map(in_3d).collect();
+    }
+    mesh.groups.truncate(1);
+    mesh.groups.push(group("face", 1, [vec![0, 5], vec![5, 10]].into_iter()));
+    mesh.groups.push(group("far", 0, [vec![14]].into_iter()));
+    mesh
+}
+
+/// The same as [`held`] with what triangles are.
+fn of_triangles(mesh: ImportedMesh, parts: &[(&str, &str)], state: &str) -> Model {
+    let mut model = held(mesh, parts);
+    for (part, (_, triangles)) in model.parts.iter_mut().zip(parts) {
+        part.velocity = [3.0, -2.0, 0.0];
+        part.stress_state = state.into();
+        if !triangles.is_empty() {
+            (part.element, part.element_triangles) = ("quad4".into(), (*triangles).into());
+        }
+    }
+    model.constraints.iter_mut().for_each(|constraint| constraint.velocity[2] = None);
+    model
+}
+
+#[test]
+fn triangles_of_three_nodes_get_their_middles_where_they_are_named_and_run_as_those_of_six() {
+    for state in ["plane_strain", "plane_stress", "axisymmetric"] {
+        let name = plate(false).groups[0].name.clone();
+        let run = |is_six: bool, triangles: &str| to_end(&of_triangles(plate(is_six), &[(&name, triangles)], state));
+        let plane = |simulation: &Simulation| simulation.coordinates().len() / 2;
+        let hashes = [(false, "tri6"), (true, "tri6"), (true, "")].map(|(is_six, triangles)| {
+            let simulation = run(is_six, triangles);
+            assert_eq!(plane(&simulation), 9 * 5, "{state} {triangles}");
+            assert!(simulation.summary().steps > 20);
+            assert_eq!(simulation.nodes_of("face").unwrap().len(), 5);
+            simulation.summary().state_hash
+        });
+        assert!(hashes.iter().all(|hash| *hash == hashes[0]), "{state}: {hashes:?}");
+        for (is_six, triangles) in [(false, ""), (false, "tri3"), (true, "tri3"), (true, "tri3_anp")] {
+            assert_eq!(plane(&run(is_six, triangles)), 5 * 3, "{state} {triangles}");
+        }
+        // Of a part of triangles alone it may be the element, too.
+        let mut model = of_triangles(plate(false), &[(&name, "")], state);
+        model.parts[0].element = "tri6".into();
+        assert_eq!(to_end(&model).summary().state_hash, hashes[0]);
+    }
+}
+
+#[test]
+fn a_pressure_acts_on_both_halves_of_a_side_and_triangles_beside_quadrilaterals_stay_as_they_are() {
+    let name = plate(false).groups[0].name.clone();
+    for is_six in [false, true] {
+        let mut model = of_triangles(plate(is_six), &[(&name, "tri6")], "plane_strain");
+        model.constraints.clear();
+        model.loads.push(Load::Pressure { on: "face".into(), pressure: 1e5, curve: None });
+        model.load_terms = vec![LoadTerms::default()];
+        model.probes.push(Probe { name: "all".into(), at: ProbeAt::Set { set: name.clone() }, ..Probe::default() });
+        let mut one = simulation(&model);
+        let (mass, before) = (one.overview().parts[0].mass, value(&one, "all.x"));
+        one.advance(1e-3, u64::MAX).unwrap();
+        let (force, time) = (1e5 * 0.25, one.time());
+        let way = value(&one, "all.x") - before - 3.0 * time;
+        assert!((way / (0.5 * force / mass * time * time) - 1.0).abs() < 0.02, "{way}");
+    }
+    let mut mesh = mapped([4, 2], |u, v| [0.5 * u, 0.25 * v]);
+    let name = mesh.groups[0].name.clone();
+    let first = mesh.groups[0].cells.remove(0);
+    mesh.groups[0].cells.extend([vec![first[0], first[1], first[2]], vec![first[0], first[2], first[3]]]);
+    mesh.groups.truncate(1);
+    mesh.groups.push(group("face", 0, [vec![0], vec![5], vec![10]].into_iter()));
+    assert_eq!(to_end(&of_triangles(mesh.clone(), &[(&name, "")], "plane_strain")).coordinates().len() / 2, 15);
+    assert!(fault(&of_triangles(mesh, &[(&name, "tri6")], "plane_strain")).contains("can't become `tri6`"));
+}
+
+#[test]
+fn bodies_of_six_node_triangles_meet_and_keep_momentum_and_the_books() {
+    let formulations = [Formulation::DoublePass, Formulation::SinglePass { slave: 1 }, Formulation::Segment, Formulation::Pinball];
+    for formulation in formulations {
+        let mut model = model(4e-4);
+        for (name, [x, y], size, velocity) in [("lower", [0.0, 0.0], 0.03, [1.0, 6.0]), ("upper", [0.013, 0.1005], 0.021, [-2.0, -5.0])] {
+            let outline = vec![[x, y], [x + 0.1, y + 0.003], [x + 0.1, y + 0.1], [x, y + 0.1]];
+            add(&mut model, name, Shape::Polygon(Polygon { outline, size, ..Polygon::default() }), velocity);
+            model.parts.last_mut().unwrap().element_triangles = "tri6".into();
+        }
+        touch(&mut model, "lower", "upper");
+        model.contacts[0].formulation = formulation;
+        let summary = to_end(&model).summary();
+        let what = format!("{formulation:?}: {summary:?}");
+        assert!(summary.penetration_max > 0.0 && summary.penetration_max < 1e-3, "{what}");
+        assert!(summary.momentum_drift_linear.unwrap() <= 1e-12 && summary.momentum_drift_angular.unwrap() <= 1e-12, "{what}");
+        assert!(summary.ledger_residual <= 1e-12 && summary.energy_drift <= 0.01, "{what}");
+    }
 }

@@ -71,7 +71,7 @@ fn the_step_by_nodes_bounds_the_frequencies_of_random_patches() {
             .map(|round| {
                 let material = material("elastic", [-0.5, 0.0, 0.3, 0.45, 0.499][round % 5]);
                 let mut patch = patch(kind.name, 2 + round % 2, 0.1);
-                shake(&mut patch, numbers.between(0.0, 0.18), &mut numbers);
+                shake(&mut patch, numbers.between(0.0, 0.18) * patches::room(kind.name), &mut numbers);
                 let stretch = numbers.between(0.2, 1.0);
                 patch.positions.iter_mut().for_each(|x| x[1] *= stretch);
                 ratios(|| Body::of(kind.name, &material, &patch))

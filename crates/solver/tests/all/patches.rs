@@ -3,11 +3,11 @@
 
 use embate_lanes::{Level, Team};
 use embate_solver::block::{Block, BlockInput, Blocks, Motion, NO_NODE, Report, make};
-use embate_solver::element::{ELEMENTS, ELEMENTS_OF_SPACE, Element, ElementKind, ElementVisitor, with_element};
+use embate_solver::element::{ELEMENTS, ELEMENTS_OF_SPACE, Element, ElementKind, ElementVisitor, Tri6, with_element};
 use embate_solver::material::{LAWS, Law, LawKind, LawVisitor, equation_of_state, with_law};
 use embate_solver::model::Material;
 use embate_solver::quantity::{Parameter, Range};
-use embate_solver::tensor::Dim;
+use embate_solver::tensor::{Dim, Space};
 use std::collections::BTreeMap;
 
 pub(crate) const YOUNG: f64 = 1000.0;
@@ -181,6 +181,16 @@ pub(crate) fn reference_nodes(element: &str) -> Vec<[f64; 2]> {
     with_element(element, ReferenceNodes).unwrap()
 }
 
+/// How far nodes of an element in 2D can move, over what those of one without nodes between its corners can.
+pub(crate) fn room(element: &str) -> f64 {
+    if nodes_of(element) == 6 { 0.4 } else { 1.0 }
+}
+
+/// Nodes of an element in their order around it.
+pub(crate) fn around(x: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    if x.len() == 6 { [0, 3, 1, 4, 2, 5].map(|k| x[k]).to_vec() } else { x.to_vec() }
+}
+
 /// Area of a polygon, counter-clockwise, by the shoelace formula.
 pub(crate) fn shoelace(x: &[[f64; 2]]) -> f64 {
     let edge = |a: usize, b: usize| x[a][0] * x[b][1] - x[a][1] * x[b][0];
@@ -208,6 +218,9 @@ fn convexity(x: &[[f64; 2]]) -> f64 {
 /// sheared, turned.
 pub(crate) fn distorted(element: &str, roughness: f64, aspect: f64, numbers: &mut Spread) -> Vec<[f64; 2]> {
     let reference = reference_nodes(element);
+    if reference.len() == 6 {
+        return distorted_with_middles(roughness, aspect, numbers);
+    }
     loop {
         let rough = numbers.between(0.0, roughness);
         let (stretch, shear) = (numbers.between(0.0, aspect.ln()).exp(), numbers.between(-1.0, 1.0) * numbers.between(0.0, 1.5).floor());
@@ -220,6 +233,28 @@ pub(crate) fn distorted(element: &str, roughness: f64, aspect: f64, numbers: &mu
         let moved: Vec<_> = reference.iter().map(|x| corner(x, numbers.vector(rough))).collect();
         if convexity(&moved) > 0.02 * stretch {
             return moved;
+        }
+    }
+}
+
+/// The same of a triangle with nodes between its corners: these leave the middles by up to a quarter of the
+/// roughness, and no part of it is turned over.
+fn distorted_with_middles(roughness: f64, aspect: f64, numbers: &mut Spread) -> Vec<[f64; 2]> {
+    loop {
+        let mut x = distorted("tri3", roughness, aspect, numbers);
+        let rough = numbers.between(0.0, 0.25 * roughness);
+        for k in 0..3 {
+            let (a, b) = (x[k], x[(k + 1) % 3]);
+            // Along all sides, so that slender ones have their share.
+            let off: [f64; 2] = [numbers.vector(rough), numbers.vector(rough)].map(|[u, v]| u + v);
+            let (e, f) = ([x[1][0] - x[0][0], x[1][1] - x[0][1]], [x[2][0] - x[0][0], x[2][1] - x[0][1]]);
+            x.push([0, 1].map(|d| 0.5 * (a[d] + b[d]) + 0.5 * (off[0] * e[d] + off[1] * f[d])));
+        }
+        let whole = shoelace(&x[..3]);
+        let parts = [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]].map(|part| shoelace(&part.map(|k: usize| x[k])));
+        let points = Tri6::gradients(&x.clone().try_into().unwrap()).map(|g| 0.5 * Dim::<2>::determinant(&g));
+        if parts.into_iter().chain(points.map(|own| 0.25 * own)).all(|part| part > 0.02 * whole) {
+            return x;
         }
     }
 }
@@ -240,15 +275,38 @@ pub(crate) fn patch(element: &str, n: usize, roughness: f64) -> Patch {
         let [dx, dy] = if is_inner(k) { numbers.vector(roughness) } else { [0.0; 2] };
         [(k % side) as f64 + dx, (k / side) as f64 + dy]
     };
-    let positions = (0..side * side).map(place).collect();
+    let mut positions: Vec<[f64; 2]> = (0..side * side).map(place).collect();
     let cells = (0..n * n).map(|k| ((k / n) * side + k % n) as u32);
     let corners = cells.map(|a| [a, a + 1, a + 1 + side as u32, a + side as u32]);
     let connectivity = match nodes_of(element) {
         3 => corners.flat_map(|[a, b, c, d]| [a, b, c, a, c, d]).collect(),
         4 => corners.flatten().collect(),
+        6 => {
+            let cells: Vec<u32> = corners.flat_map(|[a, b, c, d]| [a, b, c, a, c, d]).collect();
+            with_middles(&mut positions, &cells)
+        }
         nodes => panic!("teach the patch an element of {nodes} nodes"),
     };
-    Patch { positions, connectivity, inner: (0..side * side).filter(|&k| is_inner(k)).collect() }
+    let is_within = |x: &[f64; 2]| x.iter().all(|x| (1e-9..n as f64 - 1e-9).contains(x));
+    let inner = (0..positions.len()).filter(|&k| if k < side * side { is_inner(k) } else { is_within(&positions[k]) }).collect();
+    Patch { positions, connectivity, inner }
+}
+
+/// Triangles of six nodes from those of three, with straight edges.
+pub(crate) fn with_middles(positions: &mut Vec<[f64; 2]>, connectivity: &[u32]) -> Vec<u32> {
+    let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+    let mut all = Vec::new();
+    for &[a, b, c] in connectivity.as_chunks().0 {
+        all.extend([a, b, c]);
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            all.push(*middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                let (a, b) = (positions[a as usize], positions[b as usize]);
+                positions.push([0, 1].map(|d| 0.5 * (a[d] + b[d])));
+                positions.len() as u32 - 1
+            }));
+        }
+    }
+    all
 }
 
 /// A block with the state that its nodes have brought it to.

@@ -155,14 +155,14 @@ fn block(element: &str, material: Material, state: &str) -> Model {
     model.run.end = 8.0 / speed;
     model.materials.insert("soft".into(), material);
     let mut mesh = mapped([6, 5], |u, v| [0.5 + u + 0.03 * (7.0 * v).sin(), 1.01 * v + 0.02 * (5.0 * u).sin()]);
-    if nodes_of(element) == 3 {
+    if nodes_of(element) != 4 {
         let halves = |cell: &Vec<u32>| [vec![cell[0], cell[1], cell[2]], vec![cell[0], cell[2], cell[3]]];
         mesh.groups[0].cells = mesh.groups[0].cells.iter().flat_map(halves).collect();
     }
     add_mesh(&mut model, "block", mesh, [0.0, -0.05 * speed]);
     let part = &mut model.parts[0];
     part.stress_state = state.into();
-    if nodes_of(element) == 3 {
+    if nodes_of(element) != 4 {
         part.element_triangles = element.into()
     } else {
         part.element = element.into()

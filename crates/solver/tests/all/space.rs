@@ -14,6 +14,7 @@ use embate_solver::element::{
     with_element,
 };
 use embate_solver::material::variable::PLASTIC_STRAIN;
+use embate_solver::stress_state::StressState;
 use embate_solver::tensor::{Matrix, product};
 
 /// A test that calls `$check::<E, N, P>()` for every element of the registry.
@@ -167,7 +168,7 @@ fn volume_is_exact<E: Element<3, N, P>, const N: usize, const P: usize>() {
         let x = element_of::<E, N, P>(&mut numbers);
         let map = map_of::<E, f64, 3, N, P>(&x);
         let of_points: f64 = (0..P).map(|p| E::WEIGHTS[p] * map.determinants[p]).sum();
-        let own = if E::COMPOSITE { E::enclosed(&x).0 } else { of_points };
+        let own = if E::COMPOSITE { E::enclosed(&x, StressState::SPACE).0 } else { of_points };
         assert!((own / volume(&x) - 1.0).abs() < 1e-12, "{}: {own} for {}", E::KIND.name, volume(&x));
     }
 }
@@ -185,7 +186,7 @@ fn mean_is_the_slope_of_the_volume<E: Element<3, N, P>, const N: usize, const P:
         let flux: [Gradient; P] = std::array::from_fn(|p| transposed(&map.adjugates[p], E::WEIGHTS[p]));
         let pulls = Pulls { warp: transposed(&map.warped, E::WEIGHTS[0]), rest: [0.0; 3] };
         let forces = match (E::COMPOSITE, E::WARPED) {
-            (true, _) => E::enclosed(&x).1,
+            (true, _) => E::enclosed(&x, StressState::SPACE).1,
             (_, true) => E::divergence_warped(&flux, &pulls),
             _ => E::divergence(&flux),
         };

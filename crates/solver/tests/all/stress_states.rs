@@ -5,7 +5,7 @@ use crate::long::is_long;
 use crate::patches::*;
 use embate_solver::bench;
 use embate_solver::block::BlockInput;
-use embate_solver::element::ELEMENTS;
+use embate_solver::element::{ELEMENTS, ElementOptions};
 use embate_solver::material;
 use embate_solver::material::variable::PLASTIC_STRAIN;
 use embate_solver::stress_state::STRESS_STATES;
@@ -247,5 +247,33 @@ fn a_sheet_that_flows_under_equal_biaxial_stress_follows_the_closed_form() {
         assert!((state.stress[0] / expected - 1.0).abs() < 1e-9, "step {step}: {} for {expected}", state.stress[0]);
         let flowed = body.block.variable(&state, &PLASTIC_STRAIN).unwrap();
         assert!((flowed - plastic).abs() < 1e-11, "step {step}");
+    }
+}
+
+/// The greatest dt ω / 2 of thousands of triangles with nodes between their corners, curved, and on the axis
+/// of axisymmetric bodies; and of elements with straight sides away from it the least.
+#[test]
+fn the_step_of_single_composite_triangles_is_never_above_the_true_one() {
+    for state in STRESS_STATES.iter().map(|kind| kind.name) {
+        let (mut numbers, mut most, mut least) = (Spread::new(51), 0.0f64, f64::INFINITY);
+        let count = if is_long() { 6000 } else { 1500 };
+        for round in 0..count {
+            let mut x = distorted("tri6", [0.0, 0.4, 0.9][round % 3], [2.0, 20.0][round % 2], &mut numbers);
+            let left = x.iter().fold(f64::INFINITY, |left, x| left.min(x[0]));
+            let away = if round % 4 < 2 { 0.0 } else { numbers.between(0.0, 30.0) };
+            x.iter_mut().for_each(|x| x[0] += away - left);
+            let law = material("elastic", [-0.5, 0.0, 0.3, 0.45, 0.4999][round % 5]);
+            let options = ElementOptions { hourglass: [None, Some(0.0), Some(1.0)][round / 3 % 3] };
+            let nodes: Vec<u32> = (0..6).collect();
+            let make_body = || Body::made(&BlockInput { stress_state: state, options, ..BlockInput::new("tri6", &law, &nodes, &x) });
+            let body = make_body();
+            let used = (frequency_squared(&stiffness(make_body), &body.masses()) * body.report.time_step_squared / 4.0).sqrt();
+            most = most.max(used);
+            if round % 3 == 0 && (state != "axisymmetric" || away > 20.0) {
+                least = least.min(used);
+            }
+        }
+        println!("{state}: dt ω / 2 at most {most:.4}, with straight sides at least {least:.4}");
+        assert!(most < 1.0 + 1e-6 && least > 0.7, "{state}: {most} {least}");
     }
 }

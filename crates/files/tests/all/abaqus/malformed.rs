@@ -30,7 +30,7 @@ const CASES: &[Case] = &[
     (" 4, 0, 1\n", " 4, 0, 1, 0.5\n", 8, "node 4 is at z = 5e-1, off the plane", "bodies lie in the plane"),
     (" 4, 0, 1\n", " 99999999999999999999, 0, 1\n", 8, "the number of a node is \"99999999999999999999\"", "numbers of nodes"),
     ("type=cpe4r", "typ=cpe4r", 13, "*ELEMENT has no type", "add TYPE"),
-    ("type=cpe4r", "type=CPE8R", 13, "element type CPE8R is of second order", "use elements with nodes at their corners"),
+    ("type=cpe4r", "type=S8R", 13, "element type S8R is of second order", "use elements with nodes at their corners"),
     ("type=cpe4r", "type=C3D27R", 13, "element type C3D27R is of second order", "use elements with nodes at their corners"),
     ("type=cpe4r", "type=R3D4", 13, "element type R3D4 is a continuum shell or a rigid surface", "take S4R"),
     ("type=cpe4r", "type=C3D4", 18, "element type CPE3 is one of 2D, beside bodies in 3D", "bodies are all in 2D"),

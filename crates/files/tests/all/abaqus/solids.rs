@@ -109,6 +109,22 @@ fn ten_node_tetrahedra_keep_their_nodes_and_other_solids_of_second_order_their_c
 }
 
 #[test]
+fn six_node_triangles_keep_their_nodes_and_quadrilaterals_of_second_order_their_corners() {
+    let nodes = "*NODE\n1,0,0\n2,2,0\n3,0,2\n4,1,0\n5,1,1\n6,0,1\n7,2,2\n8,2,1\n9,1,2\n";
+    for name in ["CPE6", "CPE6M", "CPE6H", "CPE6MH", "CPS6", "CPS6M", "CAX6", "CAX6M", "CAX6H", "CAX6MH"] {
+        let deck = format!("{nodes}*ELEMENT, TYPE={name}, ELSET=tip\n1, 1,2,3,4,5,6\n*SURFACE, NAME=face\ntip, S2\n");
+        let mesh = read(&deck).unwrap();
+        assert_eq!(group(&mesh, "tip").cells, [(0..6).collect::<Vec<u32>>()], "{name}");
+        assert_eq!((&group(&mesh, "face").cells, mesh.notes.is_empty()), (&vec![vec![1, 2]], true), "{name}");
+    }
+    for name in ["CPE8", "CPS8R", "CAX8R"] {
+        let mesh = read(&format!("{nodes}*ELEMENT, TYPE={name}, ELSET=all\n1, 1,2,7,3,4,8,9,6\n")).unwrap();
+        assert_eq!((group(&mesh, "all").cells[0].len(), mesh.positions.len()), (4, 4), "{name}");
+        assert_eq!(mesh.notes, [format!("1 elements {name}, which become quadrilaterals of 4 nodes")]);
+    }
+}
+
+#[test]
 fn solids_of_negative_volume_are_turned_and_flat_ones_refused() {
     let swapped = SOLID
         .replace(" 1, 1,2,3,4,\n 5,6,7,8", " 1, 5,6,7,8, 1,2,3,4")

@@ -68,7 +68,7 @@ fn dimension_of(kind: i32) -> usize {
     match kind {
         15 => 0,
         1 | 8 => 1,
-        2 | 3 | 9 => 2,
+        2 | 3 | 9 | 16 => 2,
         _ => 3,
     }
 }
@@ -227,6 +227,22 @@ fn tetrahedra_of_second_order_keep_their_nodes_and_others_their_corners() {
         let names: Vec<(&str, usize)> = mesh.groups.iter().map(|group| (group.name.as_str(), group.cells[0].len())).collect();
         assert_eq!(names.iter().map(|(_, nodes)| *nodes).collect::<Vec<_>>(), [2, 3, 10], "{names:?}");
     }
+    // In 2D triangles keep theirs, too, and quadrilaterals their corners.
+    let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let flat: Vec<[f64; 3]> = corners.into_iter().chain([[0, 1], [1, 2], [2, 0]].map(|[a, b]| middle(corners[a], corners[b]))).collect();
+    for own in [vec![1, 2, 3, 4, 5, 6], vec![1, 3, 2, 6, 5, 4]] {
+        let mesh = read(&[(9, 4, own.clone()), (8, 2, vec![1, 2, 4])], &flat);
+        let cells: Vec<&Vec<u32>> = mesh.groups.iter().flat_map(|group| &group.cells).collect();
+        let cell = CellKind::Triangle6.cell(cells.iter().find(|cell| cell.len() == 6).unwrap());
+        for (edge, &node) in cell.edges().zip(&cell.nodes[3..]) {
+            let [a, b, c] = [edge[0], edge[1], node].map(|node| mesh.positions[node as usize]);
+            assert_eq!(c, middle(a, b), "{own:?}");
+        }
+        assert!(mesh.notes.is_empty() && mesh.positions.len() == 6 && cells.iter().any(|cell| cell.len() == 2), "{own:?}");
+    }
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]];
+    let mesh = read(&[(16, 4, (1..=8).collect())], &square.map(|[x, y]| [x, y, 0.0]));
+    assert!(mesh.positions.len() == 4 && mesh.notes[0].contains("which become quadrilaterals of 4 nodes"), "{:?}", mesh.notes);
     // A cube of 20 nodes is one of 8, whatever the others are.
     let cube = CellKind::Hexahedron.facts().reference;
     let more: Vec<[f64; 3]> = cube.iter().copied().chain((0..12).map(|k| [0.1 * f64::from(k), 0.5, 0.5])).collect();

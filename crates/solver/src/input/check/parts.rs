@@ -379,12 +379,15 @@ impl Check<'_> {
         if part.is_of_beams() && dimension == 2 {
             return;
         }
-        let is_triangle = cell == CellKind::Triangle;
-        if part.element_in(dimension, cell).is_some() || (!is_triangle && !element::registry().iter().any(|kind| kind.name == part.element))
+        let known = element::registry();
+        let is_triangle = matches!(cell, CellKind::Triangle | CellKind::Triangle6);
+        let names = &part.element_triangles;
+        let is_wrong =
+            dimension == 2 && is_triangle && !names.is_empty() && !known.iter().any(|kind| kind.is_triangle() && kind.name == *names);
+        if !is_wrong && part.element_in(dimension, cell).is_some() || (!is_triangle && !known.iter().any(|kind| kind.name == part.element))
         {
             return;
         }
-        let known = element::registry();
         let fits = |kind: &&element::ElementKind| kind.cell == cell && (kind.dimension == dimension || cell == CellKind::Line);
         let known: Vec<&str> = known.iter().filter(fits).map(|kind| kind.name).collect();
         if known.is_empty() {
@@ -392,7 +395,7 @@ impl Check<'_> {
                 if path.ends_with(".group") { "let the mesh generator make quadrilaterals only (Gmsh: Recombine Surface)" } else { "" };
             self.fault(&NO_ELEMENT, path, format!("{has}, but no element has {} nodes", cell.nodes()), help);
         } else if is_triangle {
-            let message = format!("{has}, but `{}` is no element of three nodes", excerpt(&part.element_triangles));
+            let message = format!("{has}, but `{}` is no element of triangles", excerpt(&part.element_triangles));
             self.fault(&NO_ELEMENT, format!("{part_path}.element_triangles"), message, suggestion(&part.element_triangles, &known));
         } else {
             self.fault(&NO_ELEMENT, path, format!("{has}, but element `{}` has not", part.element), suggestion(&part.element, &known));

@@ -6,8 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 type Vector = [f64; 3];
 
-/// Kinds that no element has yet, to show that the facts have room for them: a pyramid, a triangle of six
-/// nodes.
+/// A kind that no element has yet, to show that the facts have room for it: a pyramid.
 const PYRAMID: Facts = Facts {
     name: "pyramid",
     plural: "pyramids",
@@ -29,24 +28,9 @@ const PYRAMID: Facts = Facts {
     gmsh: 7,
 };
 
-const TRIANGLE6: Facts = Facts {
-    name: "triangle6",
-    plural: "six-node triangles",
-    nodes: 6,
-    facets: &[[0, 3, 5, 5], [3, 1, 4, 4], [5, 4, 2, 2], [3, 4, 5, 5]],
-    symmetries: [[0, 1, 2, 3, 4, 5], [1, 2, 0, 4, 5, 3], [2, 0, 1, 5, 3, 4]].as_flattened(),
-    reflection: &[0, 2, 1, 5, 4, 3],
-    reference: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]],
-    extruded: None,
-    division: &[],
-    vtk: 22,
-    gmsh: 9,
-    ..TRIANGLE
-};
-
 /// The facts of every kind, and of those that could be.
 fn all() -> impl Iterator<Item = &'static Facts> {
-    CellKind::ALL.into_iter().map(CellKind::facts).chain([&PYRAMID, &TRIANGLE6])
+    CellKind::ALL.into_iter().map(CellKind::facts).chain([&PYRAMID])
 }
 
 fn at(facts: &Facts, k: u8) -> Vector {

@@ -33,7 +33,9 @@ impl CellGeometry<2> for Dim<2> {
     fn inverse_height(segment: [u32; 2], cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
         let [b, a] = segment.map(|node| positions[node as usize]);
         let side = minus(b, a);
-        dot(side, side).sqrt() / size(cell, positions)
+        // Several pieces of an edge stand on the same area.
+        let pieces = cell.nodes.len() as f64 / cell.kind.corners() as f64;
+        dot(side, side).sqrt() * pieces / size(cell, positions)
     }
     fn size(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
         size(cell, positions)
@@ -42,24 +44,23 @@ impl CellGeometry<2> for Dim<2> {
         strains(cell, from, to)
     }
     fn cell_facets(cell: Cell<'_>) -> Vec<[u32; 2]> {
-        cell.edges().map(Corners::reversed).collect()
+        cell.pieces_of_edges().map(Corners::reversed).collect()
     }
 }
 
 /// Length of a line, area of what has more corners; m, m².
 fn size(cell: Cell<'_>, positions: &[[f64; 2]]) -> f64 {
-    let n = cell.kind.corners();
-    let x = |corner: usize| positions[cell.nodes[corner % n] as usize];
+    let x = |node: u32| positions[node as usize];
     if cell.kind.dimension() == 1 {
-        let [a, b] = [x(0), x(1)];
+        let [a, b] = [x(cell.nodes[0]), x(cell.nodes[1])];
         return ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])).sqrt();
     }
-    let o = x(0);
-    let cross = |corner: usize| {
-        let (a, b) = (x(corner), x(corner + 1));
+    let o = x(cell.nodes[0]);
+    let cross = |(a, b): (u32, u32)| {
+        let (a, b) = (x(a), x(b));
         (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
     };
-    0.5 * (0..n).map(cross).sum::<f64>()
+    0.5 * cell.around().zip(cell.around().cycle().skip(1)).map(cross).sum::<f64>()
 }
 
 /// Principal logarithmic strains at the centre, the larger first: half the logarithms of the eigenvalues of

@@ -366,7 +366,7 @@ impl Sweep {
             ..SweptMesh::default()
         };
         for group in &section.groups {
-            let cells = || group.elements().flatten();
+            let cells = || group.elements().flatten().map(Cell::of_corners);
             let each = |make: &Made| -> Vec<Vec<u32>> {
                 (0..layers.elements).flat_map(|layer| cells().filter_map(|cell| make(cell, layer)).collect::<Vec<_>>()).collect()
             };

@@ -30,7 +30,7 @@ impl PlaneSurface {
         Ok(Edges::new(cells)?.exterior())
     }
 
-    /// The whole outside of `cells` (3 or 4 nodes each, counter-clockwise), in the order of
+    /// The whole outside of `cells` (of surfaces, counter-clockwise), in the order of
     /// [`exterior`](super::exterior).
     ///
     /// # Errors
@@ -110,14 +110,15 @@ impl Edges {
         let mut count = 0;
         for cell in cells.clone() {
             if cell.kind.dimension() != 2 || cell.is_collapsed() {
-                let help = "elements have three or four different corners; remove collapsed ones from the mesh";
+                let help = "elements have three, four or six different nodes; remove collapsed ones from the mesh";
                 return Err(Fault::new(&BAD_ELEMENT, "", format!("an element has the nodes {:?}", cell.nodes), help));
             }
             count = cell.nodes.iter().fold(count, |count, &node| count.max(node as usize + 1));
         }
         let of_cell = |cell: Cell<'a>| {
-            let (corners, n) = (cell.corners(), cell.kind.corners());
-            (0..n).map(move |i| (corners[i], (corners[(i + 1) % n], corners[(i + n - 1) % n])))
+            let n = cell.nodes.len();
+            let shifted = move |by: usize| cell.around().cycle().skip(by);
+            shifted(0).zip(shifted(1).zip(shifted(n - 1))).take(n)
         };
         let mut rows = Rows::new(count, cells.flat_map(of_cell));
         (0..count).for_each(|node| rows.of_mut(node).sort_unstable());

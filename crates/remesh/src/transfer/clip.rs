@@ -1,0 +1,278 @@
+//! Triangles of a mesh, and the pieces that triangles of two meshes have in common.
+
+use super::{Failure, Side};
+use crate::plane::{Measure, Mesh, Point, corners, cross, minus};
+
+/// Circumference of the unit circle: a body of revolution has the volume ∫ 2πx dA.
+pub(super) const TURN: f64 = std::f64::consts::TAU;
+
+/// A triangle of a cell; a quadrilateral has two.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Twin {
+    /// Its nodes, counter-clockwise.
+    pub(super) nodes: [u32; 3],
+    /// Which corners of the cell they are.
+    pub(super) corners: [u8; 3],
+    pub(super) cell: u32,
+    pub(super) places: [Point; 3],
+    /// m².
+    pub(super) area: f64,
+}
+
+impl Twin {
+    /// ∫ λ_j dV for each corner j: m³ (per metre of depth in the plane).
+    pub(super) fn moments(&self, measure: Measure) -> [f64; 3] {
+        match measure {
+            Measure::Plane => [self.area / 3.0; 3],
+            Measure::Revolution => {
+                let sum = self.places[0][0] + self.places[1][0] + self.places[2][0];
+                self.places.map(|place| TURN * self.area / 12.0 * (sum + place[0]))
+            }
+        }
+    }
+}
+
+/// The triangles of a mesh. A quadrilateral is cut along the diagonal whose smaller triangle is the larger one:
+/// that is within it even where a corner turns inwards.
+pub(super) fn twins(mesh: Mesh<'_>, side: Side) -> Result<Vec<Twin>, Failure> {
+    let mut found = Vec::with_capacity(2 * mesh.cells.len());
+    for (index, cell) in mesh.cells.iter().enumerate() {
+        let nodes = corners(cell);
+        let mut places = [[0.0; 2]; 4];
+        for (place, &node) in places.iter_mut().zip(nodes) {
+            *place = *mesh.positions.get(node as usize).ok_or(Failure::Size)?;
+        }
+        let area = |a: usize, b: usize, c: usize| 0.5 * cross(minus(places[b], places[a]), minus(places[c], places[a]));
+        let cuts: &[[u8; 3]] = if nodes.len() == 3 {
+            &[[0, 1, 2]]
+        } else if area(0, 1, 2).min(area(0, 2, 3)) >= area(0, 1, 3).min(area(1, 2, 3)) {
+            &[[0, 1, 2], [0, 2, 3]]
+        } else {
+            &[[0, 1, 3], [1, 2, 3]]
+        };
+        for &of in cuts {
+            let [a, b, c] = of.map(usize::from);
+            let area = area(a, b, c);
+            if !(area > 0.0 && area.is_finite()) {
+                return Err(Failure::Inverted { side, cell: index });
+            }
+            let cell = u32::try_from(index).map_err(|_| Failure::Size)?;
+            found.push(Twin { nodes: [nodes[a], nodes[b], nodes[c]], corners: of, cell, places: [places[a], places[b], places[c]], area });
+        }
+    }
+    Ok(found)
+}
+
+/// A vertex of a piece: its barycentric coordinates in both triangles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vertex {
+    pub(super) old: [f64; 3],
+    pub(super) new: [f64; 3],
+}
+
+const NONE: Vertex = Vertex { old: [0.0; 3], new: [0.0; 3] };
+
+/// The convex polygon that two triangles have in common: each of three cuts adds one vertex at most.
+#[derive(Clone, Copy)]
+pub(super) struct Piece {
+    vertices: [Vertex; 8],
+    count: usize,
+}
+
+impl Piece {
+    pub(super) fn vertices(&self) -> &[Vertex] {
+        &self.vertices[..self.count.min(8)]
+    }
+
+    /// Its triangles about its first vertex, with their areas, m². Areas are taken in the smaller one of the two
+    /// triangles, where they are exact if it lies within the other one.
+    pub(super) fn fan(&self, old: &Twin, new: &Twin) -> impl Iterator<Item = ([Vertex; 3], f64)> {
+        let is_old = old.area <= new.area;
+        let whole = if is_old { old.area } else { new.area };
+        let (first, rest) = self.vertices().split_first().map_or((NONE, &[][..]), |(first, rest)| (*first, rest));
+        rest.windows(2).filter_map(move |ends| {
+            let three = [first, ends[0], ends[1]];
+            let [a, b, c] = three.map(|vertex| if is_old { vertex.old } else { vertex.new });
+            let area = whole * cross([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
+            (area > 0.0).then_some((three, area))
+        })
+    }
+
+    /// The piece of two triangles; `None` where they have no area in common. Sutherland & Hodgman: the old
+    /// triangle is cut at the three sides of the new one, from the inner to the outer vertex.
+    fn of(old: &Twin, sides: &[(Point, Point, f64); 3]) -> Option<Self> {
+        let mut heights = [[0.0; 3]; 3];
+        for (k, &(from, along, _)) in sides.iter().enumerate() {
+            for (height, &place) in heights.iter_mut().zip(&old.places) {
+                height[k] = cross(along, minus(place, from));
+            }
+            if !heights.iter().any(|height| height[k] > 0.0) {
+                return None;
+            }
+        }
+        let mut piece = Self { vertices: [NONE; 8], count: 3 };
+        for k in 0..3 {
+            let mut vertex = NONE;
+            vertex.old[k] = 1.0;
+            for side in 0..3 {
+                vertex.new[side] = heights[k][side] / sides[side].2;
+            }
+            piece.vertices[k] = vertex;
+        }
+        for side in 0..3 {
+            piece.cut(side);
+            if piece.count < 3 {
+                return None;
+            }
+        }
+        Some(piece)
+    }
+
+    /// Keeps the part where one of the new coordinates is not negative.
+    fn cut(&mut self, side: usize) {
+        let before = *self;
+        let all = before.vertices();
+        if all.iter().all(|vertex| vertex.new[side] >= 0.0) {
+            return;
+        }
+        self.count = 0;
+        for (k, vertex) in all.iter().enumerate() {
+            let next = &all[if k + 1 == all.len() { 0 } else { k + 1 }];
+            let (is_in, is_next_in) = (vertex.new[side] >= 0.0, next.new[side] >= 0.0);
+            if is_in {
+                self.push(*vertex);
+            }
+            if is_in != is_next_in {
+                self.push(if is_in { between(vertex, next, side) } else { between(next, vertex, side) });
+            }
+        }
+    }
+
+    fn push(&mut self, vertex: Vertex) {
+        if let Some(place) = self.vertices.get_mut(self.count) {
+            *place = vertex;
+            self.count += 1;
+        }
+    }
+}
+
+/// Where the line from a vertex within to one outside meets a side.
+fn between(inner: &Vertex, outer: &Vertex, side: usize) -> Vertex {
+    let part = inner.new[side] / (inner.new[side] - outer.new[side]);
+    let mut vertex = NONE;
+    for k in 0..3 {
+        vertex.old[k] = inner.old[k] + part * (outer.old[k] - inner.old[k]);
+        vertex.new[k] = inner.new[k] + part * (outer.new[k] - inner.new[k]);
+    }
+    vertex.new[side] = 0.0;
+    vertex
+}
+
+/// Calls `visit` with the indices of an old and a new triangle and what they have in common, for all that have
+/// any: new triangles in their order, old ones ascending for each.
+pub(super) fn pieces(old: &[Twin], new: &[Twin], mut visit: impl FnMut(usize, usize, &Piece)) {
+    let grid = Grid::new(old);
+    let mut seen = vec![u32::MAX; old.len()];
+    let mut near: Vec<u32> = Vec::new();
+    for (index, twin) in new.iter().enumerate() {
+        let sides = [[1, 2, 0], [2, 0, 1], [0, 1, 2]].map(|[from, to, opposite]: [usize; 3]| {
+            let along = minus(twin.places[to], twin.places[from]);
+            (twin.places[from], along, cross(along, minus(twin.places[opposite], twin.places[from])))
+        });
+        near.clear();
+        grid.near(&bounds(&twin.places), index as u32, &mut seen, &mut near);
+        near.sort_unstable();
+        for &candidate in &near {
+            let candidate = candidate as usize;
+            if let Some(piece) = Piece::of(&old[candidate], &sides) {
+                visit(candidate, index, &piece);
+            }
+        }
+    }
+}
+
+/// Lowest and highest coordinates.
+type Bounds = [Point; 2];
+
+fn bounds(places: &[Point; 3]) -> Bounds {
+    let [a, b, c] = *places;
+    [[a[0].min(b[0]).min(c[0]), a[1].min(b[1]).min(c[1])], [a[0].max(b[0]).max(c[0]), a[1].max(b[1]).max(c[1])]]
+}
+
+/// Triangles by the squares of a grid that their boxes meet.
+struct Grid {
+    low: Point,
+    /// Squares by metre.
+    scale: Point,
+    counts: [usize; 2],
+    /// Of each square the first of its items; one more at the end.
+    starts: Vec<u32>,
+    items: Vec<u32>,
+    boxes: Vec<Bounds>,
+}
+
+impl Grid {
+    fn new(twins: &[Twin]) -> Self {
+        let boxes: Vec<Bounds> = twins.iter().map(|twin| bounds(&twin.places)).collect();
+        let mut all: Bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let mut sides = [0.0; 2];
+        for [low, high] in &boxes {
+            for k in 0..2 {
+                all[0][k] = all[0][k].min(low[k]);
+                all[1][k] = all[1][k].max(high[k]);
+                sides[k] += high[k] - low[k];
+            }
+        }
+        // Squares as large as the mean box, four times as many as triangles at most.
+        let mut counts = [1; 2];
+        let limit = 4 * twins.len() + 1;
+        for k in 0..2 {
+            let number = (all[1][k] - all[0][k]) * twins.len() as f64 / sides[k];
+            counts[k] = if number >= 1.0 { (number as usize).min(limit) } else { 1 };
+        }
+        while counts[0].saturating_mul(counts[1]) > limit {
+            let k = usize::from(counts[1] > counts[0]);
+            counts[k] = (counts[k] / 2).max(1);
+        }
+        let scale = [0, 1].map(|k| counts[k] as f64 / (all[1][k] - all[0][k]));
+        let mut grid = Self { low: all[0], scale, counts, starts: vec![0; counts[0] * counts[1] + 1], items: Vec::new(), boxes };
+        for k in 0..grid.boxes.len() {
+            grid.squares(&grid.boxes[k]).for_each(|square| grid.starts[square + 1] += 1);
+        }
+        for square in 1..grid.starts.len() {
+            grid.starts[square] += grid.starts[square - 1];
+        }
+        let mut ends = grid.starts.clone();
+        grid.items = vec![0; grid.starts.last().map_or(0, |&last| last as usize)];
+        for k in 0..grid.boxes.len() {
+            for square in grid.squares(&grid.boxes[k]) {
+                grid.items[ends[square] as usize] = k as u32;
+                ends[square] += 1;
+            }
+        }
+        grid
+    }
+
+    /// The squares that a box meets.
+    fn squares(&self, of: &Bounds) -> impl Iterator<Item = usize> + use<> {
+        // A conversion saturates: what lies below or above is in the first or the last one.
+        let at = |x: Point| [0, 1].map(|k| (((x[k] - self.low[k]) * self.scale[k]) as usize).min(self.counts[k] - 1));
+        let ([left, low], [right, high], width) = (at(of[0]), at(of[1]), self.counts[0]);
+        (low..=high).flat_map(move |row| (left..=right).map(move |column| row * width + column))
+    }
+
+    /// Adds the triangles whose boxes meet a box, each once.
+    fn near(&self, of: &Bounds, mark: u32, seen: &mut [u32], found: &mut Vec<u32>) {
+        for square in self.squares(of) {
+            for &item in &self.items[self.starts[square] as usize..self.starts[square + 1] as usize] {
+                let k = item as usize;
+                let [low, high] = &self.boxes[k];
+                let meets = low[0] < of[1][0] && of[0][0] < high[0] && low[1] < of[1][1] && of[0][1] < high[1];
+                if seen[k] != mark && meets {
+                    seen[k] = mark;
+                    found.push(item);
+                }
+            }
+        }
+    }
+}

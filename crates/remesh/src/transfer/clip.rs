@@ -3,7 +3,7 @@
 use super::{Failure, Side};
 use crate::plane::{Measure, Mesh, Point, corners, cross, minus};
 
-/// Circumference of the unit circle: a body of revolution has the volume ∫ 2πx dA.
+/// Circumference of the unit circle: an axisymmetric body has the volume ∫ 2πx dA.
 pub(super) const TURN: f64 = std::f64::consts::TAU;
 
 /// A triangle of a cell; a quadrilateral has two.
@@ -20,20 +20,26 @@ pub(super) struct Twin {
 }
 
 impl Twin {
-    /// ∫ λ_j dV for each corner j: m³ (per metre of depth in the plane).
+    /// ∫ λ_j dV for each corner j: m³ (per metre of depth in 2D).
     pub(super) fn moments(&self, measure: Measure) -> [f64; 3] {
-        match measure {
-            Measure::Plane => [self.area / 3.0; 3],
-            Measure::Revolution => {
-                let sum = self.places[0][0] + self.places[1][0] + self.places[2][0];
-                self.places.map(|place| TURN * self.area / 12.0 * (sum + place[0]))
-            }
+        moments(self.area, [self.places[0][0], self.places[1][0], self.places[2][0]], measure)
+    }
+}
+
+/// ∫ μ_i dV for the vertices of a triangle with a given area and distances from the axis: A/3 in 2D, of
+/// revolution 2πA/12 (W + x_i) with W = Σ x_i.
+pub(super) fn moments(area: f64, x: [f64; 3], measure: Measure) -> [f64; 3] {
+    match measure {
+        Measure::Plane => [area / 3.0; 3],
+        Measure::Revolution => {
+            let (scale, sum) = (TURN * area / 12.0, x[0] + x[1] + x[2]);
+            [scale * (sum + x[0]), scale * (sum + x[1]), scale * (sum + x[2])]
         }
     }
 }
 
-/// The triangles of a mesh. A quadrilateral is cut along the diagonal whose smaller triangle is the larger one:
-/// that is within it even where a corner turns inwards.
+/// The triangles of a mesh. A quadrilateral is cut along the diagonal whose smaller triangle is the larger
+/// one: that is within it even where a corner turns inwards.
 pub(super) fn twins(mesh: Mesh<'_>, side: Side) -> Result<Vec<Twin>, Failure> {
     let mut found = Vec::with_capacity(2 * mesh.cells.len());
     for (index, cell) in mesh.cells.iter().enumerate() {
@@ -73,86 +79,127 @@ pub(super) struct Vertex {
 const NONE: Vertex = Vertex { old: [0.0; 3], new: [0.0; 3] };
 
 /// The convex polygon that two triangles have in common: each of three cuts adds one vertex at most.
-#[derive(Clone, Copy)]
 pub(super) struct Piece {
-    vertices: [Vertex; 8],
+    /// Before and after a cut.
+    vertices: [[Vertex; 8]; 2],
+    current: usize,
     count: usize,
 }
 
 impl Piece {
     pub(super) fn vertices(&self) -> &[Vertex] {
-        &self.vertices[..self.count.min(8)]
+        &self.vertices[self.current & 1][..self.count.min(8)]
     }
 
-    /// Its triangles about its first vertex, with their areas, m². Areas are taken in the smaller one of the two
-    /// triangles, where they are exact if it lies within the other one.
-    pub(super) fn fan(&self, old: &Twin, new: &Twin) -> impl Iterator<Item = ([Vertex; 3], f64)> {
+    /// Calls `visit` with its triangles about its first vertex and their areas, m². Areas are taken in the
+    /// smaller one of the two triangles, where they are exact if it lies within the other one.
+    #[inline]
+    pub(super) fn fan(&self, old: &Twin, new: &Twin, mut visit: impl FnMut([&Vertex; 3], f64)) {
+        let [first, rest @ ..] = self.vertices() else { return };
         let is_old = old.area <= new.area;
-        let whole = if is_old { old.area } else { new.area };
-        let (first, rest) = self.vertices().split_first().map_or((NONE, &[][..]), |(first, rest)| (*first, rest));
-        rest.windows(2).filter_map(move |ends| {
-            let three = [first, ends[0], ends[1]];
-            let [a, b, c] = three.map(|vertex| if is_old { vertex.old } else { vertex.new });
-            let area = whole * cross([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-            (area > 0.0).then_some((three, area))
-        })
-    }
-
-    /// The piece of two triangles; `None` where they have no area in common. Sutherland & Hodgman: the old
-    /// triangle is cut at the three sides of the new one, from the inner to the outer vertex.
-    fn of(old: &Twin, sides: &[(Point, Point, f64); 3]) -> Option<Self> {
-        let mut heights = [[0.0; 3]; 3];
-        for (k, &(from, along, _)) in sides.iter().enumerate() {
-            for (height, &place) in heights.iter_mut().zip(&old.places) {
-                height[k] = cross(along, minus(place, from));
-            }
-            if !heights.iter().any(|height| height[k] > 0.0) {
-                return None;
+        for ends in rest.windows(2) {
+            let (b, c) = (&ends[0], &ends[1]);
+            let area = if is_old { old.area * double(&first.old, &b.old, &c.old) } else { new.area * double(&first.new, &b.new, &c.new) };
+            if area > 0.0 {
+                visit([first, b, c], area);
             }
         }
-        let mut piece = Self { vertices: [NONE; 8], count: 3 };
-        for k in 0..3 {
-            let mut vertex = NONE;
-            vertex.old[k] = 1.0;
-            for side in 0..3 {
-                vertex.new[side] = heights[k][side] / sides[side].2;
+    }
+
+    /// Sets it to what two triangles have in common; false if that has no area. Sutherland & Hodgman: the old
+    /// triangle is cut at the three sides of the new one, from the inner to the outer vertex.
+    fn set(&mut self, old: &Twin, new: &Twin, sides: &[Line; 3]) -> bool {
+        let mut heights = [[0.0; 3]; 3];
+        for side in 0..3 {
+            let mut is_in = false;
+            for vertex in 0..3 {
+                let height = sides[side].height(old.places[vertex]);
+                heights[vertex][side] = height;
+                is_in |= height > 0.0;
             }
-            piece.vertices[k] = vertex;
+            if !is_in {
+                return false;
+            }
         }
         for side in 0..3 {
-            piece.cut(side);
-            if piece.count < 3 {
-                return None;
+            let line = Line::of(old, side);
+            if !new.places.iter().any(|&place| line.height(place) > 0.0) {
+                return false;
             }
         }
-        Some(piece)
+        self.current = 0;
+        self.count = 3;
+        for vertex in 0..3 {
+            let mut made = NONE;
+            made.old[vertex] = 1.0;
+            for side in 0..3 {
+                made.new[side] = heights[vertex][side] / sides[side].whole;
+            }
+            self.vertices[0][vertex] = made;
+        }
+        for side in 0..3 {
+            self.cut(side);
+            if self.count < 3 {
+                return false;
+            }
+        }
+        true
     }
 
     /// Keeps the part where one of the new coordinates is not negative.
     fn cut(&mut self, side: usize) {
-        let before = *self;
-        let all = before.vertices();
+        let [first, second] = &mut self.vertices;
+        let (all, to) = if self.current == 0 { (first, second) } else { (second, first) };
+        let all = &all[..self.count.min(8)];
         if all.iter().all(|vertex| vertex.new[side] >= 0.0) {
             return;
         }
+        self.current = 1 - self.current;
+        let mut places = to.iter_mut();
         self.count = 0;
+        let mut put = |vertex: Vertex| {
+            if let Some(place) = places.next() {
+                *place = vertex;
+                self.count += 1;
+            }
+        };
         for (k, vertex) in all.iter().enumerate() {
             let next = &all[if k + 1 == all.len() { 0 } else { k + 1 }];
             let (is_in, is_next_in) = (vertex.new[side] >= 0.0, next.new[side] >= 0.0);
             if is_in {
-                self.push(*vertex);
+                put(*vertex);
             }
             if is_in != is_next_in {
-                self.push(if is_in { between(vertex, next, side) } else { between(next, vertex, side) });
+                put(if is_in { between(vertex, next, side) } else { between(next, vertex, side) });
             }
         }
     }
+}
 
-    fn push(&mut self, vertex: Vertex) {
-        if let Some(place) = self.vertices.get_mut(self.count) {
-            *place = vertex;
-            self.count += 1;
-        }
+/// Twice the area of a triangle in barycentric coordinates, by that of the whole.
+fn double(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// A side of a triangle.
+struct Line {
+    from: Point,
+    along: Point,
+    /// Height of the opposite corner, times the side's length.
+    whole: f64,
+}
+
+impl Line {
+    /// The side opposite a corner.
+    fn of(twin: &Twin, opposite: usize) -> Self {
+        let (from, to) = (twin.places[(opposite + 1) % 3], twin.places[(opposite + 2) % 3]);
+        let along = minus(to, from);
+        Self { from, along, whole: cross(along, minus(twin.places[opposite], from)) }
+    }
+
+    /// Height of a place above the side, times the side's length.
+    fn height(&self, place: Point) -> f64 {
+        cross(self.along, minus(place, self.from))
     }
 }
 
@@ -168,23 +215,21 @@ fn between(inner: &Vertex, outer: &Vertex, side: usize) -> Vertex {
     vertex
 }
 
-/// Calls `visit` with the indices of an old and a new triangle and what they have in common, for all that have
-/// any: new triangles in their order, old ones ascending for each.
+/// Calls `visit` with the indices of an old and a new triangle and what they have in common, for all that
+/// have any: new triangles in their order, old ones ascending for each.
 pub(super) fn pieces(old: &[Twin], new: &[Twin], mut visit: impl FnMut(usize, usize, &Piece)) {
     let grid = Grid::new(old);
     let mut seen = vec![u32::MAX; old.len()];
     let mut near: Vec<u32> = Vec::new();
+    let mut piece = Piece { vertices: [[NONE; 8]; 2], current: 0, count: 0 };
     for (index, twin) in new.iter().enumerate() {
-        let sides = [[1, 2, 0], [2, 0, 1], [0, 1, 2]].map(|[from, to, opposite]: [usize; 3]| {
-            let along = minus(twin.places[to], twin.places[from]);
-            (twin.places[from], along, cross(along, minus(twin.places[opposite], twin.places[from])))
-        });
+        let sides = [Line::of(twin, 0), Line::of(twin, 1), Line::of(twin, 2)];
         near.clear();
         grid.near(&bounds(&twin.places), index as u32, &mut seen, &mut near);
         near.sort_unstable();
         for &candidate in &near {
             let candidate = candidate as usize;
-            if let Some(piece) = Piece::of(&old[candidate], &sides) {
+            if piece.set(&old[candidate], twin, &sides) {
                 visit(candidate, index, &piece);
             }
         }

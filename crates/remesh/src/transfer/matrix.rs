@@ -61,7 +61,8 @@ impl Matrix {
         let count = self.diagonal.len();
         let active = |row: usize| free[row] && self.diagonal[row] > 0.0;
         let mut r: Vec<f64> = (0..count).map(|row| if active(row) { b[row] - self.times(row, x) } else { 0.0 }).collect();
-        let scaled = |r: &[f64]| -> Vec<f64> { (0..count).map(|row| if active(row) { r[row] / self.diagonal[row] } else { 0.0 }).collect() };
+        let scaled =
+            |r: &[f64]| -> Vec<f64> { (0..count).map(|row| if active(row) { r[row] / self.diagonal[row] } else { 0.0 }).collect() };
         let mut z = scaled(&r);
         let mut p = z.clone();
         let mut rz = inner(&r, &z);
@@ -96,8 +97,8 @@ fn inner(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
 }
 
-/// Solves A x = b for the first `count` unknowns, A symmetric and not negative, by elimination in the order of
-/// the unknowns. Unknowns that depend on those before are zero.
+/// Solves A x = b for the first `count` unknowns, A symmetric and not negative, by elimination in the order
+/// of the unknowns. Unknowns that depend on those before are zero.
 pub(super) fn eliminate(mut a: [[f64; 6]; 6], mut b: [f64; 6], count: usize) -> [f64; 6] {
     let first: [f64; 6] = std::array::from_fn(|k| a[k][k]);
     let mut is_used = [false; 6];

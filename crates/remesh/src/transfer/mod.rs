@@ -1,7 +1,7 @@
 //! The state of a mesh on another mesh of the same body.
 //!
-//! Both meshes are cut into triangles, these into pieces that belong to one triangle of each (a supermesh), and
-//! integrals over the pieces are exact. `nodes` gives masses and velocities: mass, momentum and angular
+//! Both meshes are cut into triangles, these into pieces that belong to one triangle of each (a supermesh),
+//! and integrals over the pieces are exact. `nodes` gives masses and velocities: mass, momentum and angular
 //! momentum are kept, and the kinetic energy never rises. `points` gives the values of integration points.
 //!
 //! Source of the pieces: Farrell et al., CMAME 198 (2009) 2632-2642; Sutherland & Hodgman, CACM 17 (1974)

@@ -1,14 +1,14 @@
 //! Masses and velocities of the nodes of a new mesh.
 //!
-//! 1. Consistent masses of the corners of new cells, m_a = ∫ ρ N_a, and of momentum, p_a = ∫ ρ N_a v, over the
-//!    pieces of the supermesh.
-//! 2. Masses of nodes get a factor 1 + q(x), q a quadratic polynomial, so that mass, centre and second moments
-//!    are those of the old nodes: then affine velocities keep momentum, angular momentum and energy.
+//! 1. Consistent masses of the corners of new cells, m_a = ∫ ρ N_a, and of momentum, p_a = ∫ ρ N_a v, over
+//!    the pieces of the supermesh.
+//! 2. Masses of nodes get a factor 1 + q(x), q a quadratic polynomial, so that mass, centre and second
+//!    moments are those of the old nodes: then affine velocities keep momentum, angular momentum and energy.
 //! 3. Velocities by the consistent mass matrix, M v = p (exact for affine fields), limited where a component
-//!    leaves the bounds of the old nodes near: fluxes f_ab = M_ab (v_a − v_b) between nodes are lessened as those
-//!    of Zalesak, J. Comput. Phys. 31 (1979) 335-362, only at nodes where they have to be.
+//!    leaves the bounds of the old nodes near: fluxes f_ab = M_ab (v_a − v_b) between nodes are lessened as
+//!    those of Zalesak, J. Comput. Phys. 31 (1979) 335-362, only at nodes where they have to be.
 //! 4. The rigid motion is replaced by that of the old nodes' momentum and angular momentum, and the rest is
-//!    multiplied by s ≤ 1 such that the kinetic energy does not rise.
+//!    multiplied by s ≤ 1 such that the kinetic energy does not rise (by more than what is to spare).
 
 use super::Failure;
 use super::matrix::{Matrix, eliminate};
@@ -20,12 +20,16 @@ use crate::plane::{Measure, Mesh, Point, corners, cross, dot, minus};
 pub struct OldNodes<'a> {
     /// The mesh.
     pub mesh: Mesh<'a>,
-    /// Mass of each corner of each cell, kg (per metre of depth in the plane); only the sum over a cell counts.
+    /// Mass of each corner of each cell, kg (per metre of depth in 2D); only the sum over a cell
+    /// counts.
     pub corner_mass: &'a [[f64; 4]],
     /// Mass of each node, kg.
     pub node_mass: &'a [f64],
     /// Velocity of each node, m/s.
     pub velocities: &'a [Point],
+    /// Kinetic energy that earlier transfers lost and this one may give back, J; 0 for none. Between meshes
+    /// to and fro the energy of lumped masses goes down and up, and without it only down.
+    pub spare: f64,
 }
 
 /// What is known of the nodes of the new mesh.
@@ -46,8 +50,8 @@ pub struct Nodes {
     pub mass: Vec<f64>,
     /// Velocity of each node, m/s.
     pub velocities: Vec<Point>,
-    /// Kinetic energy of the old nodes less that of the new ones, J. Not negative but for rounding, unless
-    /// components other than zero are held.
+    /// Kinetic energy of the old nodes less that of the new ones, J. Not less than −`spare` but for rounding,
+    /// unless components other than zero are held.
     pub kinetic_lost: f64,
     /// Largest |q|.
     pub correction: f64,
@@ -66,9 +70,9 @@ const ROUNDS: usize = 20;
 
 /// Masses and velocities of the nodes of the new mesh.
 ///
-/// In the plane momentum and angular momentum about any point are kept, unless components are held: a direction
-/// in which any node is held keeps no momentum (its supports take it), and angular momentum is kept only if no
-/// component is held. In a body of revolution only axial momentum is.
+/// In the plane momentum and angular momentum about any point are kept, unless components are held: a
+/// direction in which any node is held keeps no momentum (its supports take it), and angular momentum is kept
+/// only if no component is held. In an axisymmetric body only axial momentum is.
 ///
 /// # Errors
 /// `Size`; `Number`; `Massless`; `Correction` if masses would change by more than half; `Inertia`.
@@ -87,7 +91,7 @@ pub fn nodes(supermesh: &Supermesh, old: &OldNodes<'_>, new: &NewNodes<'_>) -> R
     }
     let is_finite = |v: &Point| v[0].is_finite() && v[1].is_finite();
     let total = old.node_mass.iter().sum::<f64>();
-    let is_massive = old.node_mass.iter().all(|&mass| mass >= 0.0) && total > 0.0 && total.is_finite();
+    let is_massive = old.node_mass.iter().all(|&mass| mass >= 0.0) && total > 0.0 && total.is_finite() && old.spare >= 0.0;
     let has_numbers = [old.velocities, old.mesh.positions, new.mesh.positions].iter().all(|all| all.iter().all(is_finite));
     if !(is_massive && has_numbers && new.held.iter().flatten().flatten().all(|value| value.is_finite())) {
         return Err(Failure::Number);
@@ -183,8 +187,7 @@ impl Gathered {
         let count = self.mass.len();
         let free: Vec<bool> = held.iter().map(|held| held[k].is_none()).collect();
         // First order, but within bounds.
-        let low: Vec<f64> =
-            (0..count).map(|a| if self.mass[a] > 0.0 { self.momentum[k][a] / self.mass[a] } else { 0.0 }).collect();
+        let low: Vec<f64> = (0..count).map(|a| if self.mass[a] > 0.0 { self.momentum[k][a] / self.mass[a] } else { 0.0 }).collect();
         let mut high: Vec<f64> = (0..count).map(|a| held[a][k].unwrap_or(low[a])).collect();
         self.matrix.solve(&self.momentum[k], &free, &mut high);
         let largest = old.iter().fold(0.0, |largest: f64, v| largest.max(v[0].abs()).max(v[1].abs()));
@@ -199,9 +202,8 @@ impl Gathered {
     fn limit(&self, k: usize, free: &[bool], low: &[f64], high: &[f64]) -> Vec<f64> {
         let count = low.len();
         let mut found = high.to_vec();
-        let is_out = |a: usize, value: f64| {
-            free[a] && self.mass[a] > 0.0 && !(value >= self.bounds[a][0][k] && value <= self.bounds[a][1][k])
-        };
+        let is_out =
+            |a: usize, value: f64| free[a] && self.mass[a] > 0.0 && !(value >= self.bounds[a][0][k] && value <= self.bounds[a][1][k]);
         // Parts of the fluxes into and out of a node that it can bear.
         let mut parts = vec![[1.0; 2]; count];
         let mut is_limited = vec![false; count];
@@ -347,7 +349,7 @@ impl Frame {
         let of_free = |a: usize| [0, 1].map(|k| if new.held[a][k].is_none() { velocities[a][k] } else { 0.0 });
         let (of_rest, of_rigid) = (kinetic(mass, of_free), kinetic(mass, rigid));
         let of_held = kinetic(mass, |a| [value(a, 0), value(a, 1)]);
-        let room = before - of_rigid - of_held;
+        let room = before + old.spare - of_rigid - of_held;
         let scale = if of_rest <= room || of_rest <= 1e-28 * before {
             1.0
         } else if of_held > 0.0 {

@@ -1,21 +1,21 @@
 //! Values of the integration points of a new mesh.
 //!
-//! Means over sub-cells (cells with one point, quarters of quadrilaterals with four) go to new sub-cells by the
-//! pieces they have in common, φ_k = Σ w (φ_e + g_e·(x − x_e)) / Σ w, with the slopes g_e of least squares over
-//! the sub-cells that share a vertex. Where a new value is outside the range of the old sub-cells it overlaps
-//! and their neighbours, the slopes that it has come from are lessened, so that the integral is kept whatever
-//! the slopes are.
+//! Means over sub-cells (cells with one point, quarters of quadrilaterals with four) go to new sub-cells by
+//! the pieces they have in common, φ_k = Σ w (φ_e + g_e·(x − x_e)) / Σ w, with the slopes g_e of least
+//! squares over the sub-cells that share a vertex. Where a new value is outside the range of the old
+//! sub-cells it overlaps and their neighbours, the slopes that it has come from are lessened, so that the
+//! integral is kept whatever the slopes are.
 //!
-//! A sub-cell at the outline may pass the range of its neighbours by what its slope makes up to the outline, if
-//! all neighbours slope the same way: half as much again as the smallest slope of them gives.
+//! A sub-cell at the outline may pass the range of its neighbours by what its slope makes up to the outline,
+//! if all neighbours slope the same way: half as much again as the smallest slope of them gives.
 //!
 //! Sources: Barth & Jespersen, AIAA 89-0366 (the range); Clain, Diot & Loubère, J. Comput. Phys. 230 (2011)
 //! 4028-4050 (limiting afterwards).
 
 use super::boundary::{boundary, slivers};
-use super::clip::{Twin, pieces, twins};
+use super::clip::{Twin, moments, pieces, twins};
 use super::quarters::SubCells;
-use super::supermesh::{cell_volumes, from_axis, uncovered, weights};
+use super::supermesh::{cell_volumes, from_axis, uncovered};
 use super::{Failure, Side};
 use crate::plane::{Measure, Mesh, Point, dot, minus};
 
@@ -44,8 +44,8 @@ pub struct Values<'a> {
     pub values: &'a [f64],
     /// Numbers by point.
     pub width: usize,
-    /// Mass by volume of each old cell, kg/m³, for what goes with mass, such as plastic strain; `None` for what
-    /// goes with volume, such as stress.
+    /// Mass by volume of each old cell, kg/m³, for what goes with mass, such as plastic strain; `None` for
+    /// what goes with volume, such as stress.
     pub densities: Option<&'a [f64]>,
     /// How they vary.
     pub order: Order,
@@ -58,7 +58,7 @@ pub struct Values<'a> {
 struct Share {
     old: u32,
     new: u32,
-    /// m³ (per metre of depth in the plane).
+    /// m³ (per metre of depth in 2D).
     volume: f64,
     /// ∫ (x − x_e) dV about the old sub-cell's centre.
     moment: Point,
@@ -101,9 +101,11 @@ impl PointMap {
     /// `Size`; `Inverted`; `Uncovered`; `Points` for numbers of points that are not known.
     pub fn new(old: &Points<'_>, new: &Points<'_>, measure: Measure) -> Result<Self, Failure> {
         let parents = |twin: &Twin, points: usize| twin.cell as usize / points;
-        let of_cell = |points: usize, side: Side| move |failure| match failure {
-            Failure::Inverted { cell, .. } => Failure::Inverted { side, cell: cell / points },
-            other => other,
+        let of_cell = |points: usize, side: Side| {
+            move |failure| match failure {
+                Failure::Inverted { cell, .. } => Failure::Inverted { side, cell: cell / points },
+                other => other,
+            }
         };
         let from = SubCells::of(old.mesh, old.points, measure, Side::Old)?;
         let to = SubCells::of(new.mesh, new.points, measure, Side::New)?;
@@ -130,17 +132,14 @@ impl PointMap {
         let mut covered = vec![0.0; new.mesh.cells.len()];
         let mut shares = Vec::with_capacity(8 * new_twins.len());
         pieces(&old_twins, &new_twins, |i, k, piece| {
-            let mut moments = [0.0; 3];
-            for (three, area) in piece.fan(&old_twins[i], &new_twins[k]) {
-                let c = weights(area, three.map(|vertex| from_axis(&vertex.old, &old_twins[i])), measure);
-                for (row, vertex) in c.iter().zip(&three) {
-                    let weight = row[0] + row[1] + row[2];
-                    (0..3).for_each(|j| moments[j] += weight * vertex.old[j]);
-                }
-            }
-            let found = share(i, new_twins[k].cell, &moments);
+            let (twin, mut sums) = (&old_twins[i], [0.0; 3]);
+            piece.fan(twin, &new_twins[k], |[p, q, r], area| {
+                let of = moments(area, [from_axis(p, twin), from_axis(q, twin), from_axis(r, twin)], measure);
+                (0..3).for_each(|j| sums[j] += of[0] * p.old[j] + of[1] * q.old[j] + of[2] * r.old[j]);
+            });
+            let found = share(i, new_twins[k].cell, &sums);
             if found.volume > 0.0 {
-                (0..3).for_each(|j| within[i][j] += moments[j]);
+                (0..3).for_each(|j| within[i][j] += sums[j]);
                 covered[parents(&new_twins[k], new.points)] += found.volume;
                 shares.push(found);
             }
@@ -285,8 +284,8 @@ impl PointMap {
         &self.neighbours[self.starts[e] as usize..self.starts[e + 1] as usize]
     }
 
-    /// Of each old sub-cell the range of values of its own and its neighbours' points, and what its slope makes
-    /// up to the outline.
+    /// Of each old sub-cell the range of values of its own and its neighbours' points, and what its slope
+    /// makes up to the outline.
     fn ranges(&self, values: &[f64], means: &[f64], slopes: &[Point]) -> Vec<[f64; 2]> {
         let mut ranges: Vec<[f64; 2]> = (0..values.len())
             .map(|e| {
@@ -366,7 +365,8 @@ impl PointMap {
             times(&quarters.values, means, &mut values);
             let mean = average(means, totals);
             let shift = mean - average(&values, &quarters.volumes);
-            let (low, high) = (0..4).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), k| (bounds[k][0].min(low), bounds[k][1].max(high)));
+            let (low, high) =
+                (0..4).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), k| (bounds[k][0].min(low), bounds[k][1].max(high)));
             let mut part: f64 = 1.0;
             for value in &mut values {
                 *value += shift;

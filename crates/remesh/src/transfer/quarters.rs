@@ -2,8 +2,9 @@
 //!
 //! Points of 2 × 2 stand at ±1/√3, centres of quarters at ±½: a linear field does not have the values of its
 //! points as means of quarters. Within a cell a field is taken as the bilinear one (in reference coordinates)
-//! with the values of the four points. Its means over the quarters are a 4 × 4 matrix times the values, with the
-//! integral over the cell that the rule of 2 × 2 points gives; new values follow from new means by the inverse.
+//! with the values of the four points. Its means over the quarters are a 4 × 4 matrix times the values, with
+//! the integral over the cell that the rule of 2 × 2 points gives; new values follow from new means by the
+//! inverse.
 
 use super::clip::TURN;
 use super::{Failure, Side};
@@ -16,7 +17,7 @@ pub(super) struct Quarters {
     pub(super) means: [[f64; 4]; 4],
     /// Values of points from means over quarters.
     pub(super) values: [[f64; 4]; 4],
-    /// Volume that each point stands for, m³: Jacobian, times 2πx in a body of revolution.
+    /// Volume that each point stands for, m³: Jacobian, times 2πx in an axisymmetric body.
     pub(super) volumes: [f64; 4],
 }
 
@@ -109,8 +110,8 @@ impl SubCells {
         Mesh { positions: &self.positions, cells: &self.cells }
     }
 
-    /// Cells themselves for one point; for four, the quarters between corners, middles of edges, and the mean of
-    /// the corners (the middle of the diagonal within, if a corner turns inwards).
+    /// Cells themselves for one point; for four, the quarters between corners, middles of edges, and the mean
+    /// of the corners (the middle of the diagonal within, if a corner turns inwards).
     pub(super) fn of(mesh: Mesh<'_>, points: usize, measure: Measure, side: Side) -> Result<Self, Failure> {
         let mut positions = mesh.positions.to_vec();
         match points {

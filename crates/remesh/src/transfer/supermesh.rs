@@ -1,7 +1,7 @@
 //! Integrals over the pieces of two meshes.
 
 use super::boundary::{Sliver, slivers};
-use super::clip::{Piece, TURN, Twin, pieces, twins};
+use super::clip::{Piece, TURN, Twin, Vertex, pieces, twins};
 use super::{Failure, Side};
 use crate::plane::{Measure, Mesh};
 
@@ -18,9 +18,9 @@ pub(super) struct Overlap {
 
 /// The overlaps of the cells of two meshes of the same region.
 ///
-/// Both are cut into triangles, and these into pieces that belong to one of each. Of each piece the integrals of
-/// products of the linear functions of both are kept, exact but for rounding. Old material outside the new mesh,
-/// as where the chords of a curved outline differ, belongs to the nearest place of the new outline.
+/// Both are cut into triangles, and these into pieces that belong to one of each. Of each piece the integrals
+/// of products of the linear functions of both are kept, exact but for rounding. Old material outside the new
+/// mesh, as where the chords of a curved outline differ, belongs to the nearest place of the new outline.
 #[derive(Debug)]
 pub struct Supermesh {
     pub(super) old: Vec<Twin>,
@@ -50,7 +50,8 @@ impl Supermesh {
         let mut overlaps = Vec::with_capacity(8 * new_twins.len());
         pieces(&old_twins, &new_twins, |i, k, piece| {
             let (mixed, own) = products(piece, &old_twins[i], &new_twins[k], measure);
-            let moments = [0, 1, 2].map(|j| mixed[0][j] + mixed[1][j] + mixed[2][j]);
+            let moment = |j: usize| mixed[0][j] + mixed[1][j] + mixed[2][j];
+            let moments = [moment(0), moment(1), moment(2)];
             let volume = moments[0] + moments[1] + moments[2];
             if volume > 0.0 {
                 (0..3).for_each(|j| within[i][j] += moments[j]);
@@ -69,7 +70,7 @@ impl Supermesh {
         self.overlaps.len()
     }
 
-    /// Volume of the pieces, m³ (per metre of depth in the plane).
+    /// Volume of the pieces, m³ (per metre of depth in 2D).
     #[must_use]
     pub fn volume(&self) -> f64 {
         self.overlaps.iter().map(|overlap| overlap.own.iter().flatten().sum::<f64>()).sum()
@@ -83,7 +84,7 @@ impl Supermesh {
 }
 
 /// Volumes of cells from the moments of their triangles; `Inverted` if one is not positive, as at x < 0 in a
-/// body of revolution.
+/// axisymmetric body.
 pub(super) fn cell_volumes(twins: &[Twin], moments: &[[f64; 3]], cells: usize, side: Side) -> Result<Vec<f64>, Failure> {
     let mut volumes = vec![0.0; cells];
     for (twin, moments) in twins.iter().zip(moments) {
@@ -104,14 +105,22 @@ pub(super) fn uncovered(covered: &[f64], volumes: &[f64]) -> Result<f64, Failure
 }
 
 /// Weights c_ij = ∫ μ_i μ_j dV of the vertices of a triangle with a given area and distances from the axis:
-/// A (1 + δ_ij)/12 in the plane, of revolution 2πA/60 (W + x_i + x_j + δ_ij (W + 2 x_i)) with W = Σ x_i.
+/// A (1 + δ_ij)/12 in 2D, of revolution 2πA/60 (W + x_i + x_j + δ_ij (W + 2 x_i)) with W = Σ x_i.
 pub(super) fn weights(area: f64, x: [f64; 3], measure: Measure) -> [[f64; 3]; 3] {
     match measure {
-        Measure::Plane => [0, 1, 2].map(|i| [0, 1, 2].map(|j| area / if i == j { 6.0 } else { 12.0 })),
+        Measure::Plane => {
+            let (same, other) = (area / 6.0, area / 12.0);
+            [[same, other, other], [other, same, other], [other, other, same]]
+        }
         Measure::Revolution => {
             let (scale, sum) = (TURN * area / 60.0, x[0] + x[1] + x[2]);
-            let of = |i: usize, j: usize| if i == j { 2.0 * sum + 4.0 * x[i] } else { sum + x[i] + x[j] };
-            [0, 1, 2].map(|i| [0, 1, 2].map(|j| scale * of(i, j)))
+            let mut found = [[0.0; 3]; 3];
+            for i in 0..3 {
+                for j in 0..3 {
+                    found[i][j] = scale * if i == j { 2.0 * sum + 4.0 * x[i] } else { sum + x[i] + x[j] };
+                }
+            }
+            found
         }
     }
 }
@@ -119,23 +128,23 @@ pub(super) fn weights(area: f64, x: [f64; 3], measure: Measure) -> [[f64; 3]; 3]
 /// ∫ N_a λ_j dV and ∫ N_a N_b dV over a piece.
 fn products(piece: &Piece, old: &Twin, new: &Twin, measure: Measure) -> ([[f64; 3]; 3], [[f64; 3]; 3]) {
     let (mut mixed, mut own) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-    for (three, area) in piece.fan(old, new) {
-        let c = weights(area, three.map(|vertex| from_axis(&vertex.old, old)), measure);
-        for i in 0..3 {
+    piece.fan(old, new, |[p, q, r], area| {
+        let c = weights(area, [from_axis(p, old), from_axis(q, old), from_axis(r, old)], measure);
+        for (row, vertex) in c.iter().zip([p, q, r]) {
             for k in 0..3 {
-                let of_old = c[i][0] * three[0].old[k] + c[i][1] * three[1].old[k] + c[i][2] * three[2].old[k];
-                let of_new = c[i][0] * three[0].new[k] + c[i][1] * three[1].new[k] + c[i][2] * three[2].new[k];
+                let of_old = row[0] * p.old[k] + row[1] * q.old[k] + row[2] * r.old[k];
+                let of_new = row[0] * p.new[k] + row[1] * q.new[k] + row[2] * r.new[k];
                 for a in 0..3 {
-                    mixed[a][k] += three[i].new[a] * of_old;
-                    own[a][k] += three[i].new[a] * of_new;
+                    mixed[a][k] += vertex.new[a] * of_old;
+                    own[a][k] += vertex.new[a] * of_new;
                 }
             }
         }
-    }
+    });
     (mixed, own)
 }
 
 /// Distance of a vertex from the axis of revolution, m.
-pub(super) fn from_axis(of: &[f64; 3], twin: &Twin) -> f64 {
-    of[0] * twin.places[0][0] + of[1] * twin.places[1][0] + of[2] * twin.places[2][0]
+pub(super) fn from_axis(of: &Vertex, old: &Twin) -> f64 {
+    of.old[0] * old.places[0][0] + of.old[1] * old.places[1][0] + of.old[2] * old.places[2][0]
 }

@@ -4,7 +4,8 @@ mod nodes;
 mod points;
 
 use super::clip::TURN;
-use super::{Failure, Side, Supermesh};
+use super::supermesh::weights;
+use super::{Failure, NewNodes, OldNodes, Order, PointMap, Points, Side, Supermesh, Values};
 use crate::plane::{Cell, Measure, Mesh, Point, corners, cross, minus};
 
 /// Numbers that look random: xorshift.
@@ -42,8 +43,8 @@ impl Made {
         Mesh { positions: &self.positions, cells: &self.cells }
     }
 
-    /// The unit square in nx × ny cells; nodes are moved by a part of a cell's side, those of the outline along
-    /// it.
+    /// The unit square in nx × ny cells; nodes are moved by a part of a cell's side, those of the outline
+    /// along it.
     pub(super) fn square(nx: usize, ny: usize, part: f64, kind: Kind, random: &mut Random) -> Self {
         let mut positions = Vec::new();
         for j in 0..=ny {
@@ -158,6 +159,61 @@ fn pieces_fill_both_meshes() {
     }
 }
 
+/// λ_i³ gives A/10, λ_i² λ_j A/30, λ_1 λ_2 λ_3 A/60; in the plane λ_i² A/6 and λ_i λ_j A/12.
+#[test]
+fn weights_are_integrals_of_products() {
+    let area = 0.7;
+    let c = weights(area, [1.0, 0.0, 0.0], Measure::Revolution);
+    let expected = [[10.0, 30.0, 30.0], [30.0, 30.0, 60.0], [30.0, 60.0, 30.0]];
+    let plane = weights(area, [1.0, 0.0, 0.0], Measure::Plane);
+    for i in 0..3 {
+        for j in 0..3 {
+            let error = c[i][j] * expected[i][j] / (TURN * area) - 1.0;
+            assert!(error.abs() < 1e-15, "{i} {j}: {error:e}");
+            assert_eq!(plane[i][j], area / if i == j { 6.0 } else { 12.0 });
+        }
+    }
+}
+
+/// Time by piece and by new cell, for 10,000 cells of 4 points.
+#[test]
+#[ignore = "a measurement of time"]
+fn time_of_ten_thousand_cells() {
+    let mut random = Random::new(5);
+    let old = Made::square(100, 100, 0.25, Kind::Quads, &mut random);
+    let new = Made::square(97, 103, 0.25, Kind::Quads, &mut random);
+    let velocities: Vec<Point> = old.positions.iter().map(|x| [x[0] * x[1], x[1] * x[1] - x[0]]).collect();
+    let (corner_mass, node_mass) = old.masses(Measure::Plane, |_| 1.0);
+    let held = vec![[None; 2]; new.positions.len()];
+    for measure in [Measure::Plane, Measure::Revolution] {
+        let start = std::time::Instant::now();
+        let supermesh = Supermesh::new(old.mesh(), new.mesh(), measure).unwrap();
+        let cut = start.elapsed().as_secs_f64();
+        let of_old = OldNodes { mesh: old.mesh(), corner_mass: &corner_mass, node_mass: &node_mass, velocities: &velocities, spare: 0.0 };
+        if measure == Measure::Plane {
+            super::nodes(&supermesh, &of_old, &NewNodes { mesh: new.mesh(), held: &held }).unwrap();
+        }
+        let solved = start.elapsed().as_secs_f64();
+        let of = |made| Points { mesh: Made::mesh(made), points: 4 };
+        let map = PointMap::new(&of(&old), &of(&new), measure).unwrap();
+        let mapped = start.elapsed().as_secs_f64();
+        let values: Vec<f64> = (0..8 * 4 * old.cells.len()).map(|_| random.next()).collect();
+        map.values(&Values { values: &values, width: 8, densities: None, order: Order::Linear, limits: None }).unwrap();
+        let all = start.elapsed().as_secs_f64();
+        let cells = new.cells.len() as f64;
+        println!(
+            "{measure:?}: {} pieces, {:.0} ns each; by cell: pieces {:.1} µs, nodes {:.1} µs, points {:.1} µs, 8 values {:.1} µs",
+            supermesh.pieces(),
+            1e9 * cut / supermesh.pieces() as f64,
+            1e6 * cut / cells,
+            1e6 * (solved - cut) / cells,
+            1e6 * (mapped - solved) / cells,
+            1e6 * (all - mapped) / cells
+        );
+        assert!(cut / (supermesh.pieces() as f64) < 3e-6, "{cut} s for {} pieces", supermesh.pieces());
+    }
+}
+
 /// Overlaps of cells against the share of points of a fine grid that are in both.
 #[test]
 fn overlaps_are_those_of_counted_points() {
@@ -167,11 +223,12 @@ fn overlaps_are_those_of_counted_points() {
     let is_in = |made: &Made, cell: usize, x: Point| {
         let nodes = corners(&made.cells[cell]);
         let at = |k: usize| made.positions[nodes[k % nodes.len()] as usize];
-        (0..nodes.len()).filter(|&k| {
-            let (a, b) = (at(k), at(k + 1));
-            (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-        })
-        .count()
+        (0..nodes.len())
+            .filter(|&k| {
+                let (a, b) = (at(k), at(k + 1));
+                (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+            })
+            .count()
             % 2
             == 1
     };
@@ -228,7 +285,7 @@ fn what_cannot_be_carried_over_is_told() {
     let mut random = Random::new(4);
     let old = Made::square(3, 3, 0.2, Kind::Quads, &mut random);
     let failure = |old: &Made, new: &Made| Supermesh::new(old.mesh(), new.mesh(), Measure::Plane).unwrap_err();
-    let larger = old.clone().map(|x| [2.0 * x[0], x[1]]);
+    let larger = old.clone().map(|x| [1.5 * x[0], x[1]]);
     assert_eq!(failure(&old, &larger), Failure::Uncovered { cell: 2 });
     let mirrored = old.clone().map(|x| [-x[0], x[1]]);
     assert_eq!(failure(&old, &mirrored), Failure::Inverted { side: Side::New, cell: 0 });

@@ -6,14 +6,12 @@ use crate::plane::{Measure, Mesh, Point, corners, cross, minus};
 /// Circumference of the unit circle: an axisymmetric body has the volume ∫ 2πx dA.
 pub(super) const TURN: f64 = std::f64::consts::TAU;
 
-/// A triangle of a cell; a quadrilateral has two.
+/// A triangle of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Twin {
-    /// Its nodes, counter-clockwise.
-    pub(super) nodes: [u32; 3],
-    /// Which corners of the cell they are.
-    pub(super) corners: [u8; 3],
     pub(super) cell: u32,
+    /// Of each vertex its weights of the cell's corners: 1 and 0 but at the centre of a quadrilateral.
+    pub(super) shape: [[f64; 4]; 3],
     pub(super) places: [Point; 3],
     /// m².
     pub(super) area: f64,
@@ -38,35 +36,73 @@ pub(super) fn moments(area: f64, x: [f64; 3], measure: Measure) -> [f64; 3] {
     }
 }
 
-/// The triangles of a mesh. A quadrilateral is cut along the diagonal whose smaller triangle is the larger
-/// one: that is within it even where a corner turns inwards.
-pub(super) fn twins(mesh: Mesh<'_>, side: Side) -> Result<Vec<Twin>, Failure> {
-    let mut found = Vec::with_capacity(2 * mesh.cells.len());
+/// How quadrilaterals are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// In two, along the diagonal whose smaller triangle is the larger one: that is within it even where a
+    /// corner turns inwards.
+    Two,
+    /// In four, along both diagonals. A linear function has at their crossing the mean of what it has by each
+    /// of them: no diagonal is preferred, so the masses of the corners of a square are equal. In two where a
+    /// corner turns inwards.
+    Four,
+}
+
+/// The triangles of a mesh, by cells.
+pub(super) fn twins(mesh: Mesh<'_>, cut: Cut, side: Side) -> Result<Vec<Twin>, Failure> {
+    let mut found = Vec::with_capacity(4 * mesh.cells.len());
     for (index, cell) in mesh.cells.iter().enumerate() {
         let nodes = corners(cell);
-        let mut places = [[0.0; 2]; 4];
+        // The last one is the centre.
+        let mut places = [[0.0; 2]; 5];
         for (place, &node) in places.iter_mut().zip(nodes) {
             *place = *mesh.positions.get(node as usize).ok_or(Failure::Size)?;
         }
-        let area = |a: usize, b: usize, c: usize| 0.5 * cross(minus(places[b], places[a]), minus(places[c], places[a]));
-        let cuts: &[[u8; 3]] = if nodes.len() == 3 {
+        let centre = if cut == Cut::Four && nodes.len() == 4 { crossing(&places) } else { None };
+        let shape_of_centre = centre.map_or([0.0; 4], |(place, shape)| {
+            places[4] = place;
+            shape
+        });
+        let area = |[a, b, c]: [usize; 3]| 0.5 * cross(minus(places[b], places[a]), minus(places[c], places[a]));
+        let four: [[usize; 3]; 4] = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+        let cuts: &[[usize; 3]] = if nodes.len() == 3 {
             &[[0, 1, 2]]
-        } else if area(0, 1, 2).min(area(0, 2, 3)) >= area(0, 1, 3).min(area(1, 2, 3)) {
+        } else if centre.is_some() && four.iter().all(|&of| area(of) > 0.0) {
+            &four
+        } else if area([0, 1, 2]).min(area([0, 2, 3])) >= area([0, 1, 3]).min(area([1, 2, 3])) {
             &[[0, 1, 2], [0, 2, 3]]
         } else {
             &[[0, 1, 3], [1, 2, 3]]
         };
         for &of in cuts {
-            let [a, b, c] = of.map(usize::from);
-            let area = area(a, b, c);
+            let area = area(of);
             if !(area > 0.0 && area.is_finite()) {
                 return Err(Failure::Inverted { side, cell: index });
             }
+            let shape = of.map(|vertex| {
+                let mut shape = shape_of_centre;
+                if vertex < 4 {
+                    shape = [0.0; 4];
+                    shape[vertex] = 1.0;
+                }
+                shape
+            });
             let cell = u32::try_from(index).map_err(|_| Failure::Size)?;
-            found.push(Twin { nodes: [nodes[a], nodes[b], nodes[c]], corners: of, cell, places: [places[a], places[b], places[c]], area });
+            found.push(Twin { cell, shape, places: of.map(|vertex| places[vertex]), area });
         }
     }
     Ok(found)
+}
+
+/// Where the diagonals of a quadrilateral cross, and the weights of its corners there. `None` if they do not
+/// cross within it.
+fn crossing(x: &[Point; 5]) -> Option<(Point, [f64; 4])> {
+    let (first, second, side) = (minus(x[2], x[0]), minus(x[3], x[1]), minus(x[1], x[0]));
+    let whole = cross(first, second);
+    let (t, u) = (cross(side, second) / whole, cross(side, first) / whole);
+    let shape = [0.5 * (1.0 - t), 0.5 * (1.0 - u), 0.5 * t, 0.5 * u];
+    let place = [0, 1].map(|k| shape[0] * x[0][k] + shape[1] * x[1][k] + shape[2] * x[2][k] + shape[3] * x[3][k]);
+    (t > 0.0 && t < 1.0 && u > 0.0 && u < 1.0).then_some((place, shape))
 }
 
 /// A vertex of a piece: its barycentric coordinates in both triangles.

@@ -1,8 +1,8 @@
 //! The mass matrix of the new nodes, conjugate gradients, and small dense systems.
 
-use super::supermesh::Supermesh;
+use crate::plane::{Cell, corners};
 
-/// A symmetric matrix with a row for each node: its diagonal, and the nodes that share a triangle with it.
+/// A symmetric matrix with a row for each node: its diagonal, and the nodes that share a cell with it.
 pub(super) struct Matrix {
     pub(super) diagonal: Vec<f64>,
     /// Of each row the first of its entries; one more at the end.
@@ -12,12 +12,12 @@ pub(super) struct Matrix {
 }
 
 impl Matrix {
-    /// The entries that the new triangles of a supermesh give, all zero.
-    pub(super) fn of(supermesh: &Supermesh, nodes: usize) -> Self {
-        let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(6 * supermesh.new.len());
-        for twin in &supermesh.new {
-            let [a, b, c] = twin.nodes;
-            pairs.extend([[a, b], [b, a], [b, c], [c, b], [c, a], [a, c]]);
+    /// The entries that some cells give, all zero.
+    pub(super) fn of(cells: &[Cell], nodes: usize) -> Self {
+        let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(12 * cells.len());
+        for cell in cells {
+            let all = corners(cell);
+            pairs.extend(all.iter().flat_map(|&a| all.iter().map(move |&b| [a, b])).filter(|[a, b]| a != b));
         }
         pairs.sort_unstable();
         pairs.dedup();
@@ -55,8 +55,9 @@ impl Matrix {
     }
 
     /// Solves M x = b in the rows that are free, from a first x; what is not free keeps its x. Conjugate
-    /// gradients with the diagonal: for linear triangles the eigenvalues of diag(M)⁻¹ M lie within [½, 2]
-    /// (Wathen, IMA J. Numer. Anal. 7 (1987) 449), so the error falls threefold in each iteration.
+    /// gradients with the diagonal: the eigenvalues of diag(M)⁻¹ M lie between bounds that do not depend on
+    /// the mesh, [½, 2] for triangles (Wathen, IMA J. Numer. Anal. 7 (1987) 449), so that the error falls at
+    /// least twofold in each iteration.
     pub(super) fn solve(&self, b: &[f64], free: &[bool], x: &mut [f64]) {
         let count = self.diagonal.len();
         let active = |row: usize| free[row] && self.diagonal[row] > 0.0;

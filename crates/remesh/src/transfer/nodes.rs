@@ -11,6 +11,7 @@
 //!    multiplied by s ≤ 1 such that the kinetic energy does not rise (by more than what is to spare).
 
 use super::Failure;
+use super::clip::Twin;
 use super::matrix::{Matrix, eliminate};
 use super::supermesh::Supermesh;
 use crate::plane::{Measure, Mesh, Point, corners, cross, dot, minus};
@@ -84,8 +85,8 @@ pub fn nodes(supermesh: &Supermesh, old: &OldNodes<'_>, new: &NewNodes<'_>) -> R
         && old.node_mass.len() == old.mesh.positions.len()
         && old.velocities.len() == old.mesh.positions.len()
         && new.held.len() == count
-        && supermesh.old.iter().all(|twin| twin.nodes.iter().all(|&node| (node as usize) < old.velocities.len()))
-        && supermesh.new.iter().all(|twin| twin.nodes.iter().all(|&node| (node as usize) < count));
+        && old.mesh.cells.iter().flatten().all(|&node| (node as usize) < old.velocities.len())
+        && new.mesh.cells.iter().flatten().all(|&node| (node as usize) < count);
     if !is_fit {
         return Err(Failure::Size);
     }
@@ -134,30 +135,40 @@ impl Gathered {
             corner_mass: vec![[0.0; 4]; new.mesh.cells.len()],
             mass: vec![0.0; count],
             momentum: [vec![0.0; count], vec![0.0; count]],
-            matrix: Matrix::of(supermesh, count),
+            matrix: Matrix::of(new.mesh.cells, count),
             bounds: vec![[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; count],
         };
-        // Mass matrix of one new triangle: its pieces follow one another.
+        // Of each new triangle its mass matrix and momentum: its pieces follow one another.
         for same in supermesh.overlaps.chunk_by(|a, b| a.new == b.new) {
             let twin = &supermesh.new[same[0].new as usize];
-            let mut matrix = [[0.0; 3]; 3];
+            let nodes = corners(&new.mesh.cells[twin.cell as usize]);
+            let (mut matrix, mut momentum) = ([[0.0; 3]; 3], [[0.0; 2]; 3]);
             for overlap in same {
                 let from = &supermesh.old[overlap.old as usize];
                 let density = densities[from.cell as usize];
-                let velocities = from.nodes.map(|node| old.velocities[node as usize]);
+                let velocities = at_vertices(from, old);
                 for a in 0..3 {
-                    let node = twin.nodes[a] as usize;
-                    (0..3).for_each(|b| matrix[a][b] += density * overlap.own[a][b]);
-                    for k in 0..2 {
-                        let sum = (0..3).fold(0.0, |sum, j| sum + overlap.mixed[a][j] * velocities[j][k]);
-                        all.momentum[k][node] += density * sum;
+                    for b in 0..3 {
+                        matrix[a][b] += density * overlap.own[a][b];
+                        let part = density * overlap.mixed[a][b];
+                        (0..2).for_each(|k| momentum[a][k] += part * velocities[b][k]);
                     }
-                    widen(&mut all.bounds[node], &near[from.cell as usize]);
                 }
+                nodes.iter().for_each(|&node| widen(&mut all.bounds[node as usize], &near[from.cell as usize]));
             }
-            for a in 0..3 {
-                (0..3).for_each(|b| all.matrix.add(twin.nodes[a], twin.nodes[b], matrix[a][b]));
-                all.corner_mass[twin.cell as usize][usize::from(twin.corners[a])] += matrix[a][0] + matrix[a][1] + matrix[a][2];
+            for (i, &node) in nodes.iter().enumerate() {
+                for a in 0..3 {
+                    let row = twin.shape[a][i];
+                    (0..2).for_each(|k| all.momentum[k][node as usize] += row * momentum[a][k]);
+                    all.corner_mass[twin.cell as usize][i] += row * (matrix[a][0] + matrix[a][1] + matrix[a][2]);
+                }
+                for (j, &other) in nodes.iter().enumerate() {
+                    let mut entry = 0.0;
+                    for a in 0..3 {
+                        (0..3).for_each(|b| entry += twin.shape[a][i] * twin.shape[b][j] * matrix[a][b]);
+                    }
+                    all.matrix.add(node, other, entry);
+                }
             }
         }
         for sliver in &supermesh.slivers {
@@ -165,12 +176,13 @@ impl Gathered {
             let density = densities[from.cell as usize];
             let mass = density * (sliver.moments[0] + sliver.moments[1] + sliver.moments[2]);
             let shape = [1.0 - sliver.part, sliver.part];
+            let velocities = at_vertices(from, old);
             for a in 0..2 {
                 let node = sliver.edge.nodes[a];
                 (0..2).for_each(|b| all.matrix.add(node, sliver.edge.nodes[b], mass * shape[a] * shape[b]));
                 all.corner_mass[sliver.edge.cell as usize][usize::from(sliver.edge.corners[a])] += mass * shape[a];
                 for k in 0..2 {
-                    let sum = (0..3).fold(0.0, |sum, j| sum + sliver.moments[j] * old.velocities[from.nodes[j] as usize][k]);
+                    let sum = (0..3).fold(0.0, |sum, j| sum + sliver.moments[j] * velocities[j][k]);
                     all.momentum[k][node as usize] += density * shape[a] * sum;
                 }
                 widen(&mut all.bounds[node as usize], &near[from.cell as usize]);
@@ -238,6 +250,18 @@ impl Gathered {
         }
         found
     }
+}
+
+/// Velocities at the vertices of an old triangle.
+fn at_vertices(twin: &Twin, old: &OldNodes<'_>) -> [Point; 3] {
+    let cell = &old.mesh.cells[twin.cell as usize];
+    let mut found = [[0.0; 2]; 3];
+    for (velocity, shape) in found.iter_mut().zip(&twin.shape) {
+        for (&node, weight) in cell.iter().zip(shape) {
+            (0..2).for_each(|k| velocity[k] += weight * old.velocities[node as usize][k]);
+        }
+    }
+    found
 }
 
 /// Lowest and highest velocities of some nodes.

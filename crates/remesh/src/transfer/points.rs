@@ -13,7 +13,7 @@
 //! 4028-4050 (limiting afterwards).
 
 use super::boundary::{boundary, slivers};
-use super::clip::{Twin, moments, pieces, twins};
+use super::clip::{Cut, Twin, moments, pieces, twins};
 use super::quarters::SubCells;
 use super::supermesh::{cell_volumes, from_axis, uncovered};
 use super::{Failure, Side};
@@ -109,8 +109,8 @@ impl PointMap {
         };
         let from = SubCells::of(old.mesh, old.points, measure, Side::Old)?;
         let to = SubCells::of(new.mesh, new.points, measure, Side::New)?;
-        let old_twins = twins(from.mesh(), Side::Old).map_err(of_cell(old.points, Side::Old))?;
-        let new_twins = twins(to.mesh(), Side::New).map_err(of_cell(new.points, Side::New))?;
+        let old_twins = twins(from.mesh(), Cut::Two, Side::Old).map_err(of_cell(old.points, Side::Old))?;
+        let new_twins = twins(to.mesh(), Cut::Two, Side::New).map_err(of_cell(new.points, Side::New))?;
         let whole: Vec<[f64; 3]> = old_twins.iter().map(|twin| twin.moments(measure)).collect();
         let old_volumes = cell_volumes(&old_twins, &whole, from.cells.len(), Side::Old).map_err(of_cell(old.points, Side::Old))?;
         let mut centres = vec![[0.0; 2]; from.cells.len()];

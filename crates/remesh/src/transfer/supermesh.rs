@@ -1,7 +1,7 @@
 //! Integrals over the pieces of two meshes.
 
 use super::boundary::{Sliver, slivers};
-use super::clip::{Piece, TURN, Twin, Vertex, pieces, twins};
+use super::clip::{Cut, Piece, TURN, Twin, Vertex, pieces, twins};
 use super::{Failure, Side};
 use crate::plane::{Measure, Mesh};
 
@@ -40,7 +40,7 @@ impl Supermesh {
     /// # Errors
     /// `Size`, `Inverted`; `Uncovered` if less than half of a new cell has old material.
     pub fn new(old: Mesh<'_>, new: Mesh<'_>, measure: Measure) -> Result<Self, Failure> {
-        let (old_twins, new_twins) = (twins(old, Side::Old)?, twins(new, Side::New)?);
+        let (old_twins, new_twins) = (twins(old, Cut::Four, Side::Old)?, twins(new, Cut::Four, Side::New)?);
         let whole: Vec<[f64; 3]> = old_twins.iter().map(|twin| twin.moments(measure)).collect();
         let volumes = cell_volumes(&old_twins, &whole, old.cells.len(), Side::Old)?;
         let new_moments: Vec<[f64; 3]> = new_twins.iter().map(|twin| twin.moments(measure)).collect();

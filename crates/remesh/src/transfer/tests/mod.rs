@@ -293,6 +293,9 @@ fn what_cannot_be_carried_over_is_told() {
     assert_eq!(failure(&broken, &old), Failure::Size);
     let endless = old.clone().map(|x| [x[0] / 0.0, x[1]]);
     assert!(matches!(failure(&endless, &old), Failure::Inverted { side: Side::Old, .. }));
+    let none = Made { positions: Vec::new(), cells: Vec::new() };
+    assert_eq!(failure(&none, &old), Failure::Uncovered { cell: 0 });
+    assert_eq!(failure(&old, &none), Failure::Size);
     let beyond = old.clone().map(|x| [x[0] - 2.0, x[1]]);
     let found = Supermesh::new(beyond.mesh(), beyond.mesh(), Measure::Revolution).unwrap_err();
     assert_eq!(found, Failure::Inverted { side: Side::Old, cell: 0 });

@@ -8,12 +8,10 @@
 //! Edges that meet in less than 60 degrees do not encroach upon each other there (Miller, Pav & Walkington
 //! 2003).
 
-use super::numbers::{cross, distance, dot, minus, on_line};
+use crate::plane::{Point, cross, distance, dot, minus, on_line};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::collections::{BTreeMap, BinaryHeap};
-
-type Point = [f64; 2];
 
 /// Circumradius by wanted edge length above which a triangle is too large; 0.577 is that of an equilateral
 /// one.
@@ -24,24 +22,35 @@ const THIN: f64 = 1.15;
 const ROUNDS: usize = 5;
 
 /// What became of the outlines.
-pub(super) struct Triangles {
-    pub(super) positions: Vec<Point>,
-    /// Counter-clockwise.
-    pub(super) triangles: Vec<[u32; 3]>,
+#[derive(Clone, Debug)]
+pub struct Triangles {
+    /// Places of the nodes, m.
+    pub positions: Vec<Point>,
+    /// Nodes of each triangle, counter-clockwise.
+    pub triangles: Vec<[u32; 3]>,
     /// Nodes along each edge of each outline, in its direction, both ends included.
-    pub(super) edges: Vec<Vec<u32>>,
+    pub edges: Vec<Vec<u32>>,
 }
 
 /// The triangles between `outlines`, of which each has the body on its left, with edges about as long as
 /// `size` says. `None` when more than `limit` vertices would be needed.
-pub(super) fn triangles(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize) -> Option<Triangles> {
-    let mut mesher = Mesher::new(outlines, size, limit)?;
+#[must_use]
+pub fn triangles(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize) -> Option<Triangles> {
+    let mut mesher = Mesher::new(outlines, size, limit, false)?;
+    mesher.refine()?;
+    Some(mesher.finish())
+}
+
+/// The same without a vertex on the outlines besides their corners, and so perhaps with worse triangles.
+pub(super) fn triangles_within(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize) -> Option<Triangles> {
+    let mut mesher = Mesher::new(outlines, size, limit, true)?;
     mesher.refine()?;
     Some(mesher.finish())
 }
 
 /// Whether a point is inside, by the number of edges to its right.
-pub(super) fn is_inside(outlines: &[Vec<Point>], x: Point) -> bool {
+#[must_use]
+pub fn is_inside(outlines: &[Vec<Point>], x: Point) -> bool {
     let edges = outlines.iter().flat_map(|outline| (0..outline.len()).map(|k| [outline[k], outline[(k + 1) % outline.len()]]));
     let is_right = |[a, b]: &[Point; 2]| (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
     edges.filter(is_right).count() % 2 == 1
@@ -61,6 +70,8 @@ struct Mesher<'a> {
     outlines: &'a [Vec<Point>],
     size: &'a dyn Fn(Point) -> f64,
     limit: usize,
+    /// Whether outlines must not be divided.
+    held: bool,
     cdt: ConstrainedDelaunayTriangulation<Point2<f64>>,
     positions: Vec<Point>,
     /// Edge of each vertex on an outline; `None` inside and at corners.
@@ -77,11 +88,12 @@ struct Mesher<'a> {
 }
 
 impl<'a> Mesher<'a> {
-    fn new(outlines: &'a [Vec<Point>], size: &'a dyn Fn(Point) -> f64, limit: usize) -> Option<Self> {
+    fn new(outlines: &'a [Vec<Point>], size: &'a dyn Fn(Point) -> f64, limit: usize, held: bool) -> Option<Self> {
         let mut mesher = Self {
             outlines,
             size,
             limit,
+            held,
             cdt: ConstrainedDelaunayTriangulation::new(),
             positions: Vec::new(),
             edge_of: Vec::new(),
@@ -127,6 +139,9 @@ impl<'a> Mesher<'a> {
     /// Points that divide a line into pieces as long as the size says: equal parts of ∫ ds / h.
     fn divided(&self, a: Point, b: Point) -> Option<Vec<Point>> {
         const SAMPLES: usize = 512;
+        if self.held {
+            return Some(Vec::new());
+        }
         let length = distance(a, b);
         let mut sums = vec![0.0];
         for k in 0..SAMPLES {
@@ -192,8 +207,10 @@ impl<'a> Mesher<'a> {
     }
 
     fn refine(&mut self) -> Option<()> {
-        let mut encroached: Vec<Segment> = self.segments.values().copied().collect();
-        self.split_all(&mut encroached)?;
+        if !self.held {
+            let mut encroached: Vec<Segment> = self.segments.values().copied().collect();
+            self.split_all(&mut encroached)?;
+        }
         for k in 0..self.positions.len() {
             self.queue_around(k as u32);
         }
@@ -208,6 +225,9 @@ impl<'a> Mesher<'a> {
                     let vertex = self.insert(centre, None, Some(nodes[0]))?;
                     self.queue_around(vertex);
                 }
+                continue;
+            }
+            if self.held {
                 continue;
             }
             for segment in &near {

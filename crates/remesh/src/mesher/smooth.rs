@@ -6,30 +6,38 @@
 //! over 4√3 of its area, 1 for an equilateral one. Both are convex in the place of one node. Source: Knupp,
 //! SIAM J. Sci. Comput. 23 (2001) 193-218 (mean ratio).
 
-use super::quality::scaled as sine;
 use crate::plane::{Cell, Point, corners, cross, dot, minus};
 
-/// Sweeps at most, and the largest step by the length of edges below which they end.
-const SWEEPS: usize = 30;
-const STILL: f64 = 2e-3;
+/// Sweeps at most, and the step by the length of edges below which a node is still.
+const SWEEPS: usize = 16;
+const STILL: f64 = 5e-3;
 /// Scaled Jacobian below which a node's surroundings are made better on their own, and rounds of that.
 const POOR: f64 = 0.6;
 const ROUNDS: usize = 12;
 /// 1/√3.
 const TRIANGLE: f64 = 0.577_350_269_189_625_8;
 
-/// A corner: its node and the next and the last one of the cell.
-#[derive(Clone, Copy)]
-struct Corner {
-    nodes: [u32; 3],
-    is_triangle: bool,
+/// Which node of a corner it is whose place matters: that of the corner itself, the next or the last one.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Role {
+    Apex,
+    Next,
+    Last,
+    /// Any one of a triangle.
+    Triangle,
 }
 
-/// Corners of all cells, and for each node those that its place matters to.
+/// A corner seen from one of its nodes: the two others, counter-clockwise.
+#[derive(Clone, Copy)]
+struct Corner {
+    others: [u32; 2],
+    role: Role,
+}
+
+/// The corners that each node's place matters to.
 struct Corners {
-    all: Vec<Corner>,
     first: Vec<u32>,
-    at: Vec<u32>,
+    all: Vec<Corner>,
 }
 
 /// Moves all nodes that are not held.
@@ -37,14 +45,20 @@ pub(super) fn smooth(positions: &mut [Point], cells: &[Cell], held: &[bool]) {
     let corners = Corners::new(positions.len(), cells);
     let free: Vec<usize> = (0..positions.len()).filter(|&node| !held[node]).collect();
     untangle(positions, &corners, &free);
+    // Nodes that have moved, or next to one, in this sweep and for the next.
+    let mut moved = vec![true; positions.len()];
     for _ in 0..SWEEPS {
-        let mut largest = 0.0_f64;
+        let mut next = vec![false; positions.len()];
         for &node in &free {
-            largest = largest.max(corners.step(positions, node));
+            if moved[node] && corners.step(positions, node) > STILL {
+                next[node] = true;
+                corners.around(node).flat_map(|corner| corner.others).for_each(|other| next[other as usize] = true);
+            }
         }
-        if largest < STILL {
+        if !next.contains(&true) {
             break;
         }
+        moved = next;
     }
     untangle(positions, &corners, &free);
 }
@@ -87,33 +101,32 @@ fn untangle(positions: &mut [Point], corners: &Corners, free: &[usize]) {
 
 impl Corners {
     fn new(nodes: usize, cells: &[Cell]) -> Self {
-        let mut all = Vec::with_capacity(4 * cells.len());
+        let mut list: Vec<(u32, Corner)> = Vec::with_capacity(12 * cells.len());
         for cell in cells {
-            let list = corners(cell);
-            let n = list.len();
-            let corner = |k: usize| Corner { nodes: [list[k], list[(k + 1) % n], list[(k + n - 1) % n]], is_triangle: n == 3 };
-            all.extend((0..n).map(corner));
+            let nodes = corners(cell);
+            let n = nodes.len();
+            for k in 0..n {
+                let [o, a, b] = [nodes[k], nodes[(k + 1) % n], nodes[(k + n - 1) % n]];
+                if n == 3 {
+                    list.push((o, Corner { others: [a, b], role: Role::Triangle }));
+                } else {
+                    list.push((o, Corner { others: [a, b], role: Role::Apex }));
+                    list.push((a, Corner { others: [b, o], role: Role::Next }));
+                    list.push((b, Corner { others: [o, a], role: Role::Last }));
+                }
+            }
         }
+        list.sort_by_key(|&(node, _)| node);
         let mut first = vec![0_u32; nodes + 1];
-        for node in all.iter().flat_map(|corner| corner.nodes) {
-            first[node as usize + 1] += 1;
-        }
+        list.iter().for_each(|&(node, _)| first[node as usize + 1] += 1);
         for node in 0..nodes {
             first[node + 1] += first[node];
         }
-        let mut next = first.clone();
-        let mut at = vec![0; 3 * all.len()];
-        for (k, corner) in (0..).zip(&all) {
-            for node in corner.nodes {
-                at[next[node as usize] as usize] = k;
-                next[node as usize] += 1;
-            }
-        }
-        Self { all, first, at }
+        Self { first, all: list.into_iter().map(|(_, corner)| corner).collect() }
     }
 
     fn around(&self, node: usize) -> impl Iterator<Item = &Corner> {
-        self.at[self.first[node] as usize..self.first[node + 1] as usize].iter().map(|&k| &self.all[k as usize])
+        self.all[self.first[node] as usize..self.first[node + 1] as usize].iter()
     }
 
     /// The least scaled Jacobian around a node, that of triangles not scaled; where it isn't positive the least
@@ -121,10 +134,11 @@ impl Corners {
     fn worst(&self, positions: &[Point], node: usize, length: f64) -> f64 {
         let (mut least, mut scaled) = (f64::INFINITY, f64::INFINITY);
         for corner in self.around(node) {
-            let [o, a, b] = corner.nodes.map(|node| positions[node as usize]);
-            let (a, b) = (minus(a, o), minus(b, o));
-            least = least.min(cross(a, b));
-            scaled = scaled.min(sine(a, b));
+            let (p, q) = corner.edges(positions, node);
+            let twice = cross(p, q);
+            let [one, other] = corner.squares(p, q);
+            least = least.min(twice);
+            scaled = scaled.min(twice / (one * other).sqrt());
         }
         if least > 0.0 { scaled } else { (least / (length * length)).min(0.0) }
     }
@@ -132,8 +146,9 @@ impl Corners {
     /// The longest edge of the corners around a node.
     fn edge(&self, positions: &[Point], node: usize) -> f64 {
         let of = |corner: &Corner| {
-            let [o, a, b] = corner.nodes.map(|node| positions[node as usize]);
-            dot(minus(a, o), minus(a, o)).max(dot(minus(b, o), minus(b, o)))
+            let (p, q) = corner.edges(positions, node);
+            let [one, other] = corner.squares(p, q);
+            one.max(other)
         };
         self.around(node).map(of).fold(0.0, f64::max).sqrt()
     }
@@ -142,11 +157,12 @@ impl Corners {
     fn sum(&self, positions: &[Point], node: usize) -> f64 {
         let mut sum = 0.0;
         for corner in self.around(node) {
-            let [o, a, b] = corner.nodes.map(|node| positions[node as usize]);
-            let [mu, twice] = corner.shape(minus(a, o), minus(b, o));
+            let (p, q) = corner.edges(positions, node);
+            let twice = cross(p, q);
             if !(twice > 0.0) {
                 return f64::INFINITY;
             }
+            let mu = corner.numerator(p, q) / twice;
             sum += mu * mu;
         }
         sum
@@ -157,28 +173,26 @@ impl Corners {
         let from = positions[node];
         let (mut sum, mut gradient, mut hessian) = (0.0, [0.0; 2], [0.0; 3]);
         for corner in self.around(node) {
-            let [o, a, b] = corner.nodes.map(|node| positions[node as usize]);
-            let (a, b) = (minus(a, o), minus(b, o));
-            let [mu, twice] = corner.shape(a, b);
+            let (p, q) = corner.edges(positions, node);
+            let twice = cross(p, q);
             if !(twice > 0.0) {
                 return 0.0;
             }
-            // Gradients of the numerator |a|² + |b|² (+ |a − b|²) and of a × b, and the numerator's second
-            // derivative, which is a multiple of the unit matrix.
-            let (of_a, of_b) = ([b[1], -b[0]], [-a[1], a[0]]);
-            let third = if corner.is_triangle { minus(a, b) } else { [0.0; 2] };
-            let (numerator, denominator, second) = if corner.nodes[0] as usize == node {
-                ([-2.0 * (a[0] + b[0]), -2.0 * (a[1] + b[1])], [-of_a[0] - of_b[0], -of_a[1] - of_b[1]], 4.0)
-            } else if corner.nodes[1] as usize == node {
-                ([2.0 * (a[0] + third[0]), 2.0 * (a[1] + third[1])], of_a, if corner.is_triangle { 4.0 } else { 2.0 })
-            } else {
-                ([2.0 * (b[0] - third[0]), 2.0 * (b[1] - third[1])], of_b, if corner.is_triangle { 4.0 } else { 2.0 })
+            let inverse = 1.0 / twice;
+            let mu = corner.numerator(p, q) * inverse;
+            // Gradients of the numerator and of p × q by the place; the numerator's second derivative is a
+            // multiple of the unit matrix.
+            let (numerator, second) = match corner.role {
+                Role::Apex => ([-p[0] - q[0], -p[1] - q[1]], 2.0),
+                Role::Next => ([-q[0], -q[1]], 1.0),
+                Role::Last => ([-p[0], -p[1]], 1.0),
+                Role::Triangle => ([-TRIANGLE * (p[0] + q[0]), -TRIANGLE * (p[1] + q[1])], 2.0 * TRIANGLE),
             };
-            let scale = corner.scale();
-            let slope = [0, 1].map(|d| (scale * numerator[d] - mu * denominator[d]) / twice);
+            let denominator = [p[1] - q[1], q[0] - p[0]];
+            let slope = [0, 1].map(|d| (numerator[d] - mu * denominator[d]) * inverse);
             let curve = |i: usize, j: usize| {
-                let unit = if i == j { scale * second } else { 0.0 };
-                (unit - slope[i] * denominator[j] - slope[j] * denominator[i]) / twice
+                let unit = if i == j { second } else { 0.0 };
+                (unit - slope[i] * denominator[j] - slope[j] * denominator[i]) * inverse
             };
             sum += mu * mu;
             for d in 0..2 {
@@ -196,10 +210,11 @@ impl Corners {
         if !(determinant > 0.0) || !way.iter().all(|x| x.is_finite()) {
             return 0.0;
         }
+        let length = self.edge(positions, node);
         for _ in 0..6 {
             positions[node] = [from[0] + way[0], from[1] + way[1]];
             if self.sum(positions, node) < sum {
-                return dot(way, way).sqrt() / self.edge(positions, node);
+                return dot(way, way).sqrt() / length;
             }
             way = way.map(|x| 0.5 * x);
         }
@@ -209,16 +224,33 @@ impl Corners {
 }
 
 impl Corner {
-    /// What the numerator is multiplied by.
-    fn scale(&self) -> f64 {
-        if self.is_triangle { 0.5 * TRIANGLE } else { 0.5 }
+    /// The edges from a node to the two others.
+    fn edges(&self, positions: &[Point], node: usize) -> (Point, Point) {
+        let [p, q] = self.others.map(|other| minus(positions[other as usize], positions[node]));
+        (p, q)
     }
 
-    /// µ, and a × b.
-    fn shape(&self, a: Point, b: Point) -> [f64; 2] {
-        let twice = cross(a, b);
-        let third = if self.is_triangle { dot(minus(a, b), minus(a, b)) } else { 0.0 };
-        [self.scale() * (dot(a, a) + dot(b, b) + third) / twice, twice]
+    /// Squared lengths of the corner's edges; of a triangle those of the two longest ones.
+    fn squares(&self, p: Point, q: Point) -> [f64; 2] {
+        let third = || dot(minus(p, q), minus(p, q));
+        match self.role {
+            Role::Apex => [dot(p, p), dot(q, q)],
+            Role::Next => [dot(q, q), third()],
+            Role::Last => [dot(p, p), third()],
+            Role::Triangle => {
+                let (p, q, r) = (dot(p, p), dot(q, q), third());
+                if r <= p && r <= q { [p, q] } else { [r, p.max(q)] }
+            }
+        }
+    }
+
+    /// µ times p × q.
+    fn numerator(&self, p: Point, q: Point) -> f64 {
+        if self.role == Role::Triangle {
+            return 0.5 * TRIANGLE * (dot(p, p) + dot(q, q) + dot(minus(p, q), minus(p, q)));
+        }
+        let [one, other] = self.squares(p, q);
+        0.5 * (one + other)
     }
 }
 

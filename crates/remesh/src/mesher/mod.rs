@@ -129,7 +129,7 @@ pub fn triangles(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measur
 
 fn mesh(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit: usize, halves: bool) -> Result<Meshed, Failure> {
     let (per, scale) = if halves { (2.1, COARSE) } else { (1.0, FINE) };
-    let mut lines = outline::lines(outline, size, per)?;
+    let mut lines = outline::lines(outline, size, per, limit)?;
     check(&lines, measure)?;
     let wanted = |x: Point| scale * size(x);
     // A triangle makes two quadrilaterals or more, and a vertex two triangles or less.

@@ -40,8 +40,9 @@ pub(super) struct Chain {
     pub(super) places: Vec<f64>,
 }
 
-/// The lines of an outline, with places of nodes between which there will be `per` edges.
-pub(super) fn lines(outline: &Outline, size: &dyn Fn(Point) -> f64, per: f64) -> Result<Vec<Line>, Failure> {
+/// The lines of an outline, with places of nodes between which there will be `per` edges; `limit` on each
+/// chain at most.
+pub(super) fn lines(outline: &Outline, size: &dyn Fn(Point) -> f64, per: f64, limit: usize) -> Result<Vec<Line>, Failure> {
     if outline.loops.is_empty() || outline.loops.len() != outline.fixed.len() {
         return Err(Failure::Outline("there are not as many lists of fixed points as loops, or none"));
     }
@@ -58,11 +59,11 @@ pub(super) fn lines(outline: &Outline, size: &dyn Fn(Point) -> f64, per: f64) ->
         return Err(Failure::Outline("it is too small or too large, or too far from the origin, for its coordinates"));
     }
     let near = 8.0 * f64::EPSILON * farthest;
-    outline.loops.iter().zip(&outline.fixed).map(|(points, fixed)| Line::new(points, fixed, size, near, per)).collect()
+    outline.loops.iter().zip(&outline.fixed).map(|(points, fixed)| Line::new(points, fixed, size, near, per, limit)).collect()
 }
 
 impl Line {
-    fn new(points: &[Point], fixed: &[bool], size: &dyn Fn(Point) -> f64, near: f64, per: f64) -> Result<Self, Failure> {
+    fn new(points: &[Point], fixed: &[bool], size: &dyn Fn(Point) -> f64, near: f64, per: f64, limit: usize) -> Result<Self, Failure> {
         if points.len() != fixed.len() {
             return Err(Failure::Outline("a loop has not as many flags of fixed points as points"));
         }
@@ -137,7 +138,7 @@ impl Line {
             chain.is_straight &= !chain.is_closed;
         }
         line.chains = chains;
-        line.place(&stations, per)?;
+        line.place(&stations, per, limit)?;
         Ok(line)
     }
 
@@ -258,7 +259,7 @@ impl Line {
     }
 
     /// Puts nodes on the chains at equal parts of ∫ ds / h, h being the length at the stations.
-    fn place(&mut self, stations: &[[f64; 2]], per: f64) -> Result<(), Failure> {
+    fn place(&mut self, stations: &[[f64; 2]], per: f64, limit: usize) -> Result<(), Failure> {
         let mut first = 0;
         for chain in &mut self.chains {
             let end = self.arc[chain.points[1]];
@@ -271,7 +272,7 @@ impl Line {
             }
             let whole = sums[sums.len() - 1].1;
             let count = whole.round().max(1.0);
-            if !(count < 1e7) {
+            if !(count <= limit as f64) {
                 return Err(Failure::Limit);
             }
             let start = chain.places[0];

@@ -261,6 +261,112 @@ fn random_stars_are_meshed_or_refused() {
     assert!(poor * 20 < all, "{poor} of {all} have a scaled Jacobian below 0.3");
 }
 
+fn scaled(outline: &Outline, by: f64, shift: Point) -> Outline {
+    let place = |x: &Point| [x[0] * by + shift[0], x[1] * by + shift[1]];
+    Outline { loops: outline.loops.iter().map(|points| points.iter().map(place).collect()).collect(), fixed: outline.fixed.clone() }
+}
+
+#[test]
+fn huge_and_tiny_regions_are_meshed_as_others_are() {
+    for (name, outline, h) in regions() {
+        let [one, huge, tiny] = [1.0, 2.0_f64.powi(30), 2.0_f64.powi(-30)].map(|by| {
+            let outline = scaled(&outline, by, [0.0; 2]);
+            let meshed = quadrilaterals(&outline, &|_| by * h, Measure::Plane, 10_000).expect(name);
+            judge(&outline, &meshed, Measure::Plane);
+            meshed.cells
+        });
+        assert!(one == huge && one == tiny, "{name}");
+        let outline = scaled(&outline, 1e9, [1e9, -1e9]);
+        let meshed = quadrilaterals(&outline, &|_| 1e9 * h, Measure::Plane, 10_000).expect(name);
+        judge(&outline, &meshed, Measure::Plane);
+    }
+}
+
+#[test]
+fn outlines_that_are_none_are_refused() {
+    let refused = |outline: &Outline, h: f64| quadrilaterals(outline, &|_| h, Measure::Plane, 1_000).expect_err("no mesh");
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let turned: Vec<Point> = square.iter().rev().copied().collect();
+    for outline in [
+        Outline::default(),
+        Outline { loops: vec![square.to_vec()], fixed: vec![] },
+        Outline { loops: vec![square.to_vec()], fixed: vec![vec![false; 3]] },
+        polygon(&[]),
+        polygon(&square[..2]),
+        polygon(&[[1.0, 2.0]; 7]),
+        polygon(&[[0.0, f64::NAN], [1.0, 0.0], [1.0, 1.0]]),
+        polygon(&[[0.0, 0.0], [f64::INFINITY, 0.0], [1.0, 1.0]]),
+        polygon(&[[0.0, 0.0], [1e200, 0.0], [1e200, 1e200]]),
+        polygon(&[[0.0, 0.0], [1e-200, 0.0], [1e-200, 1e-200]]),
+        polygon(&turned),
+        Outline { loops: vec![square.to_vec(), vec![[0.2, 0.2], [0.4, 0.2], [0.4, 0.4]]], fixed: vec![vec![false; 4], vec![false; 3]] },
+    ] {
+        assert!(matches!(refused(&outline, 0.2), Failure::Outline(_)), "{outline:?}");
+    }
+    for points in [
+        vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]],
+        vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]],
+        vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [3.0, 0.5], [1.0, 0.5], [1.0, 1.0], [0.0, 1.0]],
+        vec![[0.0, 0.0], [1.0, 0.0], [0.5, 0.5], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]],
+    ] {
+        assert!(matches!(refused(&polygon(&points), 0.2), Failure::Crossing { .. }), "{points:?}");
+    }
+    for h in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(refused(&polygon(&square), h), Failure::Size { .. }), "{h}");
+    }
+    for h in [1e-2, 1e-5, 1e-300] {
+        assert_eq!(refused(&polygon(&square), h), Failure::Limit, "{h}");
+    }
+    // A needle of one degree is no place for a good quadrilateral.
+    let needle = polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0175]]);
+    assert!(matches!(refused(&needle, 0.2), Failure::Quality { least } if least < 0.02));
+}
+
+#[test]
+fn nothing_makes_it_panic() {
+    let mut random = Random(11);
+    let mut counts = std::collections::BTreeMap::new();
+    for k in 0..3000 {
+        let n = 1 + (random.next() * 12.0) as usize;
+        // Of few coordinates, so that points coincide, lie on one line, and edges touch.
+        let steps = [2.0, 4.0, 1e6][k % 3];
+        let by = [1.0, 1e9, 1e-9][k / 3 % 3];
+        let mut coordinate = || (random.next() * steps).floor() / steps * by;
+        let mut points: Vec<Point> = (0..n).map(|_| [coordinate(), coordinate()]).collect();
+        if k % 2 == 0 && n > 3 {
+            // Without crossings: by angle around the middle.
+            points.sort_by(|a, b| (a[1] - 0.5 * by).atan2(a[0] - 0.5 * by).total_cmp(&(b[1] - 0.5 * by).atan2(b[0] - 0.5 * by)));
+        }
+        let mut outline = Outline { fixed: vec![points.iter().map(|_| random.next() < 0.3).collect()], loops: vec![points] };
+        if random.next() < 0.3 {
+            let x = [0.5 * by, 0.5 * by];
+            let r = 0.3 * by * random.next();
+            outline = with_hole(outline, &circle(x, r, 3 + k % 20));
+        }
+        let h = by * [0.3, 0.05, 3.0][k % 3] * (0.2 + random.next());
+        let slope = 2.0 * random.next();
+        let measure = if k % 5 == 0 { Measure::Revolution } else { Measure::Plane };
+        for make in [quadrilaterals as Make, triangles] {
+            let made = make(&outline, &|x| h * (1.0 + slope * x[0] / by), measure, 3_000);
+            let what = match &made {
+                Ok(meshed) => {
+                    judge(&outline, meshed, measure);
+                    "meshed"
+                }
+                Err(Failure::Outline(why)) => why,
+                Err(Failure::Crossing { .. }) => "crossing",
+                Err(Failure::Size { .. }) => "size",
+                Err(Failure::Limit) => "limit",
+                Err(Failure::Measure) => "measure",
+                Err(Failure::Quality { .. }) => "quality",
+            };
+            *counts.entry(what).or_insert(0) += 1;
+        }
+    }
+    println!("{counts:?}");
+    assert!(counts["meshed"] > 1000 && !counts.contains_key("measure") && !counts.contains_key("size"), "{counts:?}");
+}
+
 #[test]
 #[ignore = "takes time"]
 fn speed() {

@@ -4,11 +4,13 @@
 //! ends of straight lines, stay nodes; between them nodes are spaced as the size says, and curved pieces are
 //! moved along their normals until the region's measure is exactly what it was. Triangles fill it
 //! (`delaunay`); for quadrilaterals they are twice as large, are merged in pairs, and all cells are divided
-//! in the middle of their edges. Nodes inside are smoothed. Only the four operations and square roots are
+//! in the middle of their edges. A region with four corners and sides of like lengths gets rows and columns
+//! where these are good. Nodes inside are smoothed. Only the four operations and square roots are
 //! used, in a fixed order: the same bits everywhere.
 
 pub mod delaunay;
 mod crossing;
+mod mapped;
 mod merge;
 mod outline;
 mod quality;
@@ -27,6 +29,8 @@ const ROUNDS: usize = 10;
 const OPEN: usize = 7;
 /// Least scaled Jacobian of a mesh that is given.
 const WORST: f64 = 0.1;
+/// Least scaled Jacobian of rows and columns that are given without a look at other meshes.
+const GOOD: f64 = 0.75;
 /// Cosine of the angle, 130 degrees, above which a corner of the outline needs two cells.
 const FLAT: f64 = -0.642_787_609_686_539_3;
 /// Size of triangles by that of quadrilaterals, so that these are as many as ∫ dA / h².
@@ -115,7 +119,19 @@ impl std::error::Error for Failure {}
 ///
 /// Where the outline is not that of a region, or no good mesh is found; see [`Failure`].
 pub fn quadrilaterals(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit: usize) -> Result<Meshed, Failure> {
-    mesh(outline, size, measure, limit, true)
+    let lines = outline::lines(outline, size, 1.0, limit)?;
+    check(&lines, measure)?;
+    let mapped = if let [line] = &lines[..] { mapped::mapped(line, size, measure, limit) } else { None };
+    let of = |meshed: &Meshed| quality(&meshed.positions, &meshed.cells);
+    match mapped {
+        Some(mapped) if of(&mapped) >= GOOD => Ok(mapped),
+        Some(mapped) => match mesh(outline, size, measure, limit, true) {
+            Err(_) if of(&mapped) >= WORST => Ok(mapped),
+            Ok(other) if of(&mapped) > of(&other) => Ok(mapped),
+            other => other,
+        },
+        None => mesh(outline, size, measure, limit, true),
+    }
 }
 
 /// The same of triangles.
@@ -227,6 +243,13 @@ fn divide(lines: &mut [Line], made: &delaunay::Triangles) -> bool {
     divided
 }
 
+/// Turns the nodes of a loop so that the first one after the loop's first point comes first.
+fn from_the_first(nodes: &mut [OnOutline]) {
+    let place = |node: &OnOutline| (node.segment, node.fraction);
+    let first = (0..nodes.len()).reduce(|a, b| if place(&nodes[b]) < place(&nodes[a]) { b } else { a });
+    nodes.rotate_left(first.unwrap_or(0));
+}
+
 /// The mesh from triangles whose outlines have no nodes besides those of the lines.
 fn finish(lines: &[Line], nodes: &[Vec<Vec<Point>>], made: delaunay::Triangles, halves: bool) -> Meshed {
     let mut positions = made.positions;
@@ -257,9 +280,7 @@ fn finish(lines: &[Line], nodes: &[Vec<Vec<Point>>], made: delaunay::Triangles, 
             let is_corner = cross(on, back) > 0.0 && dot(on, back) > FLAT * (dot(on, on) * dot(back, back)).sqrt();
             kinds[nodes[k].node as usize] = if is_corner { merge::Kind::Corner } else { merge::Kind::Flat };
         }
-        let place = |node: &OnOutline| (node.segment, node.fraction);
-        let first = (0..nodes.len()).reduce(|a, b| if place(&nodes[b]) < place(&nodes[a]) { b } else { a });
-        nodes.rotate_left(first.unwrap_or(0));
+        from_the_first(&mut nodes);
         loops.push(nodes);
     }
     let cells: Vec<Cell> = if halves {

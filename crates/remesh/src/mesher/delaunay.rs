@@ -41,9 +41,12 @@ pub fn triangles(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: us
     Some(mesher.finish())
 }
 
-/// The same without a vertex on the outlines besides their corners, and so perhaps with worse triangles.
-pub(super) fn triangles_within(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize) -> Option<Triangles> {
-    let mut mesher = Mesher::new(outlines, size, limit, true)?;
+/// The same between outlines whose edges are about as long as they should be. Triangles between the edges of
+/// a sharp corner stay as they are. With `held` no vertex is put on the outlines, which makes perhaps for
+/// worse triangles.
+pub(super) fn triangles_within(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize, held: bool) -> Option<Triangles> {
+    let mut mesher = Mesher::new(outlines, size, limit, held)?;
+    mesher.edges_at = Some(mesher.meeting());
     mesher.refine()?;
     Some(mesher.finish())
 }
@@ -79,6 +82,8 @@ struct Mesher<'a> {
     /// For each edge its ends, and the edges that meet it in less than 60 degrees.
     corners: Vec<[u32; 2]>,
     acute: Vec<Vec<u32>>,
+    /// For each corner the two edges there, if triangles between sharp edges are to stay.
+    edges_at: Option<BTreeMap<u32, [u32; 2]>>,
     /// Pieces by their ends, the lower one first.
     segments: BTreeMap<[u32; 2], Segment>,
     /// Pieces by the cell of a grid that their middle is in.
@@ -99,6 +104,7 @@ impl<'a> Mesher<'a> {
             edge_of: Vec::new(),
             corners: Vec::new(),
             acute: Vec::new(),
+            edges_at: None,
             segments: BTreeMap::new(),
             cells: BTreeMap::new(),
             cell: 0.0,
@@ -368,7 +374,26 @@ impl<'a> Mesher<'a> {
         let stays = [(a, b), (b, a)].iter().any(|&(on, other)| {
             self.edge_of[on as usize].is_some_and(|edge| !self.acute[edge as usize].is_empty() && self.meets_acutely(edge, other))
         });
-        (thin > 1.0 && !stays).then_some(thin)
+        (thin > 1.0 && !stays && !self.is_between_sharp([a, b])).then_some(thin)
+    }
+
+    /// Whether two vertices, corners among them, are on two edges that meet in a sharp corner.
+    fn is_between_sharp(&self, ends: [u32; 2]) -> bool {
+        let Some(edges_at) = &self.edges_at else { return false };
+        let [one, other] = ends.map(|node| match self.edge_of[node as usize] {
+            Some(edge) => [edge; 2],
+            None => edges_at.get(&node).copied().unwrap_or([u32::MAX; 2]),
+        });
+        one.iter().filter_map(|&edge| self.acute.get(edge as usize)).any(|acute| other.iter().any(|edge| acute.contains(edge)))
+    }
+
+    fn meeting(&self) -> BTreeMap<u32, [u32; 2]> {
+        let mut meeting: BTreeMap<u32, [u32; 2]> = BTreeMap::new();
+        for (edge, &[a, b]) in (0..).zip(&self.corners) {
+            meeting.entry(a).or_insert([edge; 2])[0] = edge;
+            meeting.entry(b).or_insert([edge; 2])[1] = edge;
+        }
+        meeting
     }
 
     fn circumcentre(&self, nodes: [u32; 3]) -> Point {

@@ -10,7 +10,7 @@ use crate::plane::{Cell, Measure, Point, cross, dot, minus};
 const CORNER: f64 = 0.707_106_781_186_547_5;
 /// A side may have this many times the edges of the one opposite.
 const UNLIKE: f64 = 2.2;
-/// Longest and shortest edge by the wanted one.
+/// Longest and shortest edge by the wanted one; the shortest ones across a strip may be shorter.
 const LONG: f64 = 1.8;
 const SHORT: f64 = 0.45;
 
@@ -33,7 +33,7 @@ pub(super) fn mapped(line: &Line, size: &dyn Fn(Point) -> f64, measure: Measure,
         if one.max(other) as f64 > UNLIKE * one.min(other) as f64 {
             return None;
         }
-        counts[k] = (one + other).div_ceil(2).max(sides[k].len()).max(sides[k + 2].len());
+        counts[k] = (one + other).div_ceil(2).max(sides[k].len()).max(sides[k + 2].len()).max(2);
     }
     let [columns, rows] = counts;
     if columns.checked_mul(rows)? > limit {
@@ -100,7 +100,8 @@ pub(super) fn mapped(line: &Line, size: &dyn Fn(Point) -> f64, measure: Measure,
         let wanted = size(x[0]);
         (0..4).all(|k| {
             let edge = minus(x[(k + 1) % 4], x[k]);
-            (SHORT * wanted..=LONG * wanted).contains(&dot(edge, edge).sqrt())
+            let length = dot(edge, edge).sqrt();
+            length <= LONG * wanted && (length >= SHORT * wanted || columns.min(rows) == 2)
         })
     };
     if !cells.iter().all(fits) {
@@ -129,7 +130,8 @@ fn corners(line: &Line) -> Option<[usize; 4]> {
     found.try_into().ok()
 }
 
-/// Shares of `whole` in the proportion of `parts`, each one at least, `whole` being no less than their number.
+/// Shares of `whole` in the proportion of `parts`, each one at least, `whole` being no less than their
+/// number.
 fn shared(parts: &[usize], whole: usize) -> Vec<usize> {
     let sum: usize = parts.iter().sum();
     let mut shares: Vec<usize> = parts.iter().map(|part| (part * whole / sum).max(1)).collect();

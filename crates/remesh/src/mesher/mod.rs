@@ -166,9 +166,7 @@ fn mesh(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit:
             divide_crossing(&mut lines, &crossings)?;
             continue;
         }
-        let made =
-            if round < OPEN { delaunay::triangles(&loops, &wanted, most) } else { delaunay::triangles_within(&loops, &wanted, most) };
-        let made = made.ok_or(Failure::Limit)?;
+        let made = delaunay::triangles_within(&loops, &wanted, most, round >= OPEN).ok_or(Failure::Limit)?;
         if divide(&mut lines, &made) {
             continue;
         }

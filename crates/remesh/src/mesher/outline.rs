@@ -215,9 +215,12 @@ impl Line {
             }
             sums[k - 1] + (sums[k] - sums[k - 1]) * (place - middles[k - 1]) / (middles[k] - middles[k - 1])
         };
-        let mut stations = Vec::new();
-        for chain in chains {
+        let mut stations: Vec<[f64; 2]> = Vec::new();
+        for (c, chain) in chains.iter().enumerate() {
             let [from, to] = chain.points.map(|k| self.arc[k]);
+            // Where a chain begins, the one before ends.
+            let before = chains[(c + chains.len() - 1) % chains.len()].points.map(|k| self.arc[k]);
+            let first = stations.len();
             for k in chain.points[0]..chain.points[1] {
                 let (a, b) = (self.points[k], self.points[(k + 1) % n]);
                 let length = self.arc[k + 1] - self.arc[k];
@@ -240,6 +243,7 @@ impl Line {
                     done = if done + 1.5 * step >= 1.0 { 1.0 } else { done + step };
                 }
             }
+            stations[first][1] = stations[first][1].min((before[1] - before[0]) / per);
         }
         // Twice around, so that the first station knows of the last.
         let whole = self.arc[n];

@@ -129,8 +129,8 @@ impl Corners {
         self.all[self.first[node] as usize..self.first[node + 1] as usize].iter()
     }
 
-    /// The least scaled Jacobian around a node, that of triangles not scaled; where it isn't positive the least
-    /// Jacobian, by the square of a length: its least is a concave function of the node's place.
+    /// The least scaled Jacobian around a node, that of triangles not scaled; where it isn't positive the
+    /// least Jacobian, by the square of a length: its least is a concave function of the node's place.
     fn worst(&self, positions: &[Point], node: usize, length: f64) -> f64 {
         let (mut least, mut scaled) = (f64::INFINITY, f64::INFINITY);
         for corner in self.around(node) {

@@ -179,17 +179,42 @@ fn regions_are_filled_with_good_cells() {
                 let (least, low) = judge(&outline, &meshed, measure);
                 // The sharp corner has 19 degrees, of which the sine is 0.33.
                 assert!(least >= if name == "sharp corner" { 0.32 } else { 0.35 }, "{name}: {least}");
-                assert!(
-                    low >= if name == "disc, coarse" {
-                        0.6
-                    } else if kind == 1 {
-                        0.69
-                    } else {
-                        0.7
-                    },
-                    "{name}: {low}"
-                );
+                // Few cells, or a region that is narrower than they should be.
+                let is_short = name == "disc, coarse" || (name == "strip" && kind == 1);
+                assert!(low >= if is_short { 0.55 } else { 0.7 }, "{name}: {low}");
                 assert_eq!(make(&outline, &|_| h, measure, 10_000), Ok(meshed), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn there_are_as_many_cells_as_the_size_asks_for() {
+    for (name, outline, h) in regions() {
+        if ["strip", "disc, coarse", "square, coarse", "sharp corner"].contains(&name) {
+            continue; // narrow, or of few cells
+        }
+        let [x, y] = outline.loops[0][0];
+        let extent = outline.loops[0].iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let uniform = |_: Point| 0.7 * h;
+        let graded = |at: Point| h * (0.3 + 0.7 * ((at[0] - x).abs() + (at[1] - y).abs()) / extent).min(1.0);
+        for (way, size) in [("uniform", &uniform as &dyn Fn(Point) -> f64), ("graded", &graded)] {
+            for (kind, make) in [quadrilaterals as Make, triangles].into_iter().enumerate() {
+                let meshed = make(&outline, size, Measure::Plane, 20_000).expect(name);
+                let (least, _) = judge(&outline, &meshed, Measure::Plane);
+                let wanted = |cell: &Cell| {
+                    let points: Vec<Point> = corners(cell).iter().map(|&node| meshed.positions[node as usize]).collect();
+                    let middle = [0, 1].map(|d| points.iter().map(|x| x[d]).sum::<f64>() / points.len() as f64);
+                    let one = if kind == 0 { 1.0 } else { 0.433 };
+                    volume::measured(Measure::Plane, &[points]) / (one * size(middle) * size(middle))
+                };
+                let part = meshed.cells.len() as f64 / meshed.cells.iter().map(wanted).sum::<f64>();
+                println!("{name}, {way}: {} cells, {part:.3} of those wanted, least {least:.3}", meshed.cells.len());
+                if let Some(folder) = std::env::var_os("EMBATE_MESHES").filter(|_| way == "graded" && kind == 0) {
+                    let text = format!("{:?}\n{:?}\n{:?}\n", meshed.positions, meshed.cells, outline.loops);
+                    std::fs::write(std::path::Path::new(&folder).join(format!("{name}, graded.txt")), text).unwrap();
+                }
+                assert!((0.85..1.2).contains(&part) && least > 0.3, "{name}, {way}: {part}, {least}");
             }
         }
     }
@@ -261,6 +286,31 @@ fn random_stars_are_meshed_or_refused() {
     assert!(poor * 20 < all, "{poor} of {all} have a scaled Jacobian below 0.3");
 }
 
+#[test]
+fn nodes_stay_on_straight_lines_and_near_curved_ones() {
+    for (name, outline, h) in regions() {
+        for make in [quadrilaterals as Make, triangles] {
+            let meshed = make(&outline, &|_| h, Measure::Plane, 10_000).expect(name);
+            for (nodes, points) in meshed.loops.iter().zip(&outline.loops) {
+                for (k, node) in nodes.iter().enumerate() {
+                    let segment = node.segment as usize;
+                    let (a, b) = (points[segment], points[(segment + 1) % points.len()]);
+                    let x = meshed.positions[node.node as usize];
+                    let old = crate::plane::on_line(a, b, node.fraction);
+                    let off = crate::plane::distance(x, old);
+                    let [back, on] = [k + nodes.len() - 1, k + 1].map(|k| meshed.positions[nodes[k % nodes.len()].node as usize]);
+                    let edges = 0.5 * (crate::plane::distance(back, x) + crate::plane::distance(x, on));
+                    assert!(off <= 0.0501 * edges, "{name}: {off} of {edges}");
+                    if crate::plane::distance(a, b) > 1.5 * h {
+                        assert!(off < 1e-14 * 30.0, "{name}: {off:e} off the line");
+                        assert!((0..2).all(|d| a[d] != b[d] || x[d] == a[d]), "{name}: {x:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
 fn scaled(outline: &Outline, by: f64, shift: Point) -> Outline {
     let place = |x: &Point| [x[0] * by + shift[0], x[1] * by + shift[1]];
     Outline { loops: outline.loops.iter().map(|points| points.iter().map(place).collect()).collect(), fixed: outline.fixed.clone() }
@@ -326,7 +376,7 @@ fn outlines_that_are_none_are_refused() {
 fn nothing_makes_it_panic() {
     let mut random = Random(11);
     let mut counts = std::collections::BTreeMap::new();
-    for k in 0..3000 {
+    for k in 0..1000 {
         let n = 1 + (random.next() * 12.0) as usize;
         // Of few coordinates, so that points coincide, lie on one line, and edges touch.
         let steps = [2.0, 4.0, 1e6][k % 3];
@@ -364,15 +414,15 @@ fn nothing_makes_it_panic() {
         }
     }
     println!("{counts:?}");
-    assert!(counts["meshed"] > 1000 && !counts.contains_key("measure") && !counts.contains_key("size"), "{counts:?}");
+    assert!(counts["meshed"] > 400 && !counts.contains_key("measure") && !counts.contains_key("size"), "{counts:?}");
 }
 
 #[test]
 #[ignore = "takes time"]
 fn speed() {
-    let outline = polygon(&billet(2.0));
+    let outline = polygon(&flash());
     for count in [1_000.0, 10_000.0, 100_000.0] {
-        let h = (134.0_f64 / count).sqrt();
+        let h = (volume::measured(Measure::Plane, &outline.loops) / count).sqrt();
         let start = std::time::Instant::now();
         let meshed = quadrilaterals(&outline, &|_| h, Measure::Plane, 1_000_000).expect("a mesh");
         println!("{} cells in {:.1} ms", meshed.cells.len(), 1e3 * start.elapsed().as_secs_f64());

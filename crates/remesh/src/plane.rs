@@ -26,7 +26,7 @@ pub struct Mesh<'a> {
 pub enum Measure {
     /// Itself, per metre of depth: ∫ dA.
     Plane,
-    /// A body of revolution about x = 0: ∫ 2πx dA.
+    /// An axisymmetric body about x = 0: ∫ 2πx dA.
     Revolution,
 }
 

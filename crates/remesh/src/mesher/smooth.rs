@@ -9,8 +9,8 @@
 use crate::plane::{Cell, Point, corners, cross, dot, minus};
 
 /// Sweeps at most, and the step by the length of edges below which a node is still.
-const SWEEPS: usize = 16;
-const STILL: f64 = 5e-3;
+const SWEEPS: usize = 8;
+const STILL: f64 = 1e-2;
 /// Scaled Jacobian below which a node's surroundings are made better on their own, and rounds of that.
 const POOR: f64 = 0.6;
 const ROUNDS: usize = 12;

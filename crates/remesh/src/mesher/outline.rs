@@ -180,6 +180,13 @@ impl Line {
         }
     }
 
+    /// Length of the segment at a place along the line, and the fraction of it there.
+    pub(super) fn edge(&self, place: f64) -> [f64; 2] {
+        let k = self.arc.partition_point(|&arc| arc <= place).clamp(1, self.points.len()) - 1;
+        let length = self.arc[k + 1] - self.arc[k];
+        [length, ((place - self.arc[k]) / length).clamp(0.0, 1.0)]
+    }
+
     /// Where a node of the line lies on the old outline.
     pub(super) fn on_outline(&self, place: f64, node: u32) -> OnOutline {
         let (_, segment, fraction) = self.at(place);

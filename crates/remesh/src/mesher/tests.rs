@@ -209,7 +209,6 @@ fn there_are_as_many_cells_as_the_size_asks_for() {
                     volume::measured(Measure::Plane, &[points]) / (one * size(middle) * size(middle))
                 };
                 let part = meshed.cells.len() as f64 / meshed.cells.iter().map(wanted).sum::<f64>();
-                println!("{name}, {way}: {} cells, {part:.3} of those wanted, least {least:.3}", meshed.cells.len());
                 if let Some(folder) = std::env::var_os("EMBATE_MESHES").filter(|_| way == "graded" && kind == 0) {
                     let text = format!("{:?}\n{:?}\n{:?}\n", meshed.positions, meshed.cells, outline.loops);
                     std::fs::write(std::path::Path::new(&folder).join(format!("{name}, graded.txt")), text).unwrap();
@@ -281,9 +280,42 @@ fn random_stars_are_meshed_or_refused() {
             }
         }
     }
-    println!("{all} meshes: {} refused, {poor} poor, {refused:?}", refused.len());
     assert!(refused.len() * 20 < all, "{refused:?}");
     assert!(poor * 20 < all, "{poor} of {all} have a scaled Jacobian below 0.3");
+}
+
+#[test]
+fn a_region_that_is_meshed_again_and_again_keeps_its_form() {
+    for measure in [Measure::Plane, Measure::Revolution] {
+        for (name, outline, h) in regions() {
+            if measure == Measure::Revolution && outline.loops.iter().flatten().any(|x| x[0] < 0.0) {
+                continue;
+            }
+            let whole = volume::measured(measure, &outline.loops);
+            let mut now = outline.clone();
+            let mut counts = Vec::new();
+            let mut least = 1.0_f64;
+            for round in 0..18 {
+                let h = h * [1.0, 1.13, 0.9][round % 3];
+                let meshed = quadrilaterals(&now, &|_| h, measure, 10_000).unwrap_or_else(|failure| panic!("{name}, {round}: {failure}"));
+                least = least.min(judge(&now, &meshed, measure).0);
+                let place = |node: &OnOutline| meshed.positions[node.node as usize];
+                now.loops = meshed.loops.iter().map(|nodes| nodes.iter().map(place).collect()).collect();
+                now.fixed = now.loops.iter().map(|points| vec![false; points.len()]).collect();
+                // Rounds 2, 5, 8, ... have the same size: the number of cells is about the same.
+                counts.push(meshed.cells.len() as f64);
+                assert!(round < 6 || (counts[round] / counts[round - 3] - 1.0).abs() < 0.15, "{name}: {counts:?}");
+            }
+            let drift = volume::measured(measure, &now.loops) / whole - 1.0;
+            assert!(drift.abs() < 1e-12, "{name}: {drift:e}");
+            assert!(least > 0.3, "{name}: {least}");
+            if name == "disc" {
+                let far = |x: &Point| (x[0] * x[0] + x[1] * x[1]).sqrt();
+                let radii: Vec<f64> = now.loops[0].iter().map(far).collect();
+                assert!(radii.iter().all(|r| (0.998..1.003).contains(r)), "{radii:?}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -413,7 +445,6 @@ fn nothing_makes_it_panic() {
             *counts.entry(what).or_insert(0) += 1;
         }
     }
-    println!("{counts:?}");
     assert!(counts["meshed"] > 400 && !counts.contains_key("measure") && !counts.contains_key("size"), "{counts:?}");
 }
 

@@ -1,10 +1,13 @@
 //! Nodes moved along the outline's normals until the region's measure is what it was.
 
 use super::outline::{Chain, Line, halved};
-use crate::plane::{Measure, Point, cross, distance, minus};
+use crate::plane::{Measure, Point, cross, distance, dot, minus};
 
 /// Farthest that a node is moved, by the length of the edges there.
 const FARTHEST: f64 = 0.05;
+/// Of it that much by what is foreseen, and bound of the factor for the place on the old edge.
+const FORESEEN: f64 = 0.04;
+const MOST: f64 = 1.5;
 /// Steps of Newton.
 const STEPS: usize = 6;
 /// Times that a chain is refined.
@@ -125,6 +128,34 @@ struct Moved {
     is_short: bool,
 }
 
+/// How far each free node should go along its way, by the length of the edges there. The vertices of a
+/// polygon that has the area of a smooth curve are κh²/12 outside of it, κ being the curvature and h the
+/// edges' length. A node at the fraction t of an old edge of length l, whose ends are so much outside, goes κ
+/// (h² − l² + 6 l² t (1 − t)) / 12; so a line that is divided again and again keeps its form.
+fn foreseen(line: &Line, places: &[f64], from: &[Point], is_closed: bool, ways: &[Point]) -> Vec<f64> {
+    let count = ways.len();
+    let last = from.len() - 1;
+    let first = usize::from(!is_closed);
+    let turn = |k: usize| {
+        let before = if k == 0 { last - 1 } else { k - 1 };
+        let (a, b) = (minus(from[k], from[before]), minus(from[k + 1], from[k]));
+        let turn = 2.0 * cross(a, b) / ((dot(a, a) * dot(b, b)).sqrt() + dot(a, b));
+        if turn.is_finite() { turn } else { 0.0 }
+    };
+    let turns: Vec<f64> = (0..count).map(|i| turn(first + i)).collect();
+    let of = |i: usize| {
+        let [before, after] =
+            if is_closed { [(i + count - 1) % count, (i + 1) % count] } else { [i.saturating_sub(1), (i + 1).min(count - 1)] };
+        let turn = 0.25 * (turns[before] + 2.0 * turns[i] + turns[after]);
+        let [length, t] = line.edge(places[first + i]);
+        let edge = dot(ways[i], ways[i]).sqrt();
+        let old = if edge > 0.0 { length / edge * (length / edge) } else { 0.0 };
+        let factor = (1.0 + old * (6.0 * t * (1.0 - t) - 1.0)).clamp(-MOST, MOST);
+        (turn / 12.0 * factor).clamp(-FORESEEN, FORESEEN)
+    };
+    (0..count).map(of).collect()
+}
+
 /// Nodes of one chain with the old chain's measure and `more`, as far as they can have it.
 fn moved(line: &Line, chain: &Chain, old: &[Point], measure: Measure, halves: bool, more: f64) -> Moved {
     let places = if halves { halved(&chain.places) } else { chain.places.clone() };
@@ -149,10 +180,12 @@ fn moved(line: &Line, chain: &Chain, old: &[Point], measure: Measure, halves: bo
             if length > 0.0 { [scale * chord[1], -scale * chord[0]] } else { [0.0; 2] }
         })
         .collect();
+    let first = foreseen(line, &places, &from, chain.is_closed, &ways);
+    let farthest = first.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
     let place = |by: f64| {
         let mut nodes = from.clone();
-        for (k, way) in free.clone().zip(&ways) {
-            nodes[k] = [from[k][0] + by * way[0], from[k][1] + by * way[1]];
+        for ((k, way), first) in free.clone().zip(&ways).zip(&first) {
+            nodes[k] = [from[k][0] + (first + by) * way[0], from[k][1] + (first + by) * way[1]];
         }
         if chain.is_closed {
             nodes[last] = nodes[0];
@@ -176,7 +209,8 @@ fn moved(line: &Line, chain: &Chain, old: &[Point], measure: Measure, halves: bo
         }
         by += step;
     }
-    let room = if by.is_finite() { by.clamp(-FARTHEST, FARTHEST) } else { 0.0 };
+    let most = FARTHEST - farthest;
+    let room = if by.is_finite() { by.clamp(-most, most) } else { 0.0 };
     let nodes = place(room);
     let rest = missing(&nodes);
     Moved { nodes, rest, is_short: room != by || ways.is_empty() }

@@ -27,6 +27,8 @@ use std::fmt;
 /// Rounds in which chains get more nodes where the triangles need them; in the last ones they get none.
 const ROUNDS: usize = 10;
 const OPEN: usize = 7;
+/// Crossings of lines that are looked at in one round.
+const MANY: usize = 1000;
 /// Least scaled Jacobian of a mesh that is given.
 const WORST: f64 = 0.1;
 /// Least scaled Jacobian of rows and columns that are given without a look at other meshes.
@@ -86,7 +88,7 @@ pub enum Failure {
         /// Where, m.
         at: Point,
     },
-    /// More cells would be needed than are allowed.
+    /// More cells would be needed than are allowed, or ever more as pieces of the outline nearly touch.
     Limit,
     /// Curved pieces can't be moved so that the region keeps its measure.
     Measure,
@@ -153,7 +155,7 @@ fn mesh(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit:
     for round in 0..ROUNDS {
         lines.iter_mut().for_each(Line::level);
         let nodes = volume::corrected(&mut lines, measure, halves).ok_or(Failure::Measure)?;
-        if nodes.iter().flatten().map(Vec::len).sum::<usize>() > 2 * limit + 100 {
+        if nodes.iter().flatten().map(Vec::len).sum::<usize>() / 2 > limit.saturating_add(100) {
             return Err(Failure::Limit);
         }
         let step = if halves { 2 } else { 1 };
@@ -161,7 +163,12 @@ fn mesh(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit:
             .iter()
             .map(|chains| chains.iter().flat_map(|nodes| nodes[..nodes.len() - 1].iter().step_by(step).copied()).collect())
             .collect();
-        let crossings = crossing::crossings(&loops, 1000);
+        let mut crossings = crossing::crossings(&loops, MANY);
+        if halves && crossings.is_empty() {
+            let all = nodes.iter().map(|chains| chains.iter().flat_map(|nodes| nodes[..nodes.len() - 1].iter().copied()).collect());
+            crossings = crossing::crossings(&all.collect::<Vec<_>>(), MANY);
+            crossings.iter_mut().flatten().for_each(|edge| edge[1] /= 2);
+        }
         if !crossings.is_empty() {
             divide_crossing(&mut lines, &crossings)?;
             continue;

@@ -133,7 +133,7 @@ impl Line {
         let mut chains: Vec<Chain> = ends.windows(2).map(chain).collect();
         let (points, segments) = (0..n).map(|k| (kept[turned(k)].0, kept[turned(k)].2)).unzip();
         let mut line = Self { points, segments, arc, chains: Vec::new() };
-        let stations = line.stations(&chains, &turns, start, size, per)?;
+        let stations = line.stations(&chains, &turns, start, size, per, limit)?;
         for chain in &mut chains {
             chain.is_straight &= !chain.is_closed;
         }
@@ -202,6 +202,7 @@ impl Line {
         start: usize,
         size: &dyn Fn(Point) -> f64,
         per: f64,
+        limit: usize,
     ) -> Result<Vec<[f64; 2]>, Failure> {
         let n = self.points.len();
         // The sum of the turns, which is reached in the middle of each segment.
@@ -246,6 +247,9 @@ impl Line {
                         }
                     }
                     stations.push([place, most.min((to - from) / per)]);
+                    if stations.len() > 4 * n + 16 * limit.min(1 << 40) + 10_000 {
+                        return Err(Failure::Limit);
+                    }
                     let step = (wanted / (PARTS * length)).max(1.0 / 4096.0);
                     done = if done + 1.5 * step >= 1.0 { 1.0 } else { done + step };
                 }
@@ -286,7 +290,6 @@ impl Line {
             if !(count <= limit as f64) {
                 return Err(Failure::Limit);
             }
-            let start = chain.places[0];
             chain.places.truncate(1);
             for i in 1..count as usize {
                 let wanted = whole * i as f64 / count;
@@ -296,7 +299,6 @@ impl Line {
             }
             chain.places.push(end);
             chain.places.dedup();
-            debug_assert!(chain.places[0] == start);
         }
         let mut nodes: usize = self.chains.iter().map(|chain| chain.places.len() - 1).sum();
         while nodes < 3 {

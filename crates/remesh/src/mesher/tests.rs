@@ -209,10 +209,6 @@ fn there_are_as_many_cells_as_the_size_asks_for() {
                     volume::measured(Measure::Plane, &[points]) / (one * size(middle) * size(middle))
                 };
                 let part = meshed.cells.len() as f64 / meshed.cells.iter().map(wanted).sum::<f64>();
-                if let Some(folder) = std::env::var_os("EMBATE_MESHES").filter(|_| way == "graded" && kind == 0) {
-                    let text = format!("{:?}\n{:?}\n{:?}\n", meshed.positions, meshed.cells, outline.loops);
-                    std::fs::write(std::path::Path::new(&folder).join(format!("{name}, graded.txt")), text).unwrap();
-                }
                 assert!((0.85..1.2).contains(&part) && least > 0.3, "{name}, {way}: {part}, {least}");
             }
         }
@@ -265,10 +261,6 @@ fn random_stars_are_meshed_or_refused() {
                 Ok(meshed) => {
                     let (least, _) = judge(&outline, &meshed, measure);
                     poor += usize::from(least < 0.3);
-                    if let Some(folder) = std::env::var_os("EMBATE_MESHES").filter(|_| least < 0.3) {
-                        let text = format!("{:?}\n{:?}\n{:?}\n", meshed.positions, meshed.cells, outline.loops);
-                        std::fs::write(std::path::Path::new(&folder).join(format!("poor {poor}, {least:.3}.txt")), text).unwrap();
-                    }
                     // Fixed points are nodes.
                     for (k, &x) in outline.loops[0].iter().enumerate().filter(|(k, _)| outline.fixed[0][*k]) {
                         let is_this = |node: &&OnOutline| node.segment as usize == k && node.fraction == 0.0;

@@ -54,6 +54,13 @@ pub fn distance(a: Point, b: Point) -> f64 {
     dot(minus(a, b), minus(a, b)).sqrt()
 }
 
+/// The point on the line from `a` to `b` at a fraction of it, exact at both ends and in a coordinate that
+/// they share.
+#[must_use]
+pub fn on_line(a: Point, b: Point, fraction: f64) -> Point {
+    [0, 1].map(|d| if fraction == 1.0 { b[d] } else { a[d] + (b[d] - a[d]) * fraction })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,7 +7,6 @@
 mod axes;
 mod coons;
 mod cut;
-mod delaunay;
 mod numbers;
 mod sheet;
 pub(crate) mod sweep;

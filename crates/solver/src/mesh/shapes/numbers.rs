@@ -6,6 +6,7 @@
 
 pub(super) use crate::vector::{cross, dot, minus};
 use embate_lanes::math::{exp, ln};
+pub(super) use embate_remesh::plane::{distance, on_line};
 use std::f64::consts::FRAC_PI_2;
 
 /// Entry `i` of `0..=n` equal steps from `a` to `b`, exact at both ends and symmetric under exchange of the
@@ -118,15 +119,6 @@ pub(super) fn quarters_of([x, y]: [f64; 2]) -> f64 {
         rest += (s * cos - c * sin) / FRAC_PI_2;
     }
     whole + rest
-}
-
-pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    dot(minus(b, a), minus(b, a)).sqrt()
-}
-
-/// Point on the line from `a` to `b`, exact at both ends.
-pub(super) fn on_line(a: [f64; 2], b: [f64; 2], place: f64) -> [f64; 2] {
-    [0, 1].map(|d| if place == 1.0 { b[d] } else { a[d] + (b[d] - a[d]) * place })
 }
 
 #[cfg(test)]

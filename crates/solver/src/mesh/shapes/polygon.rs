@@ -1,6 +1,5 @@
 //! A polygon, perhaps with holes, of triangles.
 
-use super::delaunay::{is_inside, triangles};
 use super::numbers::{cross, distance, minus};
 use super::{Body, BuiltIn, Count, ShapeCheck, Values, Wrong, shape_key};
 use crate::mesh::cell::CellKind;
@@ -10,6 +9,7 @@ use crate::vocabulary::Kind::{Outlines, Points, Quantities, Quantity};
 use crate::vocabulary::Need::{Default as Written, Optional, Required};
 use crate::vocabulary::{Key, Rule, Section, key};
 use embate_lanes::math::ln;
+use embate_remesh::mesher::delaunay::{is_inside, triangles};
 
 /// A polygon with straight edges and perhaps holes, of Delaunay triangles. Sides: `outer`, its edges `edge1`,
 /// `edge2`, ... from the first point on, and the holes `hole1`, `hole2`, ...

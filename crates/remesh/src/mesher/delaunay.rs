@@ -8,12 +8,10 @@
 //! Edges that meet in less than 60 degrees do not encroach upon each other there (Miller, Pav & Walkington
 //! 2003).
 
-use super::numbers::{cross, distance, dot, minus, on_line};
+use crate::plane::{Point, cross, distance, dot, minus, on_line};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::collections::{BTreeMap, BinaryHeap};
-
-type Point = [f64; 2];
 
 /// Circumradius by wanted edge length above which a triangle is too large; 0.577 is that of an equilateral
 /// one.
@@ -24,24 +22,38 @@ const THIN: f64 = 1.15;
 const ROUNDS: usize = 5;
 
 /// What became of the outlines.
-pub(super) struct Triangles {
-    pub(super) positions: Vec<Point>,
-    /// Counter-clockwise.
-    pub(super) triangles: Vec<[u32; 3]>,
+#[derive(Clone, Debug)]
+pub struct Triangles {
+    /// Places of the nodes, m.
+    pub positions: Vec<Point>,
+    /// Nodes of each triangle, counter-clockwise.
+    pub triangles: Vec<[u32; 3]>,
     /// Nodes along each edge of each outline, in its direction, both ends included.
-    pub(super) edges: Vec<Vec<u32>>,
+    pub edges: Vec<Vec<u32>>,
 }
 
 /// The triangles between `outlines`, of which each has the body on its left, with edges about as long as
 /// `size` says. `None` when more than `limit` vertices would be needed.
-pub(super) fn triangles(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize) -> Option<Triangles> {
-    let mut mesher = Mesher::new(outlines, size, limit)?;
+#[must_use]
+pub fn triangles(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize) -> Option<Triangles> {
+    let mut mesher = Mesher::new(outlines, size, limit, false)?;
+    mesher.refine()?;
+    Some(mesher.finish())
+}
+
+/// The same between outlines whose edges are about as long as they should be. Triangles between the edges of
+/// a sharp corner stay as they are. With `held` no vertex is put on the outlines, which makes perhaps for
+/// worse triangles.
+pub(super) fn triangles_within(outlines: &[Vec<Point>], size: &dyn Fn(Point) -> f64, limit: usize, held: bool) -> Option<Triangles> {
+    let mut mesher = Mesher::new(outlines, size, limit, held)?;
+    mesher.edges_at = Some(mesher.meeting());
     mesher.refine()?;
     Some(mesher.finish())
 }
 
 /// Whether a point is inside, by the number of edges to its right.
-pub(super) fn is_inside(outlines: &[Vec<Point>], x: Point) -> bool {
+#[must_use]
+pub fn is_inside(outlines: &[Vec<Point>], x: Point) -> bool {
     let edges = outlines.iter().flat_map(|outline| (0..outline.len()).map(|k| [outline[k], outline[(k + 1) % outline.len()]]));
     let is_right = |[a, b]: &[Point; 2]| (a[1] > x[1]) != (b[1] > x[1]) && x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
     edges.filter(is_right).count() % 2 == 1
@@ -61,6 +73,8 @@ struct Mesher<'a> {
     outlines: &'a [Vec<Point>],
     size: &'a dyn Fn(Point) -> f64,
     limit: usize,
+    /// Whether outlines must not be divided.
+    held: bool,
     cdt: ConstrainedDelaunayTriangulation<Point2<f64>>,
     positions: Vec<Point>,
     /// Edge of each vertex on an outline; `None` inside and at corners.
@@ -68,6 +82,8 @@ struct Mesher<'a> {
     /// For each edge its ends, and the edges that meet it in less than 60 degrees.
     corners: Vec<[u32; 2]>,
     acute: Vec<Vec<u32>>,
+    /// For each corner the two edges there, if triangles between sharp edges are to stay.
+    edges_at: Option<BTreeMap<u32, [u32; 2]>>,
     /// Pieces by their ends, the lower one first.
     segments: BTreeMap<[u32; 2], Segment>,
     /// Pieces by the cell of a grid that their middle is in.
@@ -77,16 +93,18 @@ struct Mesher<'a> {
 }
 
 impl<'a> Mesher<'a> {
-    fn new(outlines: &'a [Vec<Point>], size: &'a dyn Fn(Point) -> f64, limit: usize) -> Option<Self> {
+    fn new(outlines: &'a [Vec<Point>], size: &'a dyn Fn(Point) -> f64, limit: usize, held: bool) -> Option<Self> {
         let mut mesher = Self {
             outlines,
             size,
             limit,
+            held,
             cdt: ConstrainedDelaunayTriangulation::new(),
             positions: Vec::new(),
             edge_of: Vec::new(),
             corners: Vec::new(),
             acute: Vec::new(),
+            edges_at: None,
             segments: BTreeMap::new(),
             cells: BTreeMap::new(),
             cell: 0.0,
@@ -127,6 +145,9 @@ impl<'a> Mesher<'a> {
     /// Points that divide a line into pieces as long as the size says: equal parts of ∫ ds / h.
     fn divided(&self, a: Point, b: Point) -> Option<Vec<Point>> {
         const SAMPLES: usize = 512;
+        if self.held {
+            return Some(Vec::new());
+        }
         let length = distance(a, b);
         let mut sums = vec![0.0];
         for k in 0..SAMPLES {
@@ -192,8 +213,10 @@ impl<'a> Mesher<'a> {
     }
 
     fn refine(&mut self) -> Option<()> {
-        let mut encroached: Vec<Segment> = self.segments.values().copied().collect();
-        self.split_all(&mut encroached)?;
+        if !self.held {
+            let mut encroached: Vec<Segment> = self.segments.values().copied().collect();
+            self.split_all(&mut encroached)?;
+        }
         for k in 0..self.positions.len() {
             self.queue_around(k as u32);
         }
@@ -208,6 +231,9 @@ impl<'a> Mesher<'a> {
                     let vertex = self.insert(centre, None, Some(nodes[0]))?;
                     self.queue_around(vertex);
                 }
+                continue;
+            }
+            if self.held {
                 continue;
             }
             for segment in &near {
@@ -348,7 +374,26 @@ impl<'a> Mesher<'a> {
         let stays = [(a, b), (b, a)].iter().any(|&(on, other)| {
             self.edge_of[on as usize].is_some_and(|edge| !self.acute[edge as usize].is_empty() && self.meets_acutely(edge, other))
         });
-        (thin > 1.0 && !stays).then_some(thin)
+        (thin > 1.0 && !stays && !self.is_between_sharp([a, b])).then_some(thin)
+    }
+
+    /// Whether two vertices, corners among them, are on two edges that meet in a sharp corner.
+    fn is_between_sharp(&self, ends: [u32; 2]) -> bool {
+        let Some(edges_at) = &self.edges_at else { return false };
+        let [one, other] = ends.map(|node| match self.edge_of[node as usize] {
+            Some(edge) => [edge; 2],
+            None => edges_at.get(&node).copied().unwrap_or([u32::MAX; 2]),
+        });
+        one.iter().filter_map(|&edge| self.acute.get(edge as usize)).any(|acute| other.iter().any(|edge| acute.contains(edge)))
+    }
+
+    fn meeting(&self) -> BTreeMap<u32, [u32; 2]> {
+        let mut meeting: BTreeMap<u32, [u32; 2]> = BTreeMap::new();
+        for (edge, &[a, b]) in (0..).zip(&self.corners) {
+            meeting.entry(a).or_insert([edge; 2])[0] = edge;
+            meeting.entry(b).or_insert([edge; 2])[1] = edge;
+        }
+        meeting
     }
 
     fn circumcentre(&self, nodes: [u32; 3]) -> Point {

@@ -249,6 +249,10 @@ fn closing_text(report: &Report, path: &Path) -> String {
     ]
     .map(Vec::from)
     .into();
+    if let Some(last) = report.remeshings.last() {
+        let text = format!("{} time(s), the last at {}: {} elements", report.remeshings.len(), with_unit(last.time, "s"), last.elements[1]);
+        figures.push(vec!["elements made again".into(), text]);
+    }
     figures.splice(1..1, report.stages.iter().map(|stage| stage.row(|time| with_unit(time, "s")).into()));
     let files: Vec<Vec<String>> = FILES
         .iter()

@@ -59,6 +59,8 @@ pub enum VtuError {
 pub struct VtuWriter {
     packers: ScratchPool<Packer>,
     cell_count: usize,
+    /// Of the mesh ([`Cells::revision`]).
+    revision: u32,
     node_last: Option<u32>,
     connectivity: Array,
     offsets: Array,
@@ -76,6 +78,7 @@ impl VtuWriter {
         let packed = |attributes, data| zlib_blocks(&[&plain(attributes, data)], &packers, threads).next().expect("an array was put in");
         Self {
             cell_count: cells.len(),
+            revision: cells.revision,
             node_last: cells.nodes.iter().copied().max(),
             connectivity: packed(CONNECTIVITY, Data::Indices(&cells.nodes)),
             offsets: packed(OFFSETS, Data::Indices(cells.offsets.get(1..).unwrap_or_default())),
@@ -87,7 +90,8 @@ impl VtuWriter {
 
     /// A frame made ready for its file: points with z = 0, plane vectors with a third component 0, the fields
     /// named in `include` (empty: all), `part` for each cell, `vtkGhostType` where cells may be gone, and the
-    /// time as the field datum `TimeValue`, which ParaView shows.
+    /// time as the field datum `TimeValue`, which ParaView shows. Where elements were made again the field
+    /// datum `MeshRevision` says how many times: nodes and cells have other numbers then.
     ///
     /// # Errors
     /// [`VtuError`] when a field or a cell does not fit.
@@ -130,9 +134,12 @@ impl VtuWriter {
             ("Points", vec![Content::Plain(points(shown))]),
             ("Cells", [&self.connectivity, &self.offsets, &self.types].map(Content::Packed).into()),
         ];
-        Ok(VtuFile { time: shown.time(), counts: [nodes, self.cell_count], sections, packers: &self.packers })
+        Ok(VtuFile { time: shown.time(), revision: self.revision, counts: [nodes, self.cell_count], sections, packers: &self.packers })
     }
 }
+
+/// Name of the field datum that counts how many times elements were made again.
+const REVISION: &str = "MeshRevision";
 
 /// The positions of all nodes: in 2D with z = 0.
 fn points(shown: &dyn Shown) -> Plain<'_> {
@@ -142,6 +149,7 @@ fn points(shown: &dyn Shown) -> Plain<'_> {
 /// A file that is ready to be packed and written.
 pub struct VtuFile<'a> {
     time: f64,
+    revision: u32,
     /// Points and cells.
     counts: [usize; 2],
     sections: Vec<(&'static str, Vec<Content<'a>>)>,
@@ -219,12 +227,18 @@ impl VtuFile<'_> {
     /// All before the data; `places` of the arrays in the order of the data, bytes.
     fn head(&self, places: &[usize]) -> String {
         let (time, [points, cells]) = (self.time, self.counts);
+        let revision = match self.revision {
+            0 => String::new(),
+            number => {
+                format!("<DataArray type=\"UInt32\" Name=\"{REVISION}\" NumberOfTuples=\"1\" format=\"ascii\">{number}</DataArray>\n")
+            }
+        };
         let mut text = format!(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
              compressor=\"vtkZLibDataCompressor\">\n\
              <UnstructuredGrid>\n\
-             <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>\n</FieldData>\n\
+             <FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{time:?}</DataArray>\n{revision}</FieldData>\n\
              <Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n"
         );
         let mut places = places.iter().rev();
@@ -314,7 +328,7 @@ impl Pieces {
             ("Cells", cells),
         ];
         let packers = ScratchPool::default();
-        VtuFile { time: shown.time, counts: [shown.nodes(), count], sections, packers: &packers }.write(&Threads::one(), out)
+        VtuFile { time: shown.time, revision: 0, counts: [shown.nodes(), count], sections, packers: &packers }.write(&Threads::one(), out)
     }
 }
 
@@ -372,6 +386,7 @@ mod tests {
             kinds: vec![CellKind::Quadrilateral, CellKind::Triangle],
             parts: vec![0, 1],
             part_names: vec!["left".into(), "right".into()],
+            revision: 0,
         }
     }
 
@@ -498,6 +513,7 @@ mod tests {
             kinds: vec![CellKind::Triangle; count],
             parts: vec![0; count],
             part_names: vec!["a".into()],
+            revision: 0,
         };
         let frame = Frame { fields, ..Frame::of(&[[1.0, 2.0]; 3]) };
         let file = bytes(&cells, &frame, &[], 2).unwrap();
@@ -541,6 +557,7 @@ mod tests {
             kinds: vec![CellKind::Hexahedron, CellKind::Wedge, CellKind::Tetrahedron],
             parts: vec![0, 0, 1],
             part_names: vec!["block".into(), "tip".into()],
+            revision: 0,
         };
         let places: Vec<[f64; 3]> = (0..11).map(|k| [f64::from(k), 0.5, -f64::from(k)]).collect();
         let field = |name: &str, values: Vec<f64>| Field { kind: fields_of(3).iter().find(|kind| kind.name == name).unwrap(), values };

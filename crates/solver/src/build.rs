@@ -179,7 +179,7 @@ where
         Ok(Self {
             constraints: of_stage(0)?,
             later_constraints: (1..model.stages.len()).map(of_stage).collect::<Result<_, _>>()?,
-            positions: mesh.positions.clone(),
+            positions: mesh.references().into_owned(),
             mass: vec![0.0; mesh.positions.len()],
             ..Self::of(model, mesh, joins, curves)
         })

@@ -13,9 +13,9 @@
 use crate::archive::persist_all;
 use crate::reductions;
 
-persist_all!(Works { internal, contact, gravity, load, damping, constraint, drive });
+persist_all!(Works { internal, contact, gravity, load, damping, constraint, drive, remap });
 persist_all!(Lost { friction, damping, old, freed, lost_contact_energy });
-persist_all!(Stores { kinetic, elastic, plastic, hourglass, bulk_viscosity, contact, friction, contact_damping, damping, eroded });
+persist_all!(Stores { kinetic, elastic, plastic, hourglass, bulk_viscosity, contact, friction, contact_damping, damping, eroded, remap });
 persist_all!(Ledger { kinetic_start, total_start, works, external, halves, stores, largest, residual, drift });
 
 /// Works of one step by kind of force, J/m; each is force times mean velocity times ½(dt + dt_old).
@@ -35,13 +35,15 @@ pub struct Works {
     pub constraint: f64,
     /// What drives rigid bodies.
     pub drive: f64,
+    /// What the velocities lost, or gained, when elements were made again: no force.
+    pub remap: f64,
 }
 
 impl Works {
     /// Everything.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.internal + self.contact + self.gravity + self.load + self.damping + self.constraint + self.drive
+        self.internal + self.contact + self.gravity + self.load + self.damping + self.constraint + self.drive + self.remap
     }
     /// What comes from outside the model: it changes the sum of the stores.
     #[must_use]
@@ -56,6 +58,7 @@ impl Works {
         self.damping += other.damping;
         self.constraint += other.constraint;
         self.drive += other.drive;
+        self.remap += other.remap;
     }
 }
 
@@ -188,6 +191,8 @@ pub struct Stores {
     /// Elastic energy that eroded elements had, and that of contact springs on the surfaces that went with
     /// them.
     pub eroded: f64,
+    /// Kinetic and elastic energy, and that of contact springs, that went when elements were made again.
+    pub remap: f64,
 }
 
 impl Stores {
@@ -204,6 +209,7 @@ impl Stores {
             + self.contact_damping
             + self.damping
             + self.eroded
+            + self.remap
     }
 }
 
@@ -325,6 +331,12 @@ impl Ledger {
     pub(crate) fn launch(&mut self, kinetic: f64, ahead: f64) {
         self.works.load += kinetic;
         self.halves[0] += kinetic + ahead;
+    }
+
+    /// Adds a change of v^{n+½} between two steps that no force made, J/m: by what ½ Σ m|v^{n+1/2}|² changes.
+    /// The stores have it as `remap`.
+    pub(crate) fn transfer(&mut self, kinetic: f64) {
+        self.works.remap += kinetic;
     }
 
     /// Adds energy at n + ½ of springs of contacts that end between two steps, J/m.

@@ -28,6 +28,9 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &OPENED,
     &FEW_STEPS,
     &FAR_PROBE,
+    &REMESH_ENERGY,
+    &NOT_REMESHED,
+    &REMESH_LOSS,
 ];
 
 static INVERTED: Message = Message {
@@ -238,6 +241,32 @@ pub(crate) static FAR_PROBE: Message = Message {
     remedy: "Look at the unit and the coordinates of the point, or name the part that is there.",
 };
 
+static REMESH_ENERGY: Message = Message {
+    code: "E0611",
+    title: "too much energy was lost by making elements again",
+    example: Example::Words(
+        "A `[[remesh]]` with a `size` that resolves nothing of the stresses, or that is far coarser than the mesh before.",
+    ),
+    cause: "Each transfer of the state to new elements loses some of the kinetic and elastic energy; the sum went over `remesh.loss_limit`.",
+    remedy: "Take a finer `size`, or make elements again less often (`quality`, `time_step`, `interval`); raise `loss_limit` if the loss is understood.",
+};
+
+pub(crate) static NOT_REMESHED: Message = Message {
+    code: "W0617",
+    title: "elements that could not be made again",
+    example: Example::Words("A part is squeezed to a film that no quadrilaterals of the wanted quality fit in."),
+    cause: "No better mesh was found inside the outline, or the state did not go over to it; the run continued with the old elements.",
+    remedy: "Take another `size`, allow more elements (`elements_most`), or make them again earlier (`quality` nearer to 1).",
+};
+
+pub(crate) static REMESH_LOSS: Message = Message {
+    code: "W0618",
+    title: "energy lost by making elements again",
+    example: Example::Words("A run with many events of `[[remesh]]`, whose losses sum up to more than a hundredth of its energy."),
+    cause: "Each transfer of the state to new elements loses some of the kinetic and elastic energy; the history has the sum as `energy.remap`.",
+    remedy: "Take a finer `size`, or make elements again less often.",
+};
+
 /// One fault of a model: where in the input, what is wrong, and what to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
@@ -388,6 +417,24 @@ pub enum Error {
         #[doc = "Step number."]
         step: u64,
     },
+    /// Making elements again lost too much energy.
+    #[error(
+        "making elements of part \"{part}\" again has lost {:.2} % of the largest total energy, more than the limit of {:.2} %, at time {time:.6e} s, \
+         step {step}; take a finer size, or raise remesh.loss_limit if the loss is understood",
+        100.0 * .lost, 100.0 * .limit
+    )]
+    RemeshLoss {
+        #[doc = "Part name."]
+        part: String,
+        #[doc = "Energy lost, as a fraction."]
+        lost: f64,
+        #[doc = "Limit as a fraction."]
+        limit: f64,
+        #[doc = "Time, s."]
+        time: f64,
+        #[doc = "Step number."]
+        step: u64,
+    },
     /// A contact is deeper than its limit.
     #[error(
         "{contact} is {depth:.3e} m deep at {place}, more than the limit of {limit:.3e} m, at time {time:.6e} s, step {step}; \
@@ -474,6 +521,7 @@ impl Error {
             Self::Inverted { .. } => Some(&INVERTED),
             Self::Collapsed { .. } => Some(&COLLAPSED),
             Self::EnergyDrift { .. } => Some(&ENERGY_DRIFT),
+            Self::RemeshLoss { .. } => Some(&REMESH_ENERGY),
             Self::NotFinite { .. } => Some(&NOT_FINITE),
             Self::TooDeep { .. } => Some(&TOO_DEEP),
             Self::Runaway { .. } => Some(&RUNAWAY),

@@ -120,6 +120,16 @@ impl Hashing {
         Self { every, nodes: parts.map(|part| nodes(system, part)).collect(), ..Self::default() }
     }
 
+    /// Nodes of parts are others now.
+    pub(crate) fn renew<const D: usize>(&mut self, system: &System<D>)
+    where
+        Dim<D>: Dimension<D>,
+    {
+        for (part, own) in self.nodes.iter_mut().enumerate() {
+            *own = nodes(system, part);
+        }
+    }
+
     /// Takes those of a step that is due.
     pub(crate) fn note<const D: usize>(&mut self, system: &System<D>)
     where

@@ -8,6 +8,7 @@ pub use crate::field::kind::{FIELDS, FIELDS_IN_SPACE, FieldKind, Location, Needs
 pub use crate::mesh::cell::CellKind;
 pub use crate::outline::Outline;
 pub use crate::step::erosion::Eroded;
+pub use crate::step::remap::Remeshing;
 pub use crate::step::stages::StageRun;
 use std::borrow::Cow;
 use std::ops::Range;
@@ -25,6 +26,8 @@ pub struct Cells {
     pub parts: Vec<u32>,
     /// Name of each part.
     pub part_names: Vec<String>,
+    /// How many times elements have been made again until these; 0: they are those of the model.
+    pub revision: u32,
 }
 
 impl Cells {
@@ -52,8 +55,8 @@ impl Cells {
 
 impl Persist for Cells {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { nodes, offsets, kinds, parts, part_names } = self;
-        persist_each!(archive; nodes, offsets, kinds, parts, part_names);
+        let Self { nodes, offsets, kinds, parts, part_names, revision } = self;
+        persist_each!(archive; nodes, offsets, kinds, parts, part_names, revision);
         let are_in_order = offsets.is_sorted() && offsets.last().is_none_or(|&last| last as usize <= nodes.len());
         let is_sound = are_in_order && [kinds.len(), parts.len()] == [offsets.len().saturating_sub(1); 2];
         archive.check(is_sound, "cells have nodes that are not there")
@@ -274,6 +277,8 @@ pub struct Summary {
     /// With subcycling: evaluations of elements, summed over the steps; without it, all are evaluated in
     /// each.
     pub element_evaluations: Option<u64>,
+    /// Each time that elements of a part were made again.
+    pub remeshings: Vec<Remeshing>,
     /// What erosion has done; `None`: no element was eroded.
     pub erosion: Option<Erosion>,
     /// Largest forces of the history's rows, in the order of its columns.

@@ -8,6 +8,7 @@ mod output_cursor;
 mod memory;
 mod parts;
 mod part_meshes;
+mod remesh;
 pub(crate) mod run;
 mod state;
 mod steering;
@@ -30,12 +31,13 @@ use crate::mesh::PlacedMesh;
 use crate::model::Model;
 use crate::output::{Cells, Field, Frame, Shown, Summary};
 use embate_lanes::Level;
+use remesh::Remeshes;
 use run::Run;
 
 /// What a run asks of a dimension: all that its system does, and what builds and records it.
-pub trait Runs<const D: usize>: Builds<D> + BodyColumns<D> + NodeFields<D> {}
+pub trait Runs<const D: usize>: Builds<D> + BodyColumns<D> + NodeFields<D> + Remeshes<D> {}
 
-impl<T: Builds<D> + BodyColumns<D> + NodeFields<D>, const D: usize> Runs<D> for T {}
+impl<T: Builds<D> + BodyColumns<D> + NodeFields<D> + Remeshes<D>, const D: usize> Runs<D> for T {}
 
 /// How a simulation is run; changes no result.
 #[derive(Clone, Debug, Default, PartialEq)]

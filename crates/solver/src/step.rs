@@ -15,6 +15,7 @@ mod nodal_bound;
 mod nodes;
 mod persist;
 pub(crate) mod relaxation;
+pub(crate) mod remap;
 pub(crate) mod stages;
 pub(crate) mod rotations;
 pub(crate) mod subcycling;
@@ -55,6 +56,7 @@ use mass_scaling::MassScaling;
 pub(crate) use nodal_bound::NodalBound;
 use nodes::Nodes;
 use relaxation::Relaxation;
+use remap::Remap;
 use rotations::NodalRotations;
 use stages::Stages;
 use subcycling::Subcycling;
@@ -161,6 +163,8 @@ where
     pub(crate) erosion: Option<Box<Erosion<D>>>,
     /// What brings everything to rest; `None`: nothing.
     pub(crate) relaxation: Option<Relaxation<D>>,
+    /// What it cost to make elements again; `None`: none are.
+    pub(crate) remap: Option<Box<Remap>>,
     /// The stages of the run; `None`: it has none.
     pub(crate) stages: Option<Box<Stages<D>>>,
     /// Nodes that rotate.
@@ -267,6 +271,11 @@ where
         self.skins.spin(&self.rotations.now.spins, &self.positions, &mut self.velocities);
         let nodes = reductions::max(self.velocities.iter().map(|&v| dot(v, v)));
         self.positions_old.clone_from(&self.positions);
+        if !self.mesh.remeshed.is_empty() {
+            // Of a run on its way: all that follows is filled in.
+            [self.limits.step, self.limits.velocity] = self.mesh.remeshed.limits;
+            return Ok(());
+        }
         self.evaluate_rigid_parts();
         let fastest = reductions::max(self.bodies.iter().map(|body| body.speed_squared()).chain([nodes]));
         self.speed = fastest.sqrt();
@@ -423,6 +432,9 @@ where
         if let Some(erosion) = &mut self.erosion {
             erosion.close_springs(|| reductions::sum(self.contacts.iter().map(|contact| contact.stored_before(&self.springs))));
         }
+        if let Some(remap) = &mut self.remap {
+            remap.close_springs(|| reductions::sum(self.contacts.iter().map(|contact| contact.stored_before(&self.springs))));
+        }
     }
 
     /// v^{n+1/2} = v^{n-1/2} + ½ (dt^n + dt^{n-1}) f^n / m, then prescribed motion; sums for the ledger.
@@ -457,6 +469,7 @@ where
             damping: sum.damping,
             constraint: sum.constraint,
             drive: sum.drive,
+            remap: 0.0,
         };
         let slip_energy = reductions::sum(totals().map(|totals| totals.slip_energy));
         let springs = reductions::sum(totals().map(|totals| totals.energy)) + slip_energy;
@@ -470,6 +483,7 @@ where
             damping: elements.damping,
             contact: springs,
             eroded: self.erosion.as_ref().map_or(0.0, |erosion| erosion.energy),
+            remap: self.remap.as_ref().map_or(0.0, |remap| remap.energy),
             ..Stores::default()
         };
         if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {

@@ -16,7 +16,7 @@ use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
 use axum::routing::get;
 use embate_files::results::ResultsError;
-use embate_files::view::{FrameRequest, ModelView, ProbePlace, RangeOf, ResultView, SectionRequest, Series};
+use embate_files::view::{Bodies, FrameRequest, ModelView, ProbePlace, RangeOf, ResultView, SectionRequest, Series};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -347,12 +347,14 @@ async fn track(State(shown): State<Arc<Shown>>, Path((_, run)): Path<(String, us
 
 async fn topology(State(shown): State<Arc<Shown>>, Path((_, run, number)): Path<(String, usize, usize)>) -> Answer {
     beside(move || {
-        let bodies = match (shown.live(run), shown.model(run)) {
-            (Some(live), _) => live.bodies(),
-            (None, Some(model)) => model.bodies().clone(),
-            (None, None) => shown.run(run)?.bodies().clone(),
+        let of = |bodies: Arc<Bodies>| bodies.numbered(number).map(|topology| (bodies, topology));
+        // Frames of a run that continues may be of meshes that it has no more.
+        let found = match (shown.live(run), shown.model(run)) {
+            (Some(live), _) => of(live.bodies()).or_else(|| shown.run(run).ok()?.topology(number)),
+            (None, Some(model)) => of(model.bodies().clone()),
+            (None, None) => shown.run(run)?.topology(number),
         };
-        let topology = bodies.numbered(number).ok_or(Refusal::nothing("no frame has named this topology"))?;
+        let (bodies, topology) = found.ok_or(Refusal::nothing("no frame has named this topology"))?;
         bytes(bodies.container(&topology).bytes())
     })
     .await

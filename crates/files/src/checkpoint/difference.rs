@@ -33,6 +33,7 @@ const NAMES: &[(&str, &str)] = &[
     ("materials.", "material."),
     ("parts[", "part["),
     ("stages[", "stage["),
+    ("remeshes[", "remesh["),
     ("load_terms[", "load["),
     ("contacts[", "contact["),
     ("obstacles[", "obstacle["),

@@ -297,6 +297,7 @@ mod tests {
             kinds: vec![CellKind::Quadrilateral; 2],
             parts: parts.to_vec(),
             part_names: vec!["a".into(), "b".into()],
+            revision: 0,
         })
     }
 

@@ -154,6 +154,7 @@ pub(super) fn figures(left: &Left) -> String {
         }),
     );
     add("mass added for longer steps", si("/mass_added", mass));
+    add("elements made again", remeshed(summary));
     add("eroded elements", eroded(summary));
     add("mass of loose nodes", si("/erosion/mass_loose", mass));
     add("wall time", si("/wall_seconds", "s"));
@@ -165,6 +166,14 @@ fn eroded(summary: &Value) -> Option<String> {
     let parts = summary.pointer("/erosion/elements")?.as_object()?;
     let reported: Vec<String> = parts.iter().map(|(part, count)| format!("{} of part \"{part}\"", count.as_u64().unwrap_or(0))).collect();
     Some(reported.join(", "))
+}
+
+/// How often elements were made again, and of which parts.
+fn remeshed(summary: &Value) -> Option<String> {
+    let events = summary.get("remeshings")?.as_array().filter(|events| !events.is_empty())?;
+    let last = events.last()?;
+    let time = shown(last.get("time")?.as_f64()?, "s");
+    Some(format!("{} time(s), the last at {time}: {} elements", events.len(), last.pointer("/elements/1")?))
 }
 
 /// How the report was made.

@@ -14,6 +14,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NO_RUN,
     &UNREADABLE,
     &NOTHING_TO_SEE,
+    &RENUMBERED,
     &BUG,
     &NO_PICTURES,
     &NO_POST_MORTEM,
@@ -102,6 +103,15 @@ pub(crate) static UNREADABLE: Message = Message {
     example: Example::Words("`embate view results/ball` where `fields/frame-00003.vtu` was cut off by a copy that failed."),
     cause: "The file was damaged, cut off, or written by another program: only field files as embate writes them are read.",
     remedy: "Put the file back from a copy, or run the model again. All other frames can be looked at.",
+};
+
+/// Numbers of nodes and elements that change from frame to frame.
+pub(crate) static RENUMBERED: Message = Message {
+    code: "E0733",
+    title: "nodes and elements that have other numbers in other frames",
+    example: Example::Words("A click on a node in `embate view` of a run of a model with `[[remesh]]`, whose value over time is wanted."),
+    cause: "Elements were made again in the run, so the node or element of a number is not the same one in all frames.",
+    remedy: "Give the model a `[[probe]]` at a point: it follows the material there. Fields and sections can be looked at all the same.",
 };
 
 /// A folder without frames.

@@ -51,7 +51,7 @@ use crate::checkpoint::messages::{IN_USE, RESULTS_CHANGED};
 use crate::plain;
 use crate::vtu::VtuError;
 use embate_solver::message::Message;
-use messages::{BUG, DAMAGED_LOG, EXISTS, FRAME, NO_RUN, NOT_A_FOLDER, NOTHING_TO_SEE, UNREADABLE};
+use messages::{BUG, DAMAGED_LOG, EXISTS, FRAME, NO_RUN, NOT_A_FOLDER, NOTHING_TO_SEE, RENUMBERED, UNREADABLE};
 use std::io::ErrorKind;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -112,6 +112,12 @@ pub enum ResultsError {
         /// What is wrong with it.
         what: String,
     },
+    /// Nodes and cells have other numbers in some frames.
+    #[error("{} has other nodes and elements since elements were made again: a number is not the same one in all frames; give the model a [[probe]] at a point", .path.display())]
+    Renumbered {
+        /// The folder.
+        path: PathBuf,
+    },
     /// A folder without anything to look at.
     #[error("{} can't be shown: {what}; give the folder that `embate run` wrote, the one with fields.pvd", .path.display())]
     NothingToSee {
@@ -166,6 +172,7 @@ impl ResultsError {
             Self::Changed { .. } => &RESULTS_CHANGED,
             Self::Damaged { .. } => &DAMAGED_LOG,
             Self::Unreadable { .. } => &UNREADABLE,
+            Self::Renumbered { .. } => &RENUMBERED,
             Self::NothingToSee { .. } => &NOTHING_TO_SEE,
             Self::NoRun { .. } => &NO_RUN,
             Self::InUse { .. } => &IN_USE,

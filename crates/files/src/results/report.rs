@@ -5,7 +5,7 @@
 
 use crate::program;
 use embate_solver::error::Notice;
-use embate_solver::output::{Eroded, ForcePeak, StageRun, Summary};
+use embate_solver::output::{self, Eroded, ForcePeak, StageRun, Summary};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -180,6 +180,9 @@ pub struct Report {
     /// With subcycling: evaluations of elements, summed over the steps; left out without.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub element_evaluations: Option<u64>,
+    /// Each time that elements were made again; left out where none were.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remeshings: Vec<Remeshing>,
     /// What erosion has done; left out where nothing was eroded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub erosion: Option<Erosion>,
@@ -209,6 +212,56 @@ fn erosion(erosion: &embate_solver::output::Erosion, dimension: usize) -> Erosio
     let Eroded { part, element, at, time, criterion } = erosion.first.clone();
     let first = FirstEroded { part, element, at: at[..dimension].to_vec(), time, criterion: criterion.to_string() };
     Erosion { elements: erosion.elements.iter().cloned().collect(), mass_loose: erosion.mass_loose, first }
+}
+
+/// Elements of a part were made again.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Remeshing {
+    /// When, s, and after which step.
+    pub time: f64,
+    /// See `time`.
+    pub step: u64,
+    /// The part.
+    pub part: String,
+    /// Why: `quality`, `time_step` or `interval`.
+    pub reason: String,
+    /// Elements before and after.
+    pub elements: [usize; 2],
+    /// Least scaled Jacobian before and after.
+    pub quality: [f64; 2],
+    /// Stable step of the part before and after, s.
+    pub stable_time_step: [f64; 2],
+    /// Kinetic energy that was lost, J/m (J).
+    pub kinetic_lost: f64,
+    /// Elastic energy that was lost, J/m (J).
+    pub elastic_lost: f64,
+    /// Largest correction of a node's mass, as a fraction of it.
+    pub mass_correction: f64,
+    /// Change of linear and of angular momentum of the part over Σ m|v| and Σ m|x − c||v|.
+    pub momentum_change: [f64; 2],
+    /// Change of the volume, as a fraction of it.
+    pub volume_change: f64,
+}
+
+impl Remeshing {
+    fn of(event: &output::Remeshing) -> Self {
+        let output::Remeshing { time, step, part, reason, elements, quality, time_step, .. } = event.clone();
+        let output::Remeshing { kinetic_lost, elastic_lost, mass_correction, momentum_change, volume_change, .. } = *event;
+        Self {
+            time,
+            step,
+            part,
+            reason,
+            elements,
+            quality,
+            stable_time_step: time_step,
+            kinetic_lost,
+            elastic_lost,
+            mass_correction,
+            momentum_change,
+            volume_change,
+        }
+    }
 }
 
 /// A stage of a run.
@@ -287,6 +340,7 @@ impl Report {
                 kinetic_energy: own.kinetic_energy,
             }),
             element_evaluations: summary.element_evaluations,
+            remeshings: summary.remeshings.iter().map(Remeshing::of).collect(),
             erosion: summary.erosion.as_ref().map(|it| erosion(it, summary.dimension)),
             forces: summary.forces.iter().map(force).collect(),
             channels: BTreeMap::new(),

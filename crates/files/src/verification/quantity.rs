@@ -19,12 +19,20 @@ const FRAME_TOLERANCE: f64 = 1e-2;
 pub(crate) struct Samples {
     columns: Vec<String>,
     pub(crate) rows: Vec<Vec<f64>>,
-    cells: Cells,
-    /// Frame at the start: positions by which nodes and elements are chosen.
-    start: Frame,
-    /// Wanted times, and the frames nearest to them.
-    frames: Vec<(f64, Option<Frame>)>,
+    /// The cells of the model, and those of each mesh that a part got in the run.
+    meshes: Vec<Mesh>,
+    /// Wanted times, and the frames nearest to them, each with the number of its mesh.
+    frames: Vec<(f64, Option<(usize, Frame)>)>,
     pub(crate) summary: serde_json::Value,
+}
+
+/// Cells, and where their nodes are at the start, by which nodes and elements are chosen.
+#[derive(Debug, Default)]
+struct Mesh {
+    cells: Cells,
+    /// Of the model its frame at the start. Of a later mesh from its first frame: nodes have displacements
+    /// from where their material was at the start.
+    start: Option<Frame>,
 }
 
 /// Why a quantity can't be: key of its table, message, help.
@@ -38,8 +46,7 @@ impl Samples {
         Self {
             columns: simulation.history_columns(),
             rows: Vec::new(),
-            cells: simulation.cells(),
-            start: simulation.frame(),
+            meshes: vec![Mesh { cells: simulation.cells(), start: Some(simulation.frame()) }],
             frames: times.into_iter().map(|time| (time, None)).collect(),
             summary: serde_json::Value::Null,
         }
@@ -47,7 +54,7 @@ impl Samples {
 
     /// Of a run that has been recorded: its history and its summary, without frames.
     pub(crate) fn recorded(columns: Vec<String>, rows: Vec<Vec<f64>>, summary: serde_json::Value) -> Self {
-        Self { columns, rows, cells: Cells::default(), start: Frame::default(), frames: Vec::new(), summary }
+        Self { columns, rows, meshes: vec![Mesh::default()], frames: Vec::new(), summary }
     }
 
     /// Adds the channels of a model as columns.
@@ -86,12 +93,22 @@ impl Samples {
     /// Keeps the frame where it is nearer to a wanted time than what is there; of the time infinity, the
     /// last.
     pub(super) fn note_frame(&mut self, frame: &Frame) {
+        let mesh = self.meshes.len() - 1;
+        let start = &mut self.meshes[mesh].start;
+        if start.is_none() {
+            *start = at_the_start(frame);
+        }
         for (time, kept) in &mut self.frames {
-            let nearer = kept.as_ref().is_none_or(|kept| time.is_infinite() || (frame.time - *time).abs() < (kept.time - *time).abs());
+            let nearer = kept.as_ref().is_none_or(|(_, kept)| time.is_infinite() || (frame.time - *time).abs() < (kept.time - *time).abs());
             if nearer {
-                *kept = Some(frame.clone());
+                *kept = Some((mesh, frame.clone()));
             }
         }
+    }
+
+    /// Frames are of these cells from here on.
+    pub(super) fn note_cells(&mut self, cells: Cells) {
+        self.meshes.push(Mesh { cells, start: None });
     }
 
     /// What is at rest stays as it is: the last row once more at the end.
@@ -122,8 +139,9 @@ impl Samples {
             Source::Summary(path) => self.figure(path).map(|_| ()),
             Source::HistoryAt(column, _) | Source::History { column, .. } => self.column(column).map(|_| ()),
             Source::Field { name, part, place, .. } => {
-                let (field, _) = field(&self.start, name)?;
-                self.chosen(field, part.as_deref(), *place).map(|_| ())
+                let none = Frame::default();
+                let (field, _) = field(self.meshes[0].start.as_ref().unwrap_or(&none), name)?;
+                self.meshes[0].chosen(field, part.as_deref(), *place).map(|_| ())
             }
         }
     }
@@ -143,9 +161,9 @@ impl Samples {
             Source::History { column, take, during, level } => taken(&self.curve(column, *during)?, take, *level)
                 .ok_or_else(|| format!("`{column}` is never there: {} {level}", take.name))?,
             Source::Field { name, at, part, place, take } => {
-                let frame = self.frame(*at)?;
+                let (mesh, frame) = self.frame(*at)?;
                 let (field, component) = field(frame, name).map_err(reported)?;
-                let values: Vec<f64> = self
+                let values: Vec<f64> = self.meshes[*mesh]
                     .chosen(field, part.as_deref(), *place)
                     .map_err(reported)?
                     .into_iter()
@@ -210,21 +228,27 @@ impl Samples {
         Ok(std::iter::once(ends[0]).chain(inside).chain(std::iter::once(ends[1])).collect())
     }
 
-    fn frame(&self, at: Option<f64>) -> Result<&Frame, String> {
+    /// The frame at a time, and the number of its mesh.
+    fn frame(&self, at: Option<f64>) -> Result<&(usize, Frame), String> {
         let wanted = at.unwrap_or(f64::INFINITY);
         let kept = self.frames.iter().find(|(time, _)| *time == wanted).and_then(|(_, kept)| kept.as_ref());
-        let frame = kept.ok_or_else(|| "there is no frame".to_string())?;
+        let found = kept.ok_or_else(|| "there is no frame".to_string())?;
+        let frame = &found.1;
         let end = self.rows.last().map_or(0.0, |row| row[0]);
         match at {
             Some(at) if !((frame.time - at).abs() <= FRAME_TOLERANCE * end) => {
                 Err(format!("no frame at {at} s: the nearest is at {} s; see `output.fields` of the model", frame.time))
             }
-            _ => Ok(frame),
+            _ => Ok(found),
         }
     }
+}
 
+impl Mesh {
     /// Nodes or cells of a field by part and place at the start.
     fn chosen(&self, field: &Field, part: Option<&str>, place: Place) -> Result<Vec<usize>, Missing> {
+        let unknown = || ("field", "nodes have no displacement".to_string(), "name it in `output.include`".to_string());
+        let start = self.start.as_ref().ok_or_else(unknown)?;
         let names = &self.cells.part_names;
         let part = match part {
             None => None,
@@ -235,12 +259,12 @@ impl Samples {
         };
         let cells = (0..self.cells.len()).filter(|&cell| part.is_none_or(|part| self.cells.parts[cell] as usize == part));
         let points: Vec<(usize, [f64; 3])> = match field.kind.location {
-            Location::Cell => cells.map(|cell| (cell, self.centre(cell))).collect(),
+            Location::Cell => cells.map(|cell| (cell, self.centre(start, cell))).collect(),
             Location::Node => {
                 let mut nodes: Vec<usize> = cells.flat_map(|cell| self.cells.cell(cell)).map(|node| *node as usize).collect();
                 nodes.sort_unstable();
                 nodes.dedup();
-                nodes.into_iter().map(|node| (node, self.start.place(node))).collect()
+                nodes.into_iter().map(|node| (node, start.place(node))).collect()
             }
         };
         let chosen: Vec<usize> = match place {
@@ -259,10 +283,17 @@ impl Samples {
         if chosen.is_empty() { Err(("box", format!("there is no {what} in the box"), "take a larger box".to_string())) } else { Ok(chosen) }
     }
 
-    fn centre(&self, cell: usize) -> [f64; 3] {
+    fn centre(&self, start: &Frame, cell: usize) -> [f64; 3] {
         let nodes = self.cells.cell(cell);
-        [0, 1, 2].map(|d| nodes.iter().map(|node| self.start.place(*node as usize)[d]).sum::<f64>() / nodes.len() as f64)
+        [0, 1, 2].map(|d| nodes.iter().map(|node| start.place(*node as usize)[d]).sum::<f64>() / nodes.len() as f64)
     }
+}
+
+/// Nodes where they are at the start; `None` where the frame has no displacements.
+fn at_the_start(frame: &Frame) -> Option<Frame> {
+    let moved = frame.fields.iter().find(|field| field.kind.name == "displacement")?;
+    let coordinates = frame.coordinates.iter().zip(&moved.values).map(|(at, moved)| at - moved).collect();
+    Some(Frame { dimension: frame.dimension, coordinates, ..Frame::default() })
 }
 
 /// The field and the component that a name such as `stress.yy` means.

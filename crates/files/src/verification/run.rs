@@ -147,9 +147,9 @@ impl Observer for Gathering<'_> {
         self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.frame(frame))
     }
 
-    fn cells(&mut self, _: Cells) -> Result<(), ObserverError> {
-        // Quantities are looked up by the cells of the start.
-        Err("a case of verification can't be meshed again".into())
+    fn cells(&mut self, cells: Cells) -> Result<(), ObserverError> {
+        self.samples.note_cells(cells.clone());
+        self.recorder.as_mut().map_or(Ok(()), |recorder| recorder.cells(cells))
     }
 
     fn row(&mut self, row: &[f64]) -> Result<(), ObserverError> {

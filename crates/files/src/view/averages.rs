@@ -76,6 +76,7 @@ mod tests {
             kinds: vec![CellKind::Line; 4],
             parts: vec![0, 0, 1, 0],
             part_names: vec!["a".into(), "b".into()],
+            revision: 0,
         };
         let averages = Averages::new(&cells, 4, &[3], &[1.0, 3.0, 10.0, 99.0]);
         assert_eq!([0, 1, 2].map(|node| averages.at(0, node)), [1.0, 2.0, 3.0]);

@@ -12,6 +12,7 @@ use embate_solver::output::{Cells, Shown};
 use serde_json::json;
 use std::collections::VecDeque;
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Topologies that are kept at once; one that is asked for again is made again.
@@ -52,7 +53,8 @@ pub struct Bodies {
 #[derive(Debug, Default)]
 struct Found {
     gone: VecDeque<(usize, Vec<u32>)>,
-    next: usize,
+    /// Numbers of the topologies of all meshes of the run.
+    next: Arc<AtomicUsize>,
     topologies: Vec<Arc<Topology>>,
 }
 
@@ -65,9 +67,9 @@ impl Found {
         if self.gone.len() == NUMBERED {
             self.gone.pop_front();
         }
-        self.gone.push_back((self.next, gone.to_vec()));
-        self.next += 1;
-        self.next - 1
+        let id = self.next.fetch_add(1, Ordering::Relaxed);
+        self.gone.push_back((id, gone.to_vec()));
+        id
     }
 }
 
@@ -96,7 +98,7 @@ impl Bodies {
     /// The bodies of the same run after it was meshed again, with numbers of topologies that it has not had.
     #[must_use]
     pub fn with_cells(&self, cells: Cells, shown: &dyn Shown) -> Self {
-        let next = self.found.lock().unwrap_or_else(PoisonError::into_inner).next;
+        let next = self.found.lock().unwrap_or_else(PoisonError::into_inner).next.clone();
         Self { origin: self.origin, found: Mutex::new(Found { next, ..Found::default() }), ..Self::new(cells, shown) }
     }
 
@@ -233,6 +235,7 @@ mod tests {
             kinds: vec![CellKind::Quadrilateral, CellKind::Quadrilateral, CellKind::Quadrilateral, CellKind::Line],
             parts: vec![0, 0, 0, 1],
             part_names: vec!["strip".into(), "bar".into()],
+            revision: 0,
         };
         let places: Vec<[f64; 2]> = (0..8).map(|k| [f64::from(k % 4), f64::from(k / 4)]).chain([[4.0, 0.0]]).collect();
         Bodies::new(cells, &Frame::of(&places))
@@ -270,6 +273,7 @@ mod tests {
             kinds: vec![CellKind::Triangle],
             parts: vec![0],
             part_names: vec!["strip".into()],
+            revision: 0,
         };
         let now = before.with_cells(cells, &Frame::of(&[[10.0, 0.0], [11.0, 0.0], [10.0, 1.0]]));
         let whole = now.without(&[]);
@@ -286,6 +290,7 @@ mod tests {
             kinds: vec![CellKind::Quadrilateral; count as usize],
             parts: vec![0; count as usize],
             part_names: vec!["strip".into()],
+            revision: 0,
         };
         let places: Vec<[f64; 2]> = (0..2 * count + 2).map(|k| [f64::from(k / 2), f64::from(k % 2)]).collect();
         let bodies = Bodies::new(cells, &Frame::of(&places));

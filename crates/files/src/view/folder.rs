@@ -4,7 +4,7 @@
 //! Files are read when they are asked for (`vtu::read`, `results`); what a whole run must be read for (the
 //! range of a scalar) is kept.
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, Topology};
 use super::container::Container;
 use super::describe::{Column, FrameTime, PartDescription, RunDescription};
 use super::frame;
@@ -33,6 +33,8 @@ pub struct ResultView {
     pub(super) kinds: Vec<&'static FieldKind>,
     appearance: Appearance,
     pub(super) nodes: usize,
+    /// Bodies of other meshes than that of the first frame, by revision.
+    others: Mutex<BTreeMap<u32, Arc<Bodies>>>,
     /// Range of each scalar that was asked for.
     ranges: Mutex<BTreeMap<(String, RangeOf), Ranged>>,
     /// The frame that was read last: a plane that is moved through it does not read it again.
@@ -69,6 +71,7 @@ struct Kept {
     /// Of its file: when it was written, and its bytes.
     stamp: (Option<SystemTime>, u64),
     fields: Vec<&'static str>,
+    bodies: Arc<Bodies>,
     frame: Frame,
     gone: Vec<u32>,
 }
@@ -97,14 +100,32 @@ impl ResultView {
         let displacement: Vec<_> = kinds.iter().copied().filter(|kind| kind.name == "displacement").collect();
         let frame = reader.frame(dimension, &displacement)?;
         let bodies = Arc::new(Bodies::new(cells, &frame));
-        Ok(Self { path: path.into(), bodies, kinds, appearance, nodes: reader.nodes, ranges: Mutex::default(), newest: Mutex::default() })
+        Ok(Self {
+            path: path.into(),
+            bodies,
+            kinds,
+            appearance,
+            nodes: reader.nodes,
+            others: Mutex::default(),
+            ranges: Mutex::default(),
+            newest: Mutex::default(),
+        })
     }
 
     /// A folder into which a run begins to write: what it will hold is known, its frames are read as they
     /// come.
     #[must_use]
     pub fn begun(path: &Path, bodies: Arc<Bodies>, kinds: Vec<&'static FieldKind>, appearance: Appearance, nodes: usize) -> Self {
-        Self { path: path.into(), bodies, kinds, appearance, nodes, ranges: Mutex::default(), newest: Mutex::default() }
+        Self {
+            path: path.into(),
+            bodies,
+            kinds,
+            appearance,
+            nodes,
+            others: Mutex::default(),
+            ranges: Mutex::default(),
+            newest: Mutex::default(),
+        }
     }
 
     /// The folder.
@@ -181,9 +202,9 @@ impl ResultView {
         let is_wanted = |kind: &&&FieldKind| named.contains(&Some(kind.name)) || (frame_request.arrows && kind.name == "contact_force");
         let wanted: Vec<_> = self.kinds.iter().filter(is_wanted).copied().collect();
         let kept = self.read(number, &file, &wanted)?;
-        let topology = self.bodies.without(&kept.gone);
+        let topology = kept.bodies.without(&kept.gone);
         let outlines = self.outlines(number)?;
-        Ok(Some(frame::frame(&self.bodies, &topology, &kept.frame, &outlines, frame_request).with("frame", number)))
+        Ok(Some(frame::frame(&kept.bodies, &topology, &kept.frame, &outlines, frame_request).with("frame", number)))
     }
 
     /// A frame with some fields: that which was read last, or from its file.
@@ -196,17 +217,46 @@ impl ResultView {
             return Ok(kept);
         }
         let mut reader = VtuReader::open(file)?;
-        self.check(&reader)?;
+        let bodies = self.bodies_of(&mut reader)?;
         let gone = reader.gone()?;
         let frame = reader.frame(self.bodies.dimension, wanted)?;
-        let kept = Arc::new(Kept { number, stamp, fields, frame, gone });
+        let kept = Arc::new(Kept { number, stamp, fields, bodies, frame, gone });
         *newest() = Some(kept.clone());
         Ok(kept)
     }
 
-    /// Whether a file is of these bodies.
+    /// Whether a file is of the bodies of the first frame: their nodes and cells have its numbers.
     pub(super) fn check(&self, reader: &VtuReader) -> Result<(), ResultsError> {
+        if reader.revision != self.bodies.cells.revision {
+            return Err(ResultsError::Renumbered { path: self.path.clone() });
+        }
         reader.has(self.nodes, self.bodies.cells.len())
+    }
+
+    /// The bodies that a file is of: elements may have been made again.
+    fn bodies_of(&self, reader: &mut VtuReader) -> Result<Arc<Bodies>, ResultsError> {
+        if reader.revision == self.bodies.cells.revision {
+            self.check(reader)?;
+            return Ok(self.bodies.clone());
+        }
+        let others = || self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = others().get(&reader.revision).cloned() {
+            reader.has(found.nodes(), found.cells.len())?;
+            return Ok(found);
+        }
+        let mut cells = reader.cells()?;
+        cells.part_names.clone_from(&self.bodies.cells.part_names);
+        let displacement: Vec<_> = self.kinds.iter().copied().filter(|kind| kind.name == "displacement").collect();
+        let frame = reader.frame(self.bodies.dimension, &displacement)?;
+        let bodies = Arc::new(self.bodies.with_cells(cells, &frame));
+        Ok(others().entry(reader.revision).or_insert(bodies).clone())
+    }
+
+    /// A topology that a frame has named, and its bodies.
+    #[must_use]
+    pub fn topology(&self, number: usize) -> Option<(Arc<Bodies>, Arc<Topology>)> {
+        let others: Vec<Arc<Bodies>> = self.others.lock().unwrap_or_else(PoisonError::into_inner).values().cloned().collect();
+        [self.bodies.clone()].into_iter().chain(others).find_map(|bodies| bodies.numbered(number).map(|found| (bodies.clone(), found)))
     }
 
     /// The obstacles at a frame, in model order.
@@ -253,12 +303,12 @@ impl ResultView {
         if let Some(scalar) = Scalar::of(self.kinds.iter().copied(), name) {
             for (_, file) in &frames {
                 let mut reader = VtuReader::open(file)?;
-                self.check(&reader)?;
-                let topology = self.bodies.without(&reader.gone()?);
-                let places = if scalar.at_nodes() { self.nodes } else { self.bodies.cells.len() };
+                let bodies = self.bodies_of(&mut reader)?;
+                let topology = bodies.without(&reader.gone()?);
+                let places = if scalar.at_nodes() { bodies.nodes() } else { bodies.cells.len() };
                 let tuples = reader.values(scalar.kind, 0..places)?;
                 let values: Vec<f64> = tuples.chunks_exact(scalar.kind.width()).map(|tuple| scalar.scalar(tuple)).collect();
-                whole = joined(whole, range_of(&self.bodies, &topology, scalar, &values, of));
+                whole = joined(whole, range_of(&bodies, &topology, scalar, &values, of));
             }
         }
         self.ranges.lock().unwrap_or_else(PoisonError::into_inner).insert(key, (whole, frames.len()));

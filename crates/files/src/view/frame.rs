@@ -168,6 +168,7 @@ mod tests {
             kinds: vec![CellKind::Triangle; 2],
             parts: vec![0, 1],
             part_names: vec!["a".into(), "b".into()],
+            revision: 0,
         };
         let field = |name: &str, values: &[f64]| Field { kind: field_kind(name).unwrap(), values: values.to_vec() };
         let fields = vec![

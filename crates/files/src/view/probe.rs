@@ -54,6 +54,7 @@ impl ResultView {
         let mut probed = Probed { unit: scalar.kind.unit, label: scalar.label(), ..Probed::default() };
         for (FrameTime { time, .. }, file) in frames(&self.path)? {
             let mut reader = VtuReader::open(&file)?;
+            self.check(&reader)?;
             let gone = if is_cell { reader.gone()? } else { Vec::new() };
             let (mut sum, mut count) = (0.0, 0u32);
             for &place in places.iter().filter(|&&place| gone.binary_search(&(place as u32)).is_err()) {

@@ -30,6 +30,8 @@ pub(crate) struct VtuReader {
     data: u64,
     /// s.
     pub(crate) time: f64,
+    /// How many times elements had been made again.
+    pub(crate) revision: u32,
     pub(crate) nodes: usize,
     cells: usize,
     arrays: Vec<Tag>,
@@ -66,7 +68,7 @@ impl VtuReader {
         let size = file.metadata().map_err(ResultsError::file("read", path))?.len();
         let mut file = BufReader::new(file);
         let (text, data) = head(&mut file, path)?;
-        let mut reader = Self { path: path.into(), file, size, data, time: 0.0, nodes: 0, cells: 0, arrays: Vec::new() };
+        let mut reader = Self { path: path.into(), file, size, data, time: 0.0, revision: 0, nodes: 0, cells: 0, arrays: Vec::new() };
         reader.understand(&text).map_err(|what| reader.unreadable(what))?;
         Ok(reader)
     }
@@ -89,7 +91,12 @@ impl VtuReader {
                 }
                 "PointData" | "CellData" | "Points" | "Cells" => section = name,
                 "DataArray" if attribute(tag, "format") == Some("ascii") => {
-                    let value = tag.split('>').nth(1).and_then(|rest| rest.split('<').next()).and_then(|text| text.trim().parse().ok());
+                    let text = tag.split('>').nth(1).and_then(|rest| rest.split('<').next()).map(str::trim);
+                    if attribute(tag, "Name") == Some(super::REVISION) {
+                        self.revision = text.and_then(|text| text.parse().ok()).ok_or("the revision of its mesh can't be read")?;
+                        continue;
+                    }
+                    let value = text.and_then(|text| text.parse().ok());
                     self.time = value.filter(|time: &f64| time.is_finite()).ok_or("its time can't be read")?;
                 }
                 "DataArray" => self.arrays.push(Tag {
@@ -222,7 +229,8 @@ impl VtuReader {
         let kinds: Option<Vec<CellKind>> = types.iter().map(|&kind| CellKind::of_vtk(kind)).collect();
         let is_sound = offsets.is_sorted() && offsets.last().is_some_and(|&end| end as usize == corners);
         let kinds = kinds.filter(|_| is_sound).ok_or_else(|| self.unreadable("its cells are damaged"))?;
-        Ok(Cells { nodes, offsets, kinds, parts: self.numbers_of_cells("part")?, part_names: Vec::new() })
+        let (parts, revision) = (self.numbers_of_cells("part")?, self.revision);
+        Ok(Cells { nodes, offsets, kinds, parts, part_names: Vec::new(), revision })
     }
 
     /// Whole numbers of cells, 32 bits.

@@ -35,6 +35,7 @@ fn cells() -> Cells {
         kinds: vec![CellKind::Quadrilateral, CellKind::Triangle],
         parts: vec![0, 1],
         part_names: vec!["left".into(), "right".into()],
+        revision: 0,
     }
 }
 
@@ -64,6 +65,7 @@ fn summary(steps: u64) -> Summary {
         end: 1e-3,
         rest: None,
         stages: vec![],
+        remeshings: vec![],
         stable_time_step_min: 1e-4,
         stable_time_step_governor: "element 0 of part \"left\"".into(),
         energy_drift: 0.001,
@@ -283,6 +285,7 @@ fn other_cells() -> Cells {
         kinds: vec![CellKind::Triangle; 3],
         parts: vec![0, 0, 1],
         part_names: vec!["left".into(), "right".into()],
+        revision: 0,
     }
 }
 

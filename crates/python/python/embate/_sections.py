@@ -1502,6 +1502,49 @@ class Sections:
         raise NotImplementedError
 
     @section
+    def remesh(
+        self,
+        *,
+        part: str,
+        size: Quantity | None = None,
+        quality: Quantity | None = None,
+        time_step: Quantity | None = None,
+        interval: Quantity | None = None,
+        begin: Quantity | None = None,
+        elements_most: Integer | None = None,
+        loss_limit: Quantity | None = None,
+    ) -> Self:
+        """A part of a 2D model whose elements are made again as quadrilaterals inside its outline when
+        their form has become poor, or their stable step short. Stress, plastic strain and
+        velocities go over to the new elements: mass, momentum and angular momentum exactly, energy
+        but for a loss that the history has as `energy.remap`. Where no better mesh is found the run
+        continues with the old one, and a warning says so.
+
+        Parameters
+        ----------
+        part
+            Name of the part.
+        size
+            Edge length of the new elements.
+        quality
+            Least scaled Jacobian of an element (1: a rectangle, 0: an angle of 180 degrees) below
+            which elements are made again.
+        time_step
+            Stable step of the part, as a fraction of that after its elements were made, below which
+            they are made again.
+        interval
+            Longest time between two times that elements are made.
+        begin
+            Time before which nothing is made again.
+        elements_most
+            Most elements: where `size` would give more, they are larger.
+        loss_limit
+            Energy that may be lost in all by making elements again, as a fraction of the largest
+            total energy: beyond it the run ends.
+        """
+        raise NotImplementedError
+
+    @section
     def symmetry(
         self,
         *,

@@ -126,7 +126,11 @@ class Frames(Sequence[Frame]):
 
     def field(self, name: str) -> np.ndarray[Any, Any]:
         """A field at all times: shape (times, nodes or cells) or (times, nodes or cells, components)."""
-        return np.stack([frame.field(name) for frame in self._frames]) if self._frames else np.zeros(0)
+        if not self._frames:
+            return np.zeros(0)
+        values = [frame.field(name) for frame in self._frames]
+        _check_alike(values)
+        return np.stack(values)
 
     def to_xarray(self, fields: Sequence[str] | None = None) -> Any:
         """Fields at all times as an ``xarray.Dataset`` over time, node and cell; ``fields``: some of them."""
@@ -136,6 +140,12 @@ class Frames(Sequence[Frame]):
         if not self._frames:
             return "<embate frames: none>"
         return f"<embate frames: {len(self)} from {self._frames[0].time:.6g} to {self._frames[-1].time:.6g} s>"
+
+
+def _check_alike(values: Sequence[np.ndarray[Any, Any]]) -> None:
+    """Says where frames have other nodes or cells than the first: elements were made again."""
+    if any(own.shape != values[0].shape for own in values):
+        raise ValueError("frames have different nodes and cells, because elements were made again in the run ([[remesh]]): take them one by one, or some of them")
 
 
 class Results:
@@ -283,7 +293,9 @@ def _dataset(frames: Frames, fields: Sequence[str] | None) -> Any:
     parts = frames[0].cell_part
     axis = ["x", "y", "z"][: frames[0].dimension]
     coordinates: dict[str, Any] = {"time": ("time", frames.times, {"units": "s"}), "axis": axis, "part": ("cell", parts)}
-    values: dict[str, Any] = {"position": (("time", "node", "axis"), np.stack([frame.position for frame in frames]), {"units": "m"})}
+    positions = [frame.position for frame in frames]
+    _check_alike(positions)
+    values: dict[str, Any] = {"position": (("time", "node", "axis"), np.stack(positions), {"units": "m"})}
     for name in chosen:
         about = known[name]
         components = tuple(about["components"])

@@ -106,7 +106,7 @@ impl fmt::Display for Failure {
             Self::Crossing { at: [x, y] } => write!(f, "the outline crosses or touches itself at ({x:.6e}, {y:.6e}) m"),
             Self::Size { at: [x, y] } => write!(f, "the wanted size of cells at ({x:.6e}, {y:.6e}) m is not a positive number"),
             Self::Limit => write!(f, "more cells would be needed than are allowed"),
-            Self::Measure => write!(f, "the outline can't be divided anew with the same area or volume"),
+            Self::Measure => write!(f, "the outline can't be divided again with the same area or volume"),
             Self::Quality { least } => write!(f, "the best mesh found has a least scaled Jacobian of {least:.3}"),
         }
     }

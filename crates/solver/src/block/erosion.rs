@@ -151,6 +151,13 @@ where
         stored
     }
 
+    /// Enters what elements that are no more had dissipated, and stored.
+    pub(super) fn leave(&mut self, before: &Report) {
+        let Report { stored, dissipated, hourglass, viscous, damping, .. } = *before;
+        let left = Report { stored, dissipated, hourglass, viscous, damping, ..Report::NOTHING };
+        self.eroded.left = Report::joined([self.eroded.left, left].into_iter());
+    }
+
     /// Makes lanes of a chunk whose elements are gone copies of one of its live elements.
     fn fill_up(&mut self, gone: &[u32]) {
         let chunk = chunk_of(gone[0]);

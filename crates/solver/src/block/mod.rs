@@ -28,6 +28,7 @@ mod store;
 mod strain;
 mod strip;
 mod subcycles;
+mod transfer;
 
 pub use elastic::{Elastic, ElasticInput};
 pub use initial::{Initial, Wrong};
@@ -35,6 +36,7 @@ pub use local::LocalNodes;
 pub use make::{BlockInput, Blocks, make};
 pub use store::CHUNK;
 pub use subcycles::{Begin, RATIO_MOST, Regions, Subcycled, largest_divisor};
+pub use transfer::PointValues;
 
 use crate::archive::{Archive, ArchiveResult, persist_all};
 use crate::failure::Criterion;
@@ -319,6 +321,25 @@ pub trait Block<const D: usize>: Send + Sync {
     /// squared step that the block reports with it. `None`: none was given.
     fn make_heavier(&mut self, _squared: [f64; 2], _may: &dyn Fn(u32) -> bool, _add: &mut dyn FnMut(u32, f64)) -> Option<f64> {
         None
+    }
+    /// Stresses and states of its points; `None`: it is not of solids whose law can continue with means of
+    /// them.
+    fn point_values(&self) -> Option<PointValues> {
+        None
+    }
+    /// Elastic energy of the stresses of its points by their volumes now, J/m; of rate laws, where
+    /// [`Block::point_values`] has them. [`Report::stored`] is the sum of the works of all steps instead.
+    fn elastic_energy(&self, _positions: &[[f64; D]]) -> f64 {
+        0.0
+    }
+    /// Gives these to its points, as many as it has, before the first [`Block::advance`]; `before`: what the
+    /// elements that it stands for had dissipated, and had stored beyond the energy of their stresses, which
+    /// stays; `positions`, m, are those of its nodes now.
+    fn take_point_values(&mut self, _values: &PointValues, _before: &Report, _positions: &[[f64; D]]) {}
+    /// Makes an element heavier by a factor that is its density over that of the material; before nodes have
+    /// their masses.
+    fn scale_density(&mut self, element: usize, factor: f64) {
+        self.scale_mass(element, factor);
     }
     /// Gives the points what they hold at the start; before the first [`Block::advance`].
     ///

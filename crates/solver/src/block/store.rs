@@ -17,7 +17,7 @@ use super::nodal::Nodal;
 use super::strain::{Measures, Strain};
 use super::strip::{ForEachBatch, STRIP, StripBuffers};
 use super::subcycles::{Regions, Subcycled, Subcycles};
-use super::{Block, ElementState, Initial, Motion, NodalForces, Report, Wrong};
+use super::{Block, ElementState, Initial, Motion, NodalForces, PointValues, Report, Wrong};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::failure::Criterion;
 use crate::material::points::{PointLaw, Points, RESPONSE};
@@ -76,7 +76,7 @@ pub(super) struct ElementStore<const D: usize> {
     /// Room for each thread.
     strips: Vec<Mutex<StripBuffers<D>>>,
     /// Averages over the nodes, for elements that want them.
-    nodal: Option<Box<Nodal<D>>>,
+    pub(super) nodal: Option<Box<Nodal<D>>>,
     /// With subcycling.
     pub(super) subcycles: Option<Box<Subcycles<D>>>,
     pub(super) eroded: Eroded,
@@ -595,6 +595,22 @@ where
 
     fn make_heavier(&mut self, squared: [f64; 2], may: &dyn Fn(u32) -> bool, add: &mut dyn FnMut(u32, f64)) -> Option<f64> {
         self.add_mass(squared, may, add).then(|| self.joined_reports().time_step_squared)
+    }
+
+    fn point_values(&self) -> Option<PointValues> {
+        self.values_of_points()
+    }
+
+    fn elastic_energy(&self, positions: &[[f64; D]]) -> f64 {
+        self.energy_of_stresses(positions)
+    }
+
+    fn take_point_values(&mut self, values: &PointValues, before: &Report, positions: &[[f64; D]]) {
+        self.fill_points(values, before, positions);
+    }
+
+    fn scale_density(&mut self, element: usize, factor: f64) {
+        self.scale_densities(element, factor);
     }
 
     fn begin(&mut self, initial: &Initial<'_>, positions: &[[f64; D]]) -> Result<(), Wrong> {

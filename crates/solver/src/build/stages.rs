@@ -119,7 +119,8 @@ where
     /// Penetrations at the start are resolved, in the mesh, or faults.
     pub(super) fn start(&mut self) -> Result<Start<D>, Vec<Fault>> {
         let outside = self.outside(self.touches());
-        let penetrations = self.resolve_initial_penetration();
+        // Bodies of a run on its way are where they are.
+        let penetrations = if self.mesh.remeshed.is_empty() { self.resolve_initial_penetration() } else { Vec::new() };
         self.sound(Start { outside, penetrations })
     }
 
@@ -152,6 +153,7 @@ where
         let velocities = self.velocities(part_mass);
         self.rigid_parts(part_mass);
         let shares = self.shares(&blocks, part_mass);
+        self.masses_of_transfer(&mut blocks, &part_mass_true);
         // From here on masses are those of nodes, and of parts as a whole: each list of them is as large as
         // all positions.
         blocks.iter_mut().for_each(|block| block.release_corner_masses());
@@ -166,7 +168,11 @@ where
         let (forces, boundary) = self.loads();
         let cavities = self.cavities();
         self.check_moments(&elements.blocks);
+        // Areas and lengths of parts that were made again are those of that time.
+        let references = self.mesh.references().into_owned();
+        let initial = std::mem::replace(&mut self.mesh.positions, references);
         let contacts = self.contacts_and_obstacles();
+        self.mesh.positions = initial;
         let contacts = self.sound(contacts)?;
         self.bodies.weigh(&elements.body_forces, &self.mass);
         let criteria = self.criteria();
@@ -268,6 +274,7 @@ where
             nodal_bound: (model.run.stable_step != StableStep::Elements).then(NodalBound::default),
             assembled_bound: None,
             subcycling: None,
+            remap: (!model.remeshes.is_empty()).then(Box::default),
             team: if count >= SERIAL { Team::new(threads) } else { Team::alone() },
             mesh,
             blocks,
@@ -334,6 +341,7 @@ where
     /// A block for each group of elements.
     fn blocks(&mut self) -> Vec<Box<dyn Block<D>>> {
         let mut blocks = Vec::new();
+        let references = self.mesh.references();
         for (index, group) in self.mesh.groups.iter().enumerate() {
             let (i, part) = (group.part, &self.model.parts[group.part]);
             let Some(material) = self.model.materials.get(&part.material) else {
@@ -359,11 +367,19 @@ where
                 options: ElementOptions { hourglass: part.hourglass },
                 stress_state: if D == 2 { &part.stress_state } else { "" },
                 viscosity: (viscosity != [0.0; 2]).then_some(viscosity),
-                ..BlockInput::new(element, material, &group.connectivity, &self.mesh.positions)
+                ..BlockInput::new(element, material, &group.connectivity, &references)
             };
-            self.faults.extend(lying(part, i, &group.connectivity, &self.mesh.positions));
+            self.faults.extend(lying(part, i, &group.connectivity, &references));
             match make(&input) {
                 Some(mut block) => {
+                    if let Some(own) = self.mesh.remeshed.of(i) {
+                        // What they hold is filled in later.
+                        for (element, mass) in own.masses.iter().enumerate() {
+                            block.scale_density(element, mass / block.mass(element));
+                        }
+                        blocks.push(block);
+                        continue;
+                    }
                     let initial = Initial { stress: part.stress_initial.as_ref(), temperature: part.temperature_initial };
                     if let Err(Wrong { key, message, help }) = block.begin(&initial, &self.mesh.positions) {
                         self.faults.push(Fault::new(&INITIAL_STATE, format!("part[{i}].{key}"), message, help));
@@ -378,6 +394,28 @@ where
         blocks
     }
 
+    /// Gives nodes of parts that were made again the masses that they got then. Where such a mass is less
+    /// than that of the elements at the node, the stable steps of these count with it.
+    fn masses_of_transfer(&mut self, blocks: &mut [Box<dyn Block<D>>], of_elements: &[Vec<(u32, f64)>]) {
+        for own in &self.mesh.remeshed.parts {
+            for (&node, &mass) in self.mesh.parts[own.part].nodes.iter().zip(&own.node_masses) {
+                self.mass[node as usize] = mass;
+            }
+            let mut ratio = vec![1.0f64; self.mass.len()];
+            for &(node, mass) in &of_elements[own.part] {
+                ratio[node as usize] = (self.mass[node as usize] / mass).min(1.0);
+            }
+            for (group, block) in self.mesh.groups.iter().zip(&mut *blocks).filter(|(group, _)| group.part == own.part) {
+                for (element, cell) in group.cells().enumerate() {
+                    let least = cell.nodes.iter().map(|&node| ratio[node as usize]).fold(1.0, f64::min);
+                    if least < 1.0 {
+                        block.scale_mass(element, least);
+                    }
+                }
+            }
+        }
+    }
+
     /// What the stiffness of contacts is made from beyond the elements behind their surfaces: moduli and the
     /// first step.
     fn measure_stiffness(&mut self, blocks: &mut [Box<dyn Block<D>>], level: Level) {
@@ -387,11 +425,12 @@ where
         // Springs of the automatic penalty between bodies stiffen by it, too.
         let stiffens = |contact: &model::Contact| matches!(contact.interface.law, ContactLaw::Penalty(Penalty::Automatic { .. }));
         if is_asked || self.model.contacts.iter().any(stiffens) {
+            let references = self.mesh.references();
             let stable = |(block, group): (&mut Box<dyn Block<D>>, &ElementGroup)| {
                 if self.model.parts[group.part].rigid.is_some() {
                     return f64::INFINITY;
                 }
-                evaluate_at_rest(block.as_mut(), &self.mesh.positions, level).time_step_squared
+                evaluate_at_rest(block.as_mut(), &references, level).time_step_squared
             };
             let elements =
                 self.model.run.safety * blocks.iter_mut().zip(&self.mesh.groups).map(stable).fold(f64::INFINITY, f64::min).sqrt();

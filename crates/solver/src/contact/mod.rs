@@ -81,6 +81,10 @@ where
     /// surfaces changed. What belongs to nodes and segments that are no more is forgotten.
     fn inherit(&mut self, old: Box<dyn Any>);
 
+    /// Takes over what its predecessor knew of the nodes that each node of the mesh lies between, which are
+    /// named with their shares: elements were made again, and numbers have changed. The rest is forgotten.
+    fn carry(&mut self, _old: &dyn Any, _origins: &[Vec<(u32, f64)>]) {}
+
     /// The formulation that it stands around, if it does: what is asked for and not answered below is that
     /// one's.
     fn within(&self) -> Option<&dyn Formulation<D>> {
@@ -367,6 +371,16 @@ where
     pub fn renew(&mut self, formulation: Box<dyn Formulation<D>>) {
         let old = std::mem::replace(&mut self.formulation, formulation);
         self.formulation.inherit(old);
+    }
+
+    /// Continues where a contact of the same model was before elements were made again; `origins` as in
+    /// [`Formulation::carry`].
+    pub(crate) fn carry(&mut self, old: Self, origins: &[Vec<(u32, f64)>]) {
+        self.checked = old.certificate();
+        (self.totals, self.penetration, self.has_pressed) = (old.totals, old.penetration, old.has_pressed);
+        (self.friction_work, self.window, self.time) = (old.friction_work, old.window, old.time);
+        let old: Box<dyn Any> = old.formulation;
+        self.formulation.carry(&*old, origins);
     }
 
     /// Lets go of nodes without elements.

@@ -148,6 +148,16 @@ where
         *self = Self { slip, heat, ..Self::new(outside, positions, depth) };
     }
 
+    /// Takes over what contacts left at the old nodes that each node lies between, which are named with their
+    /// shares: by surface, what lies between is a mean.
+    pub(crate) fn carry(&mut self, old: &Self, origins: &[Vec<(u32, f64)>]) {
+        for (node, (slip, heat)) in self.slip.iter_mut().zip(&mut self.heat).enumerate() {
+            let Some(origin) = origins.get(node).filter(|_| self.area[node] > 0.0) else { continue };
+            *slip = origin.iter().map(|&(from, share)| share * old.slip(from as usize)).sum();
+            *heat = origin.iter().map(|&(from, share)| share * old.heat(from as usize)).sum::<f64>() * self.area[node];
+        }
+    }
+
     /// Adds what a solved spring does in the coming update, which takes `lost` from the motion.
     pub fn mark(&mut self, answer: &Answer<'_, D>, lost: &Lost) {
         if answer.solved.force == 0.0 {

@@ -9,7 +9,7 @@ use crate::failure::CRITERIA;
 use crate::model::values::Datum;
 use crate::model::{
     CAVITY, CHANNEL, CONSTRAINT, CONTACT, CURVE, CUT, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS,
-    PROBE, RUN, SPRING, STAGE, SYMMETRY, Values, WELD,
+    PROBE, REMESH, RUN, SPRING, STAGE, SYMMETRY, Values, WELD,
 };
 use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
@@ -38,6 +38,7 @@ pub static SECTIONS: &[&Section] = &[
     &PART,
     &CONTACT,
     &OBSTACLE,
+    &REMESH,
     &SYMMETRY,
     &CONSTRAINT,
     &JOIN,

@@ -101,6 +101,7 @@ impl Law for Chaboche {
     type State<L: Lane, T: SymmetricTensor<L>> = ([L; 3], Tensors<L, T, PARTS>);
     const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
     const NEEDS_ROTATION: bool = true;
+    const CAN_BE_AVERAGED: bool = true;
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
@@ -148,6 +149,12 @@ impl Law for Chaboche {
         let plastic = L::splat(0.0);
         let Flow { stress, slope, .. } = self.isotropic.flow(plastic);
         ([plastic, stress, slope], State::zero())
+    }
+
+    fn renew<L: Lane, T: SymmetricTensor<L>>(&self, state: &mut Self::State<L, T>) {
+        let plastic = state.0[0];
+        let Flow { stress, slope, .. } = self.isotropic.flow(plastic);
+        state.0 = [plastic, stress, slope];
     }
 
     #[inline(always)]

@@ -70,6 +70,7 @@ impl Law for CrushableFoam {
     /// ε̂.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
     const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
+    const CAN_BE_AVERAGED: bool = true;
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);

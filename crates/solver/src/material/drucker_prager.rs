@@ -72,6 +72,7 @@ impl Law for DruckerPrager {
     /// Equivalent strain of the plastic deviator, Σ γ.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 1];
     const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
+    const CAN_BE_AVERAGED: bool = true;
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);

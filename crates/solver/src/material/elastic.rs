@@ -26,6 +26,7 @@ impl Law for Elastic {
     };
     const FAMILY: Family = Family::Rate;
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 0];
+    const CAN_BE_AVERAGED: bool = true;
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);

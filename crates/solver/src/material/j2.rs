@@ -45,6 +45,7 @@ impl<H: Hardening> Law for J2With<H> {
     /// Equivalent plastic strain; flow stress and slope there.
     type State<L: Lane, T: SymmetricTensor<L>> = ([L; 1], H::StoredFlow<L>);
     const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0)];
+    const CAN_BE_AVERAGED: bool = true;
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
@@ -79,6 +80,11 @@ impl<H: Hardening> Law for J2With<H> {
         let plastic = L::splat(0.0);
         let Flow { stress, slope, .. } = self.hardening.flow(plastic);
         ([plastic], H::StoredFlow::new([stress, slope]))
+    }
+
+    fn renew<L: Lane, T: SymmetricTensor<L>>(&self, state: &mut Self::State<L, T>) {
+        let Flow { stress, slope, .. } = self.hardening.flow(state.0[0]);
+        state.1 = H::StoredFlow::new([stress, slope]);
     }
 
     #[inline(always)]

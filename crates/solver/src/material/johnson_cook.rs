@@ -117,6 +117,7 @@ impl Law for JohnsonCook {
     /// Equivalent plastic strain, temperature, damage; the term B ε_p^n and its slope there.
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 5];
     const VARIABLES: &'static [History] = &[variable::PLASTIC_STRAIN.at(0), variable::TEMPERATURE.at(1), variable::DAMAGE.at(2)];
+    const CAN_BE_AVERAGED: bool = true;
 
     fn new(parameters: &Parameters<'_>) -> Self {
         let [bulk, shear] = bulk_and_shear(parameters);
@@ -163,6 +164,11 @@ impl Law for JohnsonCook {
         let zero = L::splat(0.0);
         let power = self.power.flow(zero);
         [zero, L::splat(self.temperature), zero, power.stress, power.slope]
+    }
+
+    fn renew<L: Lane, T: SymmetricTensor<L>>(&self, state: &mut [L; 5]) {
+        let power = self.power.flow(state[0]);
+        [state[3], state[4]] = [power.stress, power.slope];
     }
 
     #[inline(always)]

@@ -151,6 +151,9 @@ pub trait Law: Copy + Send + Sync + 'static {
     const FLOWS_IN_VOLUME: bool = false;
     /// Whether it has no pressure of its own.
     const NEEDS_EQUATION_OF_STATE: bool = false;
+    /// Whether a point can continue with a weighted mean of the stresses and states of others: then elements
+    /// can be made again in the run.
+    const CAN_BE_AVERAGED: bool = false;
 
     /// Kinds of messages that it alone reports.
     const MESSAGES: &'static [&'static Message] = &[];
@@ -190,6 +193,10 @@ pub trait Law: Copy + Send + Sync + 'static {
     fn start<L: Lane, T: SymmetricTensor<L>>(&self) -> Self::State<L, T> {
         State::zero()
     }
+
+    /// Renews what a state keeps that follows from the rest of it, where that is a mean of others
+    /// ([`Law::CAN_BE_AVERAGED`]).
+    fn renew<L: Lane, T: SymmetricTensor<L>>(&self, _state: &mut Self::State<L, T>) {}
 
     /// Stress at the end of the step.
     fn update<L: Lane, T: SymmetricTensor<L>>(&self, kinematics: &Kinematics<L, T>, state: &mut Self::State<L, T>) -> Response<L, T>;
@@ -379,6 +386,7 @@ struct Facts {
     flows_in_volume: bool,
     needs_equation_of_state: bool,
     has_plastic_strain: bool,
+    can_be_averaged: bool,
 }
 
 fn facts(name: &str) -> Option<Facts> {
@@ -392,6 +400,7 @@ fn facts(name: &str) -> Option<Facts> {
                 flows_in_volume: M::FLOWS_IN_VOLUME,
                 needs_equation_of_state: M::NEEDS_EQUATION_OF_STATE,
                 has_plastic_strain: M::VARIABLES.iter().any(|history| history.variable == &variable::PLASTIC_STRAIN),
+                can_be_averaged: M::CAN_BE_AVERAGED,
             }
         }
     }
@@ -409,6 +418,13 @@ pub fn is_hyperelastic(name: &str) -> Option<bool> {
 #[must_use]
 pub fn flows_at_constant_volume(name: &str) -> Option<bool> {
     facts(name).map(|law| law.has_plastic_strain && !law.flows_in_volume)
+}
+
+/// Whether a point of the law called `name` can continue with a weighted mean of what others have; `None`
+/// when there is no such law.
+#[must_use]
+pub fn can_be_averaged(name: &str) -> Option<bool> {
+    facts(name).map(|law| law.can_be_averaged)
 }
 
 /// Whether the law called `name` needs an equation of state, and whether it may have one; `None` when there

@@ -95,6 +95,12 @@ pub trait PointLaw: Send + Sync {
     fn energy(&self, stress: [f64; 6]) -> f64;
     /// Writes the history of a point at the start.
     fn start(&self, state: &mut [Batch]);
+    /// See [`Law::CAN_BE_AVERAGED`].
+    fn can_be_averaged(&self) -> bool {
+        false
+    }
+    /// Renews in the history of a point, a mean of others, what follows from the rest of it.
+    fn renew(&self, _state: &mut [Batch]) {}
     /// Place of the thickness ratio λ = t/t₀ (plane stress) or of the ratio of cross-sections (uniaxial
     /// stress) in the history.
     fn thickness(&self) -> Option<usize> {
@@ -227,6 +233,16 @@ where
     fn start(&self, state: &mut [Batch]) {
         for at in 0..BATCH {
             self.law.start::<f64, Tensor<D, f64>>().store(state, at);
+        }
+    }
+    fn can_be_averaged(&self) -> bool {
+        M::CAN_BE_AVERAGED
+    }
+    fn renew(&self, state: &mut [Batch]) {
+        for at in 0..BATCH {
+            let mut own = <M::State<f64, Tensor<D, f64>> as State<f64>>::load(state, at);
+            self.law.renew::<f64, Tensor<D, f64>>(&mut own);
+            own.store(state, at);
         }
     }
     fn respond(&self, level: Level, points: Points<'_>) {

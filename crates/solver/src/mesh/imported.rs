@@ -51,6 +51,13 @@ impl PlacedMesh {
         (0..self.numbers.len() as u32).map(move |node| self.number(node, copy))
     }
 
+    /// Gives its nodes the numbers that they have after some are gone; `None`: it is one of these.
+    pub(super) fn close_up(&mut self, number: impl Fn(u32) -> Option<u32>) {
+        for own in self.numbers.iter_mut().filter(|own| own[0] != u32::MAX) {
+            *own = number(own[0]).map_or(NOWHERE, |first| [first, own[1]]);
+        }
+    }
+
     /// Whether all numbers are below that of the nodes, and all parts are there.
     pub(super) fn is_sound(&self, nodes: usize, parts: usize) -> bool {
         let is_node = |&[first, step]: &[u32; 2]| {

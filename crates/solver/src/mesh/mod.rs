@@ -15,6 +15,7 @@ mod imported;
 mod middles;
 mod order;
 mod persist;
+pub(crate) mod remeshed;
 mod skin;
 mod thickness;
 
@@ -233,6 +234,8 @@ where
     pub placed: Vec<PlacedMesh>,
     /// How many times its cells have been replaced by others; 0: they are those of the model.
     pub revision: u32,
+    /// Parts whose elements were made again in the run.
+    pub(crate) remeshed: remeshed::Remeshed<D>,
     /// Nodes on the faces of shells and beams: the last ones of all.
     pub skins: Vec<SkinNode<D>>,
     /// Label of each node as far as beams are near: what has the same label belongs to the same joint and

@@ -89,9 +89,21 @@ where
     }
 }
 
+/// Nodes in the order of the curve through these places.
+pub(super) fn along<const D: usize>(places: &[[f64; D]]) -> Vec<u32>
+where
+    Dim<D>: Meshed<D>,
+{
+    let exact = |a: u32, b: u32| {
+        let [a, b] = [a, b].map(|node| places[node as usize]);
+        (0..D).fold(Ordering::Equal, |order, d| order.then(a[d].total_cmp(&b[d])))
+    };
+    sorted(codes(places.iter().copied()), exact)
+}
+
 impl ElementGroup {
     /// Puts the elements in the order of the curve, given the new positions.
-    fn reorder<const D: usize>(&mut self, positions: &[[f64; D]], is_directed: bool)
+    pub(super) fn reorder<const D: usize>(&mut self, positions: &[[f64; D]], is_directed: bool)
     where
         Dim<D>: Meshed<D>,
     {

@@ -2,6 +2,7 @@
 //! other meshes.
 
 use super::cell::CellKind;
+use super::remeshed::RemeshedPart;
 use super::surface::Corners;
 use super::{Dim, ElementGroup, Mesh, Meshed, PartMesh, Pieces, SkinNode};
 use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, Section, persist_all, persist_each};
@@ -31,7 +32,7 @@ impl Persist for ElementGroup {
 }
 
 /// Places or vectors, number by number.
-fn persist_points<const D: usize>(points: &mut Vec<[f64; D]>, archive: &mut Archive<'_>) -> ArchiveResult {
+pub(super) fn persist_points<const D: usize>(points: &mut Vec<[f64; D]>, archive: &mut Archive<'_>) -> ArchiveResult {
     let mut numbers = std::mem::take(points).into_flattened();
     numbers.persist(archive)?;
     *points = numbers.as_chunks().0.to_vec();
@@ -50,6 +51,7 @@ where
             user_nodes,
             placed,
             revision,
+            remeshed,
             skins,
             kin,
             joints,
@@ -62,7 +64,7 @@ where
             sets,
         } = self;
         persist_points(positions, archive)?;
-        persist_each!(archive; parts, groups, user_nodes, placed, revision, thicknesses, outlines, sides, points, surfaces, sets);
+        persist_each!(archive; parts, groups, user_nodes, placed, revision, remeshed, thicknesses, outlines, sides, points, surfaces, sets);
         let mut owners: Vec<u32> = skins.iter().map(|skin| skin.owner).collect();
         let mut arms: Vec<[f64; D]> = skins.iter().map(|skin| skin.arm).collect();
         owners.persist(archive)?;
@@ -124,12 +126,25 @@ where
             && (0..parts).all(is_numbered)
             && is_permutation(&self.user_nodes, nodes)
             && self.placed.iter().all(|place| place.is_sound(nodes, parts))
+            && self.remeshed.parts.iter().all(|own| self.is_sound_again(own))
             && self.outlines.len() + self.skins.len() == nodes
             && self.skins.iter().all(|skin| (skin.owner as usize) < self.outlines.len())
             && self.sides.values().flatten().all(|facet| are_nodes(facet.corners()))
             && self.points.values().all(|points| are_nodes(points))
             && self.surfaces.values().flatten().all(|(_, facets)| facets.iter().all(|facet| are_nodes(facet.corners())))
             && self.sets.values().flatten().all(|(_, nodes)| are_nodes(nodes))
+    }
+}
+
+impl<const D: usize> Mesh<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    /// Whether what is known of a part that was made again is as much as it has nodes and elements.
+    fn is_sound_again(&self, own: &RemeshedPart<D>) -> bool {
+        self.parts.get(own.part).is_some_and(|part| {
+            [own.places.len(), own.node_masses.len()] == [part.nodes.len(); 2] && own.masses.len() == self.elements_of(own.part)
+        })
     }
 }
 

@@ -19,6 +19,7 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &NOT_IN_SPACE,
     &THIRD,
     &FORMULA,
+    &NO_REMESHING,
     &COARSE_CHANNEL,
 ];
 
@@ -164,6 +165,14 @@ pub(crate) static FORMULA: Message = Message {
     ),
     cause: "The formula names a column that the history does not have, or a function that there is not, or is not written as one.",
     remedy: "Take names from the first line of `history.csv`; `docs/output.md` lists the columns and functions.",
+};
+
+pub(crate) static NO_REMESHING: Message = Message {
+    code: "E0128",
+    title: "elements that can't be made again",
+    example: Example::Model("[[remesh]]\npart = \"block\"\n\n[[contact]]\nname = \"hit\"\nbodies = \"all\"\n"),
+    cause: "`[[remesh]]` names a part, or stands in a model, with something that does not go over to new elements yet: the message says what.",
+    remedy: "Do what the message proposes, or leave `[[remesh]]` out.",
 };
 
 pub(crate) static COARSE_CHANNEL: Message = Message {

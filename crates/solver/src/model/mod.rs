@@ -21,6 +21,7 @@ mod part;
 pub(crate) mod placement;
 mod profile;
 pub mod reference;
+mod remesh;
 mod run;
 mod sharing;
 mod shell;
@@ -41,6 +42,7 @@ pub use part::Part;
 pub use placement::{Copies, Mirror, Placement};
 pub use profile::{BOX, GIVEN, I, PROFILES, Profile, RECTANGLE, ROUND, TUBE};
 pub(crate) use profile::{PROFILE, beam_axes};
+pub use remesh::Remesh;
 pub use run::{MassScaling, Relaxation, Run, StableStep};
 pub(crate) use shell::SHELL_SECTION;
 pub use shell::{GAUSS, LOBATTO, LOWER, MIDDLE, ShellLayer, ShellSection, UPPER};
@@ -65,6 +67,7 @@ pub(crate) use motion::CURVE;
 pub(crate) use obstacle::OBSTACLE;
 pub(crate) use output::{CHANNEL, CUT, OUTPUT, PROBE};
 pub(crate) use part::PART;
+pub(crate) use remesh::REMESH;
 pub(crate) use run::RUN;
 pub(crate) use section::section;
 use std::collections::BTreeMap;
@@ -89,6 +92,8 @@ pub struct Model {
     pub run: Run,
     /// `[[stage]]`.
     pub stages: Vec<Stage>,
+    /// `[[remesh]]`.
+    pub remeshes: Vec<Remesh>,
     /// `[material.NAME]`.
     pub materials: BTreeMap<String, Material>,
     /// `[[part]]`.

@@ -114,6 +114,8 @@ struct Tracer<const D: usize> {
     near: Near,
     /// First step that is kept.
     from: u64,
+    /// Mesh of the failure: what it has numbers of is not in those before elements were made again.
+    revision: u32,
     /// Sum of all energies after the last step, J/m.
     total: f64,
     trace: Trace,
@@ -124,10 +126,10 @@ impl<const D: usize> Tracer<D>
 where
     Dim<D>: Runs<D>,
 {
-    fn new(failure_entity: FailureEntity, near: Near, from: u64, columns: Vec<String>, system: &System<D>) -> Self {
+    fn new(failure_entity: FailureEntity, near: Near, (from, revision): (u64, u32), columns: Vec<String>, system: &System<D>) -> Self {
         let contacts = system.contacts.iter().map(|contact| (contact.kind.name(), contact.name.clone())).collect();
         let trace = Trace { columns, contacts, near: near.shown.clone(), begin: (system.step, system.ledger.drift()), ..Trace::default() };
-        Self { failure_entity, near, from, total: balance(system), trace, of: PhantomData }
+        Self { failure_entity, near, from, revision, total: balance(system), trace, of: PhantomData }
     }
 }
 
@@ -137,6 +139,10 @@ where
 {
     fn note(&mut self, system: &System<D>, recorded: &Recorded<D>, error: Option<&Error>) {
         let is_closed = error.is_none_or(Error::is_of_complete_step);
+        if system.mesh.revision != self.revision {
+            self.total = balance(system);
+            return;
+        }
         if is_closed {
             let total = balance(system);
             let size = (total - self.total).abs() / system.ledger.largest;
@@ -238,7 +244,8 @@ where
     /// after every step from number `from` on.
     pub(crate) fn follow(&mut self, failure_entity: &FailureEntity, at_failure: &Self, from: u64) {
         let near = at_failure.system.near(failure_entity);
-        self.tracer = Some(Box::new(Tracer::new(*failure_entity, near, from, self.history_columns(), &self.system)));
+        let kept = (from, at_failure.system.mesh.revision);
+        self.tracer = Some(Box::new(Tracer::new(*failure_entity, near, kept, self.history_columns(), &self.system)));
     }
 
     /// What was seen since [`crate::simulation::Simulation::follow`]; looks no more.
@@ -249,7 +256,8 @@ where
 
     /// The state of a failure alone.
     pub(crate) fn trace_now(&self, failure_entity: &FailureEntity, error: Option<&Error>) -> Trace {
-        let mut tracer = Tracer::new(*failure_entity, self.system.near(failure_entity), 0, self.history_columns(), &self.system);
+        let (near, kept) = (self.system.near(failure_entity), (0, self.system.mesh.revision));
+        let mut tracer = Tracer::new(*failure_entity, near, kept, self.history_columns(), &self.system);
         tracer.note(&self.system, &self.recorded, error);
         Trace { jump: None, ..tracer.trace }
     }

@@ -203,6 +203,7 @@ where
         kinds: Vec::with_capacity(elements),
         parts: Vec::with_capacity(elements),
         part_names: Vec::new(),
+        revision: system.mesh.revision,
     };
     cells.offsets.push(0);
     for (index, part) in system.mesh.parts.iter().enumerate() {

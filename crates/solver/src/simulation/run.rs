@@ -5,6 +5,7 @@ use super::contact_pairs;
 use super::memory::Memory;
 use super::output_cursor::OutputCursor;
 use super::parts::KnownParts;
+use super::remesh::Remesher;
 use super::{Control, Observer, ObserverError, Options, Overview, Progress, Runs, State, TimeStepCosts, few, time_step_costs, tiny};
 use crate::build;
 use crate::channel::{self, Channels};
@@ -72,6 +73,8 @@ where
     /// Search of each contact by name.
     pub(super) search_names: BTreeMap<String, String>,
     pub(super) pool: Option<rayon::ThreadPool>,
+    /// Makes elements again, where the model wants it.
+    pub(super) remesher: Option<Remesher>,
 }
 
 /// Steps between two calls of [`Observer::progress`].
@@ -134,6 +137,7 @@ where
             tracer: None,
             search_names: model.contacts.iter().map(|contact| (contact.name.clone(), search_name(contact))).collect(),
             pool,
+            remesher: Remesher::new(model, &system.mesh),
             system,
         };
         within_pool(simulation.pool.as_ref(), &mut simulation.system, System::start)?;
@@ -177,6 +181,9 @@ where
     /// Nodes behind an obstacle at the start are faults.
     fn check_obstacles(&self, model: &Model) -> Result<(), Error> {
         let system = &self.system;
+        if !system.mesh.remeshed.is_empty() {
+            return Ok(());
+        }
         let tolerance = crate::mesh::tolerance(&system.positions);
         let mut faults = Vec::new();
         for contact in &system.contacts {
@@ -248,10 +255,28 @@ where
     /// Steps as [`Run::advance`] does; `pauses`: at most to the end of the stage.
     fn continue_run(&mut self, time: f64, steps: u64, pauses: bool) -> Result<(), Error> {
         let last = self.system.step.saturating_add(steps).min(self.max_steps);
-        let Self { shortest, tracer, recorded, hashing, .. } = self;
+        loop {
+            self.take_steps(time, last, pauses)?;
+            let is_over = self.system.time >= time.min(self.system.limits.end) || self.system.step >= last;
+            if is_over || !self.is_remeshing_due() {
+                return Ok(());
+            }
+            self.remesh()?;
+        }
+    }
+
+    /// Steps to a time, to the step `last`, or until elements are to be looked at.
+    fn take_steps(&mut self, time: f64, last: u64, pauses: bool) -> Result<(), Error> {
+        let Self { shortest, tracer, recorded, hashing, remesher, .. } = self;
+        let remesher = remesher.as_ref();
         let mut tracer = tracer.as_mut();
         within_pool(self.pool.as_ref(), &mut self.system, |system| {
-            while system.time < time && system.time < system.limits.end && system.step < last {
+            // Before the step that follows, so that what is reported of this one is of the old elements.
+            while system.time < time
+                && system.time < system.limits.end
+                && system.step < last
+                && !remesher.is_some_and(|own| own.is_due(system.step))
+            {
                 let stepped = system.step();
                 if stepped.as_ref().err().is_none_or(Error::is_of_complete_step) {
                     recorded.note(system);

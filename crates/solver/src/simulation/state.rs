@@ -29,7 +29,7 @@ where
         #[rustfmt::skip]
         let Self {
             threads: _, model_warnings: _, warnings: _, history: _, fields: _, max_steps: _, state_steps: _, hash_steps: _, hashing: _, search_names: _, pool: _,
-            known_cells: _, memory: _, tracer: _, known_parts: _, contact_lines: _,
+            known_cells: _, memory: _, tracer: _, remesher: _, known_parts: _, contact_lines: _,
             system, recorded, momentum, shortest, monitor, output_cursor, is_steered,
         } = self;
         archive.section("run")?;
@@ -85,7 +85,15 @@ where
     /// Those of [`Run::new`]; [`Error::State`] where the state is of another model.
     pub(crate) fn resumed(model: &Model, options: &Options, sections: &[Section]) -> Result<Self, Error> {
         let (mesh, sections) = Mesh::of_state(sections)?;
+        let is_meshed_again = mesh.as_ref().is_some_and(|mesh| !mesh.remeshed.is_empty());
         let mut run = Self::on(model, mesh, options)?;
+        if is_meshed_again {
+            // What is said of a model is said of its own mesh, and momenta change from those of its own
+            // start.
+            let start = Self::on(model, None, options)?;
+            (run.model_warnings, run.warnings, run.momentum) = (start.model_warnings, start.warnings, start.momentum);
+            run.system.initial_penetrations = start.system.initial_penetrations;
+        }
         let mut archive = Archive::of(sections);
         run.persist(&mut archive)?;
         archive.finish()?;

@@ -26,6 +26,7 @@ where
     fn warnings(&self) -> Vec<Notice> {
         let mut warnings: Vec<Notice> = self.model_warnings.iter().map(Notice::from).chain(self.warnings.iter().cloned()).collect();
         warnings.extend(self.monitor.notices(&self.system));
+        warnings.extend(self.remeshing_notices());
         let mut report = |kind, text: String| warnings.push(Notice::new(kind, text));
         for contact in &self.system.contacts {
             let Some(ties) = contact.ties() else { continue };
@@ -178,6 +179,7 @@ where
             momentum_drift_angular: momentum.and_then(Momentum::angular),
             penetration_max: system.penetration_max,
             contact: self.certificate(),
+            remeshings: system.remap.as_ref().map_or(Vec::new(), |remap| remap.events.clone()),
             erosion: self.erosion(),
             forces: self.recorded.peaks(),
             mass_added: system.mass_added[0] + mass_in_run.map_or(0.0, |brought| brought.mass),

@@ -24,6 +24,8 @@ pub(super) const HOLD: f64 = 1.25;
 /// by e in 2,000 of them with 1.001, in 20,000 with 1.0001 (two soft blocks in a box: 5 % of drift in 32,000
 /// steps, and 0.8 % in 49,000). A constant step keeps the energy.
 const GROWTH: f64 = 1.0001;
+/// The same for a while after elements were made again, whose stable step is longer at once.
+const GROWTH_OF_FRESH: f64 = 1.02;
 
 /// How far something may go into another body within a step, in depths at which the springs of contact
 /// stiffen: an eighth of the local thickness. Springs are made before they close, but they yield while
@@ -115,7 +117,8 @@ where
                 (time_step.min(2.0 * old), Governor::Contact)
             } else {
                 let grows = turn == 0 && time_step > HOLD * old;
-                (if grows { GROWTH.powi(cycle as i32) * old } else { old }, Governor::Schedule)
+                let growth = if self.has_fresh_elements() { GROWTH_OF_FRESH } else { GROWTH };
+                (if grows { (growth.powi(cycle as i32) * old).min(time_step) } else { old }, Governor::Schedule)
             };
         }
         // The end is met exactly, by so many equal steps that none jumps, and at the end of a cycle.

@@ -83,13 +83,16 @@ where
             mass_added: _, mass_scaling: _, blocks: _, contacts: _, traces: _, positions: _, positions_old: _, velocities: _, velocities_old: _, contact_forces: _,
             springs: _, erosion: _, rotations: _, skins: _, bound_by: _, stages: _,
             limits: _,
-            bodies, curves, forces, cavities, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
+            bodies, curves, forces, cavities, remap, step, time, time_step_old, time_step, governor, reports, ledger, penetration_max, speed, travel, relaxation, nodal_bound, assembled_bound,
             subcycling, slots,
         } = self;
         persist_each!(archive; step, time, time_step_old, time_step, governor, penetration_max, speed, travel);
         persist_each!(archive; ledger, bodies, curves, &mut reports[..]);
         forces.persist_pushes(archive)?;
         cavities.persist(archive)?;
+        if let Some(remap) = remap {
+            remap.persist(archive)?;
+        }
         if let Some(bound) = nodal_bound {
             bound.persist(archive)?;
         }

@@ -72,7 +72,7 @@ fn one_file_and_one_line_add_a_law_and_a_field() {
     ];
 
     let mut wanted: Vec<PathBuf> = added.iter().map(|added| added.file.clone()).collect();
-    for from in ["crates/lanes", "crates/solver"].iter().flat_map(|crate_folder| files(&root.join(crate_folder))) {
+    for from in ["crates/lanes", "crates/remesh", "crates/solver"].iter().flat_map(|crate_folder| files(&root.join(crate_folder))) {
         let path = from.strip_prefix(&root).unwrap().to_path_buf();
         let mut contents = fs::read(&from).unwrap();
         if let Some(added) = added.iter().find(|added| path == Path::new(added.registry)) {
@@ -91,7 +91,11 @@ fn one_file_and_one_line_add_a_law_and_a_field() {
     }
     let workspace = fs::read_to_string(root.join("Cargo.toml")).unwrap();
     let members = workspace.lines().filter(|line| !line.starts_with("default-members")).map(|line| {
-        if line.starts_with("members") { "members = [\"crates/lanes\", \"crates/solver\"]\n".into() } else { format!("{line}\n") }
+        if line.starts_with("members") {
+            "members = [\"crates/lanes\", \"crates/remesh\", \"crates/solver\"]\n".into()
+        } else {
+            format!("{line}\n")
+        }
     });
     write(&copy.join("Cargo.toml"), members.collect::<String>().as_bytes());
     write(&copy.join("Cargo.lock"), &fs::read(root.join("Cargo.lock")).unwrap());

@@ -98,6 +98,7 @@ mod tapered;
 mod through;
 mod ties_beside_bodies;
 mod ties_in_3d;
+mod remeshing;
 mod reported_obstacles;
 mod triangles;
 mod trusses;

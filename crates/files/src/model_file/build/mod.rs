@@ -21,7 +21,8 @@ use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
 use embate_solver::model::{
     Cavity, Channel, Constraint, Curve, Cut, Drive, ImportedMesh, Join, Joint, Load, LoadTerms, Material, Model, NonReflecting, Obstacle,
-    ObstacleShape, Output, Part, Partners, Placement, PointMass, Probe, Run, Shape, Spring, Stage, Symmetry, TriangleSurface, Values, Weld,
+    ObstacleShape, Output, Part, Partners, Placement, PointMass, Probe, Remesh, Run, Shape, Spring, Stage, Symmetry, TriangleSurface,
+    Values, Weld,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -41,6 +42,7 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         title: document.top.text("title"),
         run: all(document, "run", Run::read).pop().unwrap_or_default(),
         stages: all(document, "stage", Stage::read),
+        remeshes: all(document, "remesh", Remesh::read),
         materials: named(document, "material", Material::read),
         parts,
         meshes: meshes.loaded.clone(),

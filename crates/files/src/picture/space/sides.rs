@@ -166,6 +166,7 @@ pub(in crate::picture) mod tests {
             kinds: vec![CellKind::Hexahedron, CellKind::Wedge, CellKind::Tetrahedron, CellKind::Tetrahedron],
             parts: vec![0; 4],
             part_names: vec!["a".into()],
+            revision: 0,
         };
         let sides = Sides::new(&cells);
         let pairs: Vec<(usize, usize)> =

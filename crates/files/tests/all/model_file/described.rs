@@ -37,9 +37,30 @@ struct Bad {
     says: &'static str,
 }
 
-/// The sound model, or for keys of a stage one that has stages in the place of its end.
+/// A sound model with a part that is meshed again: much may not stand beside it.
+const MESHED_AGAIN: &str = r#"
+[run]
+end = "1 ms"
+[material.steel]
+law = "elastic"
+density = "7800 kg/m^3"
+young = "200 GPa"
+poisson = 0.3
+[[part]]
+name = "block"
+material = "steel"
+rectangle = { corner = [0, 0], size = [1, 1], elements = [2, 2] }
+[[remesh]]
+part = "block"
+"#;
+
+/// The sound model; for keys of a stage one that has stages in the place of its end, for those of remeshing
+/// one of its own.
 fn sound_for(path: &str) -> String {
     let all = all_sections();
+    if path.starts_with("remesh") {
+        return MESHED_AGAIN.into();
+    }
     if !path.starts_with("stage") {
         return all;
     }

@@ -295,6 +295,21 @@ impl Formulation<2> for NodeObstacle {
         }
     }
 
+    fn carry(&mut self, old: &dyn Any, origins: &[Vec<(u32, f64)>]) {
+        let Some(old) = old.downcast_ref::<Self>() else { return };
+        self.has_begun = old.has_begun;
+        self.behind.inherit(&old.behind);
+        let place = |node: u32| old.nodes.binary_search_by_key(&node, |&(node, _)| node).ok();
+        for (((node, _), slip), memory) in self.nodes.iter().zip(&mut self.slips).zip(&mut self.memories) {
+            let near = || origins[*node as usize].iter().filter_map(|&(node, share)| Some((place(node)?, share)));
+            *slip = near().map(|(at, share)| share * old.slips[at]).sum();
+            // On which side it is, as the nearest of them.
+            if let Some((at, _)) = near().reduce(|most, own| if own.1 > most.1 { own } else { most }) {
+                *memory = ContactHistory { offset: near().map(|(at, share)| share * old.memories[at].offset).sum(), ..old.memories[at] };
+            }
+        }
+    }
+
     fn remember(&mut self, solved: Answers<'_, 2>) {
         for (&index, answer) in self.found.iter().zip(solved) {
             self.slips[index as usize] = answer.slid().slip_new[0];
@@ -351,6 +366,16 @@ impl Formulation<2> for Both {
         if let Ok(old) = old.downcast::<Self>() {
             for (part, old) in self.parts.iter_mut().zip(old.parts) {
                 part.inherit(old);
+            }
+        }
+        self.find();
+    }
+
+    fn carry(&mut self, old: &dyn Any, origins: &[Vec<(u32, f64)>]) {
+        if let Some(old) = old.downcast_ref::<Self>() {
+            for (part, old) in self.parts.iter_mut().zip(&old.parts) {
+                let old: &dyn Any = &**old;
+                part.carry(old, origins);
             }
         }
         self.find();

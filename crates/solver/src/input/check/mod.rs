@@ -16,6 +16,7 @@ mod motion;
 mod parts;
 mod plane;
 mod plausible;
+mod remesh;
 mod shells;
 mod space;
 mod stages;
@@ -75,6 +76,7 @@ impl Model {
         check.probes();
         check.cuts();
         check.channels();
+        check.remeshes();
         check.names_of_conditions();
         check.output();
         if self.dimension() == 2 {

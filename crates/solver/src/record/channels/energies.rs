@@ -31,6 +31,9 @@ where
     fn columns(&self, system: &System<D>) -> Vec<Column> {
         let mut columns: Vec<String> = ["time", "time_step"].map(String::from).to_vec();
         columns.extend(ENERGIES.iter().map(|name| format!("energy.{name}")));
+        if system.remap.is_some() {
+            columns.push("energy.remap".into());
+        }
         for part in &system.mesh.parts {
             columns.extend(["kinetic", "internal", "plastic"].iter().map(|name| format!("energy.{name}[{}]", part.name)));
         }
@@ -51,6 +54,7 @@ where
             external,
             stores.total() - external,
         ]);
+        row.extend(system.remap.as_ref().map(|_| stores.remap));
         let mut of_parts = vec![[0.0; 3]; system.mesh.parts.len()];
         for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
             let energies = [report.stored + report.dissipated, report.dissipated];

@@ -194,11 +194,11 @@ where
 {
     let part_of =
         |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
-    let place = |node: u32| format!("{} m", vector::place(system.positions[node as usize]));
+    let place = |node: u32| format!("{} m", vector::place(system.mesh.positions[node as usize]));
     match at {
         ProbeAt::Point { part, point } => {
             let distance = |node: &u32| {
-                let way = minus(system.positions[*node as usize], first(*point));
+                let way = minus(system.mesh.positions[*node as usize], first(*point));
                 dot(way, way).sqrt()
             };
             let nearest = part_of(part)?.with_faces().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });

@@ -111,6 +111,7 @@ function plotProbes(app: App, probes: Probes, plot: Plot, scalar: Scalar): void 
     const line = lines.find((one) => one.label === probes.name(place));
     if (line) line.dashed = session !== app.sessions[0];
   }
+  plot.says(places.map(({ place, session }) => probes.fault(session, place, scalar)).find((fault) => fault !== "") ?? "No values yet.");
   plot.set(scalar.label, times, lines);
 }
 

@@ -57,7 +57,7 @@ export class Plot {
   private readonly hasList: boolean;
 
   /** `remove`: a plot that the user added can be removed. */
-  constructor(private readonly app: App, private name: string, private readonly nothing = "Nothing to plot yet.", hasList = true, remove: (() => void) | null = null) {
+  constructor(private readonly app: App, private name: string, private nothing = "Nothing to plot yet.", hasList = true, remove: (() => void) | null = null) {
     this.hasList = hasList;
     this.list.hidden = !hasList;
     const file = h("input", { type: "file", accept: ".csv,.txt,.tsv,text/csv,text/plain", hidden: true, "aria-label": "File of measurements", onchange: () => {
@@ -71,6 +71,13 @@ export class Plot {
     new ResizeObserver(() => this.resize()).observe(this.holder);
     app.events.on(["view", "shown"], () => this.moveCursor());
     app.events.on("theme", () => this.rebuild());
+  }
+
+  /** What it says while there is nothing to plot. */
+  says(nothing: string): void {
+    if (this.nothing === nothing) return;
+    this.nothing = nothing;
+    if (this.empty.textContent !== "") setText(this.empty, nothing);
   }
 
   /** Plots lines over times that all of them share. Lines of one plot have one unit. */

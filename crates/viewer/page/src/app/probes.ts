@@ -62,8 +62,7 @@ export class Probes {
   /** Values over time; null until they are there. Asks for them. */
   over(session: Session, place: ProbePlace, scalar: Scalar | null): Probe | null {
     if (!scalar) return null;
-    const query = place.of === "node" && (scalar.location === "node" || isMean(this.app, place, scalar)) ? `node=${place.node}` : `cell=${place.cell}`;
-    const path = `api/runs/${session.index}/probe?scalar=${encodeURIComponent(scalar.key)}&${query}`;
+    const path = this.path(session, place, scalar);
     const known = this.known.get(path);
     const frames = session.run.frames.length;
     if (!this.asked.has(path) && (known === undefined || known.frames !== frames)) {
@@ -79,6 +78,16 @@ export class Probes {
       });
     }
     return known?.probe ?? null;
+  }
+
+  /** Why there are no values over time; empty where there are, or will be. */
+  fault(session: Session, place: ProbePlace, scalar: Scalar): string {
+    return this.known.get(this.path(session, place, scalar))?.fault ?? "";
+  }
+
+  private path(session: Session, place: ProbePlace, scalar: Scalar): string {
+    const query = place.of === "node" && (scalar.location === "node" || isMean(this.app, place, scalar)) ? `node=${place.node}` : `cell=${place.cell}`;
+    return `api/runs/${session.index}/probe?scalar=${encodeURIComponent(scalar.key)}&${query}`;
   }
 }
 

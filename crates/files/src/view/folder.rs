@@ -97,8 +97,7 @@ impl ResultView {
         let dimension = if appearance.dimension == 0 { reader.dimension(&cells) } else { appearance.dimension };
         let kinds = reader.kinds(dimension);
         cells.part_names = part_names(path, &appearance, &cells)?;
-        let displacement: Vec<_> = kinds.iter().copied().filter(|kind| kind.name == "displacement").collect();
-        let frame = reader.frame(dimension, &displacement)?;
+        let frame = displacements(&mut reader, dimension, &kinds)?;
         let bodies = Arc::new(Bodies::new(cells, &frame));
         Ok(Self {
             path: path.into(),
@@ -246,8 +245,7 @@ impl ResultView {
         }
         let mut cells = reader.cells()?;
         cells.part_names.clone_from(&self.bodies.cells.part_names);
-        let displacement: Vec<_> = self.kinds.iter().copied().filter(|kind| kind.name == "displacement").collect();
-        let frame = reader.frame(self.bodies.dimension, &displacement)?;
+        let frame = displacements(reader, self.bodies.dimension, &self.kinds)?;
         let bodies = Arc::new(self.bodies.with_cells(cells, &frame));
         Ok(others().entry(reader.revision).or_insert(bodies).clone())
     }
@@ -314,6 +312,12 @@ impl ResultView {
         self.ranges.lock().unwrap_or_else(PoisonError::into_inner).insert(key, (whole, frames.len()));
         Ok((whole, frames.len()))
     }
+}
+
+/// A frame with the displacements alone: what says where bodies were at the start.
+fn displacements(reader: &mut VtuReader, dimension: usize, kinds: &[&'static FieldKind]) -> Result<Frame, ResultsError> {
+    let own: Vec<_> = kinds.iter().copied().filter(|kind| kind.name == "displacement").collect();
+    reader.frame(dimension, &own)
 }
 
 /// The names of the parts, as far as anything reports them.

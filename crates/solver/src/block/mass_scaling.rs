@@ -19,15 +19,20 @@ where
 {
     /// Before the first [`super::Block::advance`] that counts.
     pub(super) fn scale_corner_masses(&mut self, element: usize, factor: f64) {
-        let (last, nodes) = (self.count - 1, self.facts().nodes);
-        // The lanes that fill the last batch are copies of the last element.
-        let lanes = if element == last { element..self.elements.len() * BATCH } else { element..element + 1 };
-        for (batch, lane) in lanes.map(|element| (element / BATCH, element % BATCH)) {
+        let nodes = self.facts().nodes;
+        for (batch, lane) in self.lanes_of(element) {
             for a in 0..nodes {
                 self.corner_mass[batch * nodes + a].0[lane] *= factor;
             }
             self.elements[batch].mass_least.0[lane] *= factor;
         }
+    }
+
+    /// Batch and lane of an element, and of its copies: those that fill the last batch are of the last
+    /// element.
+    pub(super) fn lanes_of(&self, element: usize) -> impl Iterator<Item = (usize, usize)> + use<D> {
+        let end = if element == self.count - 1 { self.elements.len() * BATCH } else { element + 1 };
+        (element..end).map(|lane| (lane / BATCH, lane % BATCH))
     }
 
     /// Batches of the chunks in which an element is too light, chunk by chunk.

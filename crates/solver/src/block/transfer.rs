@@ -91,9 +91,7 @@ where
     pub(super) fn scale_densities(&mut self, element: usize, factor: f64) {
         self.scale_corner_masses(element, factor);
         if self.resists() {
-            let last = self.count - 1;
-            let lanes = if element == last { element..self.elements.len() * BATCH } else { element..element + 1 };
-            lanes.for_each(|lane| self.resistance[lane / BATCH].mass.0[lane % BATCH] *= factor);
+            self.lanes_of(element).for_each(|(batch, lane)| self.resistance[batch].mass.0[lane] *= factor);
         }
     }
 }

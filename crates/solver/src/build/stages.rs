@@ -46,7 +46,8 @@ use crate::step::{CHUNK, Governor, NodalBound, System};
 use crate::tensor::Dim;
 use crate::vector::{minus, place, unit};
 use embate_lanes::{Level, Team};
-use std::mem::take;
+use std::borrow::Cow;
+use std::mem::{replace, take};
 
 /// The bodies as they are given.
 pub(super) struct Start<const D: usize>
@@ -169,10 +170,15 @@ where
         let cavities = self.cavities();
         self.check_moments(&elements.blocks);
         // Areas and lengths of parts that were made again are those of that time.
-        let references = self.mesh.references().into_owned();
-        let initial = std::mem::replace(&mut self.mesh.positions, references);
+        let references = match self.mesh.references() {
+            Cow::Owned(positions) => Some(positions),
+            Cow::Borrowed(_) => None,
+        };
+        let initial = references.map(|positions| replace(&mut self.mesh.positions, positions));
         let contacts = self.contacts_and_obstacles();
-        self.mesh.positions = initial;
+        if let Some(positions) = initial {
+            self.mesh.positions = positions;
+        }
         let contacts = self.sound(contacts)?;
         self.bodies.weigh(&elements.body_forces, &self.mass);
         let criteria = self.criteria();

@@ -90,6 +90,18 @@ where
     pub(crate) outline: Vec<(Piece<D>, Piece<D>)>,
 }
 
+impl<const D: usize> NewPart<D>
+where
+    Dim<D>: Meshed<D>,
+{
+    /// Its nodes along a curve of their own, and whether each is on an outline.
+    fn along_curve(&self) -> Vec<(u32, bool)> {
+        let mut is_outer = vec![false; self.places.len()];
+        self.outline.iter().flat_map(|(own, _)| own.corners().to_vec()).for_each(|node| is_outer[node as usize] = true);
+        order::along(&self.places).into_iter().map(|node| (node, is_outer[node as usize])).collect()
+    }
+}
+
 /// A piece of an outline.
 pub(crate) type Piece<const D: usize> = <Dim<D> as Meshed<D>>::Facet;
 
@@ -124,11 +136,11 @@ where
     /// The mesh with the elements of a part made again. Masses are not known yet; `limits` are those of
     /// [`Remeshed::limits`].
     pub(crate) fn with_new(&self, new: &NewPart<D>, limits: [f64; 2]) -> (Self, Renumbered) {
-        let is_gone = self.nodes_of_part_alone(new.part);
-        let numbers = self.renumbered(new, &is_gone);
+        let curve = new.along_curve();
+        let numbers = self.renumbered(new, &curve);
         let mut mesh = self.clone();
         mesh.revision += 1;
-        mesh.place_nodes(self, new, &numbers);
+        mesh.place_nodes(self, new, &curve, &numbers);
         mesh.name_pieces(new, &numbers);
         mesh.replace_elements(new, &numbers);
         mesh.remeshed.limits = limits;
@@ -162,20 +174,12 @@ where
         is_end
     }
 
-    /// Whether each node belongs to this part.
-    fn nodes_of_part_alone(&self, part: usize) -> Vec<bool> {
-        let mut is_own = vec![false; self.positions.len()];
-        self.parts[part].nodes.iter().for_each(|&node| is_own[node as usize] = true);
-        is_own
-    }
-
     /// Numbers: those on outlines first, the others in their order, the new ones along a curve of their own
     /// behind them.
-    fn renumbered(&self, new: &NewPart<D>, is_gone: &[bool]) -> Renumbered {
-        let mut is_outer = vec![false; new.places.len()];
-        new.outline.iter().flat_map(|(own, _)| own.corners().to_vec()).for_each(|node| is_outer[node as usize] = true);
+    fn renumbered(&self, new: &NewPart<D>, curve: &[(u32, bool)]) -> Renumbered {
+        let mut is_gone = vec![false; self.positions.len()];
+        self.parts[new.part].nodes.iter().for_each(|&node| is_gone[node as usize] = true);
         let flags: Vec<(usize, bool)> = self.along_curve().zip(self.outlines.iter().copied()).collect();
-        let curve = order::along(&new.places);
         let mut numbers = Renumbered { of_old: vec![GONE; is_gone.len()], of_new: vec![GONE; new.places.len()] };
         let mut next = 0;
         for wanted in [true, false] {
@@ -183,7 +187,7 @@ where
                 numbers.of_old[node] = next;
                 next += 1;
             }
-            for &node in curve.iter().filter(|&&node| is_outer[node as usize] == wanted) {
+            for &(node, _) in curve.iter().filter(|&&(_, outer)| outer == wanted) {
                 numbers.of_new[node as usize] = next;
                 next += 1;
             }
@@ -191,7 +195,7 @@ where
         numbers
     }
 
-    fn place_nodes(&mut self, old: &Self, new: &NewPart<D>, numbers: &Renumbered) {
+    fn place_nodes(&mut self, old: &Self, new: &NewPart<D>, curve: &[(u32, bool)], numbers: &Renumbered) {
         let count = numbers.of_old.iter().filter(|&&node| node != GONE).count();
         self.positions = vec![[0.0; D]; count + new.places.len()];
         self.user_nodes = vec![0; self.positions.len()];
@@ -212,11 +216,9 @@ where
             self.positions[node as usize] = place;
             self.user_nodes[node as usize] = count as u32 + local;
         }
-        let mut is_outer = vec![false; new.places.len()];
-        new.outline.iter().flat_map(|(own, _)| own.corners().to_vec()).for_each(|node| is_outer[node as usize] = true);
         let stays = old.along_curve().zip(&old.outlines).filter(|&(node, _)| numbers.of_old[node] != GONE);
         let kept: Vec<bool> = stays.map(|(_, &outer)| outer).collect();
-        self.outlines = kept.into_iter().chain(order::along(&new.places).iter().map(|&node| is_outer[node as usize])).collect();
+        self.outlines = kept.into_iter().chain(curve.iter().map(|&(_, outer)| outer)).collect();
         for part in &mut self.parts {
             part.nodes.iter_mut().for_each(|node| *node = numbers.of_old[*node as usize]);
         }

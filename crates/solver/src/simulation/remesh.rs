@@ -118,7 +118,7 @@ where
         let rule = &own.model.remeshes[index];
         let Some(part) = own.model.parts.iter().position(|part| part.name == rule.part) else { return Ok(()) };
         let Some((reason, quality)) = self.reason(rule, index, part) else { return Ok(()) };
-        let elements = [own.elements[part], rule.elements_most.map_or(own.elements[part] as u64 * MOST, |most| most) as usize];
+        let elements = [own.elements[part], rule.elements_most.unwrap_or(own.elements[part] as u64 * MOST) as usize];
         // Poor elements are exchanged for better ones; the others for any that are not poor.
         let wish = Wish { size: rule.size, elements, quality: quality.min(rule.quality) };
         match self.made_again(&own.model, part, &wish, (reason, quality))? {

@@ -193,7 +193,7 @@ where
         let before = old.time_step;
         self.take_course(&mut old)?;
         self.take_nodes(&old, state);
-        let reports = self.take_blocks(&mut old, state)?;
+        self.take_blocks(&mut old, state)?;
         self.take_contacts(&mut old, state);
         // What holds nodes leads the new ones.
         self.lead_held([self.time, self.time + self.time_step]);
@@ -205,7 +205,6 @@ where
         self.speed = self.speed.max(fastest.sqrt());
         let kinetic = kinetic_before - self.kinetic_half();
         let (stored, work) = self.pulled(state.part);
-        debug_assert!(reports > 0);
         self.ledger.transfer(-kinetic);
         if let Some(remap) = &mut self.remap {
             remap.energy += kinetic + (stored_before - stored) - (work_before - work) + 0.5 * (self.time_step - before) * power;
@@ -250,7 +249,7 @@ where
     }
 
     /// States of the elements: those of other parts as they are. Returns how many blocks are new.
-    fn take_blocks(&mut self, old: &mut Self, state: &NewState<'_, D>) -> Result<usize, ArchiveError> {
+    fn take_blocks(&mut self, old: &mut Self, state: &NewState<'_, D>) -> ArchiveResult {
         let sizes = [self.positions.len(), self.positions.len() + self.bodies.len()];
         let mut olds: Vec<usize> = (0..old.mesh.groups.len()).filter(|&group| old.mesh.groups[group].part != state.part).collect();
         olds.reverse();
@@ -258,7 +257,7 @@ where
         let mut before = Report::joined((0..old.mesh.groups.len()).filter(own).map(|index| old.reports[index]));
         // The sum of the works of all steps is not quite the energy of the stresses; the difference stays.
         before.stored -= (0..old.mesh.groups.len()).filter(own).map(|index| old.blocks[index].elastic_energy(&old.positions)).sum::<f64>();
-        let (mut first, mut made) = (0, 0);
+        let mut first = 0;
         for index in 0..self.blocks.len() {
             let slots = first..first + self.blocks[index].slots().len();
             first = slots.end;
@@ -268,7 +267,6 @@ where
                 let motion = Motion::new(&self.positions, &velocities, 0.0);
                 let pulls = NodalForces::new(&mut self.slots[slots]);
                 self.reports[index] = self.blocks[index].advance(&motion, self.level, pulls, &mut self.team);
-                made += 1;
                 continue;
             }
             let Some(from) = olds.pop() else { return Err(ArchiveError::new("there are other parts than before")) };
@@ -278,7 +276,7 @@ where
             let pulls = &old.slots[of_old..of_old + old.blocks[from].slots().len()];
             self.slots[slots].copy_from_slice(pulls);
         }
-        Ok(made)
+        Ok(())
     }
 
     /// What contacts have done, and what they know of nodes.

@@ -128,7 +128,8 @@ fn measure_of(positions: &[Point], cell: &Cell, measure: Measure) -> f64 {
     corners[1..].windows(2).map(triangle).sum()
 }
 
-/// Which components of the velocity of a node are prescribed; `None`: an oblique direction is.
+/// Which components of the velocity of a node are prescribed, each by itself: not those of an oblique
+/// direction.
 fn held_components(constraint: Option<&NodeConstraint<2>>) -> [bool; 2] {
     let Some(own) = constraint else { return [false; 2] };
     let (zero, x, y) = (own.apply([0.0; 2]), own.apply([1.0, 0.0]), own.apply([0.0, 1.0]));
@@ -148,7 +149,7 @@ impl Remeshes<2> for Dim<2> {
     fn quality(system: &System<2>, part: usize) -> f64 {
         let of = |cell: crate::mesh::cell::Cell<'_>| -> f64 {
             let nodes: Cell = std::array::from_fn(|k| k.min(cell.nodes.len() - 1) as u32);
-            let places: Vec<Point> = cell.nodes.iter().map(|&node| system.positions[node as usize]).collect();
+            let places = nodes.map(|k| system.positions[cell.nodes[k as usize] as usize]);
             mesher::quality(&places, &[nodes])
         };
         system.mesh.groups_of(part).flat_map(|group| group.cells()).map(of).fold(f64::INFINITY, f64::min)

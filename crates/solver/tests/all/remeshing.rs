@@ -209,4 +209,13 @@ fn what_can_not_be_meshed_again_yet_is_said_at_once() {
         .contains("contact between bodies")
     );
     assert!(reported(&|model| model.remeshes[0].quality = 1.5).contains("quality"));
+    // The part itself, and one beside it.
+    let failing = || Material { failure: [("plastic_strain".to_string(), 0.2)].into(), ..metal(1e9, 1e3, 1e7, 1e7) };
+    let found = reported(&|model| {
+        model.parts.push(Part { name: "other".into(), material: "torn".into(), ..model.parts[0].clone() });
+        model.materials.insert("torn".into(), failing());
+    });
+    assert!(found.contains("part[1].material") && found.contains("part `other` may fail") && !found.contains("`disk`"), "{found}");
+    let found = reported(&|model| model.materials.values_mut().for_each(|own| *own = failing()));
+    assert!(found.contains("part `disk` may fail"), "{found}");
 }

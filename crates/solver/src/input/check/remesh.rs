@@ -71,6 +71,12 @@ impl Check<'_> {
                 let message = format!("part `{}` is rigid, or of bars, shells or beams, and elements are made again", excerpt(&part.name));
                 self.fault(&NO_REMESHING, format!("part[{place}]"), message, "make rigid bodies obstacles; leave out the others");
             }
+            // Elements that have failed, and the energy that went with them, do not go over to the new mesh.
+            let fails = |part: &Part| model.materials.get(&part.material).is_some_and(|own| !own.failure.is_empty());
+            for (place, part) in model.parts.iter().enumerate().filter(|(_, part)| fails(part)) {
+                let message = format!("elements of part `{}` may fail, and elements are made again", excerpt(&part.name));
+                self.fault(&NO_REMESHING, format!("part[{place}].material"), message, "leave out `failure`, or `[[remesh]]`");
+            }
         }
     }
 
@@ -100,9 +106,6 @@ impl Check<'_> {
             let what =
                 if material.eos.is_empty() { format!("law `{}`", material.law) } else { format!("equation of state `{}`", material.eos) };
             fault(format!("the {what} of part `{name}` can't continue with means of what other points have"), HELP_LAWS);
-        }
-        if !material.failure.is_empty() {
-            fault(format!("elements of part `{name}` may fail"), "leave out `failure`, or `[[remesh]]`");
         }
     }
 }

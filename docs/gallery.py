@@ -22,19 +22,24 @@ IMAGES = ROOT / "docs" / "images"
 EXAMPLES = sorted(path.parent.name for path in (ROOT / "examples").glob("*/model.toml"))
 HASHES = ROOT / "crates" / "cli" / "tests" / "hashes.txt"
 LOOK = "What to look at"
-PICTURE_BYTES, FILM_BYTES, ALL_BYTES = 80_000, 300_000, 3_000_000
+PICTURE_BYTES, FILM_BYTES, ALL_BYTES = 80_000, 300_000, 3_600_000
 # Parts of the whole time that are shown.
 MOMENTS = (0.0, 1 / 3, 2 / 3, 1.0)
 MOMENTS_OF = {
     "billet": (0.0, 1.0),
     "circular-tube": (0.0, 0.3, 0.6, 1.0),
+    "closed-die": (0.0, 1.0),
+    "cup-extrusion": (0.0, 1.0),
     "pole-bumper": (0.0, 1.0),
     "crossing-pipes": (0.0, 1.0),
     "crossing-tubes": (0.0, 1.0),
     "cup-from-blank": (0.0, 1.0),
+    "cutting": (0.4, 1.0),
+    "deep-penetration": (0.2, 1.0),
     "squeezed-can": (0.0, 1.0),
     "ring-compression": (0.0, 1.0),
     "roll-over-frame": (0.35, 1.0),
+    "rubber-block": (0.0, 0.4, 0.7, 1.0),
     "rubber-disk": (0.0, 0.1, 0.2, 1.0),
     "taylor-bar-fast": (0.25, 1.0),
     "thin-plates": (0.0, 0.33, 0.52, 1.0),

@@ -1,4 +1,4 @@
-"""Executes the code blocks of pages: `book.py --embate PROGRAM [--python PYTHON] [--list] [PAGE...]`; without pages, all of the book.
+"""Executes the code blocks of pages: `book.py --embate PROGRAM [--python PYTHON] [--list] [--short] [PAGE...]`; without pages, all of the book.
 
 The blocks of a page are executed in their order, in a fresh folder that holds copies of `examples`, `verification`, `failures` and `docs`. What the first line of a block says:
 
@@ -29,6 +29,23 @@ ROOT = Path(__file__).resolve().parent.parent
 COPIED = ["examples", "verification", "failures", "docs"]
 # Their blocks are held by tests of their own: `messages`, `adding`; and each example is run, with its figures, by `examples`.
 ELSEWHERE = ["docs/messages.md", "docs/adding.md"]
+# Pages whose blocks take more than some four seconds of processor time, or which `.ci/run` executes by themselves, with numpy alone:
+# with `--short` only their models are checked.
+LONG = [
+    "README.md",
+    "crates/python/README.md",
+    "docs/diff.md",
+    "docs/guides/contact.md",
+    "docs/guides/ledger.md",
+    "docs/guides/quasi-static.md",
+    "docs/guides/remeshing.md",
+    "docs/guides/restart.md",
+    "docs/guides/speed.md",
+    "docs/paper.md",
+    "docs/python.md",
+    "docs/restart.md",
+    "docs/sweep.md",
+]
 SHOWN = {"text", "json", "csv", "bibtex", "html"}
 # What a piece of a model may lack: whole sections, keys, and what its names mean.
 INCOMPLETE = {"E0104", "E0107", "E0110", "E0116"}
@@ -72,8 +89,8 @@ def blocks(page: Path) -> list[Block]:
 class Page:
     """One page and the folder in which its blocks are executed."""
 
-    def __init__(self, path: Path, folder: Path, embate: Path, python: Path | None):
-        self.path, self.folder, self.embate, self.python = path, folder, embate, python
+    def __init__(self, path: Path, folder: Path, embate: Path, python: Path | None, runs: bool):
+        self.path, self.folder, self.embate, self.python, self.runs = path, folder, embate, python, runs
         self.printed: list[str] | None = None
         self.program = ""
         # Whether the last block of Python was left out, and its output with it.
@@ -104,6 +121,8 @@ class Page:
         if block.value("file") is not None:
             return self.write(block)
         match block.language:
+            case "sh" | "python" | "text" if not self.runs and (block.language != "text" or "output" in block.words):
+                return "not run"
             case "sh":
                 return self.shell(block)
             case "toml":
@@ -219,6 +238,7 @@ def main() -> None:
     parser.add_argument("--embate", type=Path, required=True)
     parser.add_argument("--python", type=Path, help="without it, blocks of Python are not run")
     parser.add_argument("--list", action="store_true", help="list what is not run, and why")
+    parser.add_argument("--short", action="store_true", help="of pages that take long, only the models are checked")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("pages", nargs="*", type=Path)
     arguments = parser.parse_args()
@@ -235,7 +255,8 @@ def main() -> None:
     def executed(path: Path) -> tuple[Path, dict[str, int], float, str]:
         begin = time.monotonic()
         with tempfile.TemporaryDirectory(prefix="book-") as folder:
-            page = Page(path, Path(folder), embate, python)
+            runs = not (arguments.short and str(path.relative_to(ROOT)) in LONG)
+            page = Page(path, Path(folder), embate, python, runs)
             try:
                 page.execute()
                 fault = ""

@@ -57,7 +57,7 @@ pub(crate) fn load(arguments: &ModelArguments) -> Result<Loaded, Failure> {
 /// Where a model came from, to find it again.
 pub(crate) fn origin(arguments: &ModelArguments) -> Origin {
     let path = std::path::absolute(&arguments.model).unwrap_or_else(|_| arguments.model.clone());
-    Origin { path, set: arguments.set.clone() }
+    Origin { path, set: arguments.set.clone(), ..Origin::default() }
 }
 
 /// Makes a model ready to step.

@@ -26,6 +26,7 @@ mod new;
 mod numbers;
 mod progress;
 mod recording;
+mod remesh;
 mod replay;
 mod report;
 mod resume;
@@ -60,6 +61,8 @@ enum Command {
     Resume(resume::Arguments),
     /// Go through a stretch of a run once more, with denser output
     Replay(replay::Arguments),
+    /// Continue a run with another mesh of a part: one of yours, or of Gmsh
+    Remesh(remesh::Arguments),
     /// Look at results in the browser, or at two runs side by side
     View(view::Arguments),
     /// Find the first step, part and node at which two runs diverge
@@ -159,6 +162,7 @@ fn obey(command: &Command) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(arguments),
         Command::Resume(arguments) => resume::resume(arguments),
         Command::Replay(arguments) => replay::replay(arguments),
+        Command::Remesh(arguments) => remesh::remesh(arguments),
         Command::View(arguments) => view::view(arguments),
         Command::Diff(arguments) => diff::diff(arguments),
         Command::Report(arguments) => report::report(arguments),

@@ -30,6 +30,16 @@ pub(crate) struct Arguments {
     /// Unit of the lengths in the mesh file
     #[arg(long, value_name = "UNIT", default_value = UNITS[0].name, value_parser = units())]
     unit: Unit,
+    #[command(flatten)]
+    gmsh: GmshArguments,
+    /// Replace a mesh that is there
+    #[arg(long)]
+    force: bool,
+}
+
+/// The program Gmsh, and how long it may take.
+#[derive(Args)]
+pub(crate) struct GmshArguments {
     /// The program Gmsh, a name that is looked for on PATH, or a path [default: EMBATE_GMSH of the
     /// environment, or gmsh]
     #[arg(long, value_name = "PROGRAM")]
@@ -37,9 +47,17 @@ pub(crate) struct Arguments {
     /// Longest time that Gmsh may take
     #[arg(long, value_name = "TIME", default_value = "10 min", value_parser = model_file::time)]
     timeout: f64,
-    /// Replace a mesh that is there
-    #[arg(long)]
-    force: bool,
+}
+
+impl GmshArguments {
+    pub(crate) fn program(&self) -> OsString {
+        let of_environment = || std::env::var_os("EMBATE_GMSH").filter(|name| !name.is_empty());
+        self.gmsh.clone().or_else(of_environment).unwrap_or_else(|| "gmsh".into())
+    }
+
+    pub(crate) fn limit(&self) -> Duration {
+        Duration::try_from_secs_f64(self.timeout).unwrap_or(Duration::MAX)
+    }
 }
 
 fn units() -> impl TypedValueParser<Value = Unit> {
@@ -53,14 +71,13 @@ pub(crate) fn mesh(arguments: &Arguments) -> Result<(), Failure> {
         let text = format!("{} exists; name another file with --out, or replace it with --force", out.display());
         return Err(Failure::Input(CliError::new(&EXISTS, text)));
     }
-    let program = arguments.gmsh.clone().or_else(|| std::env::var_os("EMBATE_GMSH").filter(|name| !name.is_empty()));
     let job = Job {
         geometry: arguments.geometry.clone(),
         size: arguments.size,
         unit: arguments.unit,
         order: arguments.order,
-        program: program.unwrap_or_else(|| "gmsh".into()),
-        limit: Duration::try_from_secs_f64(arguments.timeout).unwrap_or(Duration::MAX),
+        program: arguments.gmsh.program(),
+        limit: arguments.gmsh.limit(),
     };
     let made = job.mesh().map_err(|faults| Failure::Input(CliError::from(faults.as_slice())))?;
     results::write_whole(&out, &made.file).map_err(|error| Failure::Input(CliError::new(error.kind(), error)))?;

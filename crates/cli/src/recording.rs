@@ -253,6 +253,10 @@ fn closing_text(report: &Report, path: &Path) -> String {
         let text = format!("{} time(s), the last at {}: {} elements", report.remeshings.len(), with_unit(last.time, "s"), last.elements[1]);
         figures.push(vec!["elements made again".into(), text]);
     }
+    for flow in &report.flows {
+        let steady = flow.steady.map_or("not steady".into(), |time| format!("steady since {}", with_unit(time, "s")));
+        figures.push(vec!["flow".into(), format!("\"{}\" passed {:.2} time(s), {steady}", flow.part, flow.passages)]);
+    }
     figures.splice(1..1, report.stages.iter().map(|stage| stage.row(|time| with_unit(time, "s")).into()));
     let files: Vec<Vec<String>> = FILES
         .iter()

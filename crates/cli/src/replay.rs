@@ -80,7 +80,7 @@ pub(crate) fn replay(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Where the model of a run came from, and its newest checkpoint that is not after a time; without one the
 /// run begins again.
-fn nearest(path: &Path, time: f64, options: &Options, place: &Place) -> Result<(Origin, Option<Checkpoint>), Failure> {
+pub(crate) fn nearest(path: &Path, time: f64, options: &Options, place: &Place) -> Result<(Origin, Option<Checkpoint>), Failure> {
     let threads = Threads::new(options.thread_count());
     let mut origin = None;
     let mut limit = u64::MAX;
@@ -102,6 +102,16 @@ fn nearest(path: &Path, time: f64, options: &Options, place: &Place) -> Result<(
             }
         },
     };
+    if let Some(begun) = &origin.exchanged {
+        let text = format!(
+            "{} keeps no checkpoint from before that time, and began on another mesh of part `{}`, at step {}",
+            path.display(),
+            begun.part,
+            begun.step
+        );
+        let help = "take a later time, or `embate remesh` again, with `run.checkpoint = 0` so that its first state stays";
+        return Err(Failure::Input(CliError::new(&NO_CHECKPOINT, text).help(help)));
+    }
     let (loaded, _) = place.load(&origin, &[])?;
     refuse_changes(&Identity::of(&loaded.model).differences_in_steps(&identity), "limits, checkpoints and output may change")?;
     Ok((origin, None))

@@ -67,7 +67,7 @@ impl Place {
             let help = "write it by `model.save(...)` of Python, with the files that it names beside it, and name it with --model";
             return Err(Failure::Input(CliError::new(&NO_CHECKPOINT, text).help(help)));
         }
-        let origin = Origin { path, set: origin.set.iter().chain(set).cloned().collect() };
+        let origin = Origin { path, set: origin.set.iter().chain(set).cloned().collect(), ..origin.clone() };
         let loaded = input::load(&ModelArguments { model: origin.path.clone(), set: origin.set.clone(), leave: self.leave })?;
         Ok((loaded, origin))
     }

@@ -43,7 +43,7 @@ impl Model {
         };
         let loaded = py.detach(|| guarded(read))?;
         let path = std::path::absolute(&path).unwrap_or(path);
-        let origin = is_of_file.then_some(Origin { path, set });
+        let origin = is_of_file.then_some(Origin { path, set, ..Origin::default() });
         Ok(Self { loaded: Arc::new(loaded), origin })
     }
 

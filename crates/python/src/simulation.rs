@@ -320,7 +320,7 @@ impl Simulation {
                 (Some(origin), _) => origin,
                 (None, Some((text, meshes, set))) if loaded.names_only(&meshes) => {
                     let path = folder.keep_model(&model.name, &text, &meshes).map_err(|error| fault::of_results(&error))?;
-                    Origin { path, set }
+                    Origin { path, set, ..Origin::default() }
                 }
                 (None, _) => Origin::default(),
             };

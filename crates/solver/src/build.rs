@@ -2,6 +2,7 @@
 //! conditions. All faults are collected before anything runs.
 
 mod rebuild;
+pub(crate) mod remeshing;
 mod bodies;
 mod connections;
 mod contacts;
@@ -119,6 +120,7 @@ where
     warnings.extend(normals::warnings(builder.model, &builder.mesh));
     warnings.extend(locking::warnings(builder.model, &builder.mesh));
     warnings.extend(hinges::warnings(builder.model, &builder.mesh, &builder.joins));
+    builder.faults.extend(remeshing::faults(builder.model, &builder.mesh));
     // What is wrong at the start and what is wrong with conditions has nothing to do with each other.
     let start = builder.start();
     let conditions = builder.elements(level).and_then(|elements| Ok((builder.conditions(&elements)?, elements)));

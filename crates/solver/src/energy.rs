@@ -15,7 +15,20 @@ use crate::reductions;
 
 persist_all!(Works { internal, contact, gravity, load, damping, constraint, drive, remap });
 persist_all!(Lost { friction, damping, old, freed, lost_contact_energy });
-persist_all!(Stores { kinetic, elastic, plastic, hourglass, bulk_viscosity, contact, friction, contact_damping, damping, eroded, remap });
+persist_all!(Stores {
+    kinetic,
+    elastic,
+    plastic,
+    hourglass,
+    bulk_viscosity,
+    contact,
+    friction,
+    contact_damping,
+    damping,
+    eroded,
+    remap,
+    flow
+});
 persist_all!(Ledger { kinetic_start, total_start, works, external, halves, stores, largest, residual, drift });
 
 /// Works of one step by kind of force, J/m; each is force times mean velocity times ½(dt + dt_old).
@@ -193,6 +206,9 @@ pub struct Stores {
     pub eroded: f64,
     /// Kinetic and elastic energy, and that of contact springs, that went when elements were made again.
     pub remap: f64,
+    /// Kinetic and elastic energy of material that has left through the end of a flow, less that of what has
+    /// come in.
+    pub flow: f64,
 }
 
 impl Stores {
@@ -210,6 +226,7 @@ impl Stores {
             + self.damping
             + self.eroded
             + self.remap
+            + self.flow
     }
 }
 

@@ -31,6 +31,9 @@ pub(crate) static MESSAGES: &[&Message] = &[
     &REMESH_ENERGY,
     &NOT_REMESHED,
     &REMESH_LOSS,
+    &STUCK,
+    &NO_EXCHANGE,
+    &FLOW_STATE,
 ];
 
 static INVERTED: Message = Message {
@@ -256,7 +259,7 @@ pub(crate) static NOT_REMESHED: Message = Message {
     title: "elements that could not be made again",
     example: Example::Words("A part is squeezed to a film that no quadrilaterals of the wanted quality fit in."),
     cause: "No better mesh was found inside the outline, or the state did not go over to it; the run continued with the old elements.",
-    remedy: "Take another `size`, allow more elements (`elements_most`), or make them again earlier (`quality` nearer to 1).",
+    remedy: "Take another `size`, allow more elements (`elements_most`), or make them again earlier (`quality` nearer to 1). Where only nodes are moved (`[[relocate]]`), what helps is another mesh at the start or, in 2D, `[[remesh]]`.",
 };
 
 pub(crate) static REMESH_LOSS: Message = Message {
@@ -265,6 +268,38 @@ pub(crate) static REMESH_LOSS: Message = Message {
     example: Example::Words("A run with many events of `[[remesh]]`, whose losses sum up to more than a hundredth of its energy."),
     cause: "Each transfer of the state to new elements loses some of the kinetic and elastic energy; the history has the sum as `energy.remap`.",
     remedy: "Take a finer `size`, or make elements again less often.",
+};
+
+static STUCK: Message = Message {
+    code: "E0612",
+    title: "nodes of a flow that can't go back to their places",
+    example: Example::Model("[run]\nend = \"1 ms\"\n\n[[flow]]\npart = \"block\"\ndirection = [1, 1]\n"),
+    cause: "Nodes of a part with `[[flow]]` go with the material and back along the flow. That needs one inlet, one outlet and a surface on \
+        either side of it that does not overhang, and at both ends a flow along `direction`.",
+    remedy: "Look at the part in the frame before this time. Take a longer part, so that its ends lie where the flow is uniform, or a later \
+        `begin`; for what folds or turns back take `[[remesh]]`.",
+};
+
+pub(crate) static NO_EXCHANGE: Message = Message {
+    code: "E0613",
+    title: "a mesh that a state can't go over to",
+    example: Example::Shell(
+        "embate run model.toml --out run --quiet\ncat > other.msh <<'END'\n$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n\
+         2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\nEND\n\
+         embate remesh run --part block --mesh other.msh --at '5 us'\n",
+    ),
+    cause: "`embate remesh` continues a run with a mesh of a part that the user has made. That must be a mesh of the part in its present \
+        form and place, in the unit of --scale, of elements that the state can go over to.",
+    remedy: "Mesh the outline that `embate remesh DIR --part PART --outline FILE` writes. Where elements are inverted or nearly so, take an \
+        earlier time with --at.",
+};
+
+pub(crate) static FLOW_STATE: Message = Message {
+    code: "W0619",
+    title: "how steady a flow is",
+    example: Example::Model("[[flow]]\npart = \"block\"\n"),
+    cause: "A part with `[[flow]]` shows the steady process only when its material, and what that remembers, has passed it.",
+    remedy: "Where the state is not steady yet, take a later `end`, with `stop = true` in `[[flow]]` so that no time is lost.",
 };
 
 /// One fault of a model: where in the input, what is wrong, and what to do.
@@ -417,6 +452,18 @@ pub enum Error {
         #[doc = "Step number."]
         step: u64,
     },
+    /// Nodes of a flow can't go back to their places.
+    #[error("nodes of part \"{part}\" can't go back along its flow at time {time:.6e} s, step {step}: {reason}; look at the frame before")]
+    Stuck {
+        #[doc = "Part name."]
+        part: String,
+        #[doc = "Why."]
+        reason: String,
+        #[doc = "Time, s."]
+        time: f64,
+        #[doc = "Step number."]
+        step: u64,
+    },
     /// Making elements again lost too much energy.
     #[error(
         "making elements of part \"{part}\" again has lost {:.2} % of the largest total energy, more than the limit of {:.2} %, at time {time:.6e} s, \
@@ -522,6 +569,7 @@ impl Error {
             Self::Collapsed { .. } => Some(&COLLAPSED),
             Self::EnergyDrift { .. } => Some(&ENERGY_DRIFT),
             Self::RemeshLoss { .. } => Some(&REMESH_ENERGY),
+            Self::Stuck { .. } => Some(&STUCK),
             Self::NotFinite { .. } => Some(&NOT_FINITE),
             Self::TooDeep { .. } => Some(&TOO_DEEP),
             Self::Runaway { .. } => Some(&RUNAWAY),

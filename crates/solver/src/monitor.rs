@@ -301,6 +301,8 @@ impl RunMonitor {
         Dim<D>: Dimension<D>,
     {
         let mut found: BTreeMap<(&'static str, usize), (&'static Message, usize, String)> = BTreeMap::new();
+        // Of elements that were made again, as they were then.
+        let begun = system.mesh.references();
         for (index, (group, block)) in system.mesh.groups.iter().zip(&system.blocks).enumerate() {
             if system.rigid[index] {
                 continue;
@@ -315,7 +317,7 @@ impl RunMonitor {
             let end = self.ends[index];
             for (element, cell) in group.cells().enumerate().filter(|(element, _)| group.is_alive(*element)) {
                 let now = <Dim<D>>::shape_quality(cell, &system.positions);
-                if !self.fails[index] && now < SHAPE_LEAST && now < SHAPE_LOST * <Dim<D>>::shape_quality(cell, &system.mesh.positions) {
+                if !self.fails[index] && now < SHAPE_LEAST && now < SHAPE_LOST * <Dim<D>>::shape_quality(cell, &begun) {
                     note(&NEEDLES, element, format!("a shape of {now:.3}"));
                 }
                 if let Some(end) = end {

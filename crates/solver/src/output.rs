@@ -8,6 +8,7 @@ pub use crate::field::kind::{FIELDS, FIELDS_IN_SPACE, FieldKind, Location, Needs
 pub use crate::mesh::cell::CellKind;
 pub use crate::outline::Outline;
 pub use crate::step::erosion::Eroded;
+pub use crate::step::flow::Flow;
 pub use crate::step::remap::Remeshing;
 pub use crate::step::stages::StageRun;
 use std::borrow::Cow;
@@ -279,6 +280,8 @@ pub struct Summary {
     pub element_evaluations: Option<u64>,
     /// Each time that elements of a part were made again.
     pub remeshings: Vec<Remeshing>,
+    /// Parts that material flows through.
+    pub flows: Vec<Flow>,
     /// What erosion has done; `None`: no element was eroded.
     pub erosion: Option<Erosion>,
     /// Largest forces of the history's rows, in the order of its columns.

@@ -28,8 +28,8 @@ use crate::error::{Error, Fault, Notice, Warning};
 use crate::field::NodeFields;
 use crate::hashes::Hashes;
 use crate::mesh::PlacedMesh;
-use crate::model::Model;
-use crate::output::{Cells, Field, Frame, Shown, Summary};
+use crate::model::{ImportedMesh, Model};
+use crate::output::{Cells, Field, Frame, Remeshing, Shown, Summary};
 use embate_lanes::Level;
 use remesh::Remeshes;
 use run::Run;
@@ -404,6 +404,17 @@ impl Simulation {
     /// As [`Simulation::run`].
     pub fn run_until(&mut self, time: f64, steps: u64, observer: &mut dyn Observer) -> Result<(), Error> {
         either!(mut self, run => run.run(time, steps, observer))
+    }
+
+    /// The run continues with a mesh of the caller's for a part: the elements of its `group`, or of its only
+    /// group, or of that of the part's name, in the form and place that the part has now, m. Stresses, what
+    /// laws remember and velocities go over to it as with `[[remesh]]`; the element of each kind of cell is
+    /// that of the part. `model`: the one it was made from. What is reported afterwards begins again.
+    ///
+    /// # Errors
+    /// [`Error::Model`] with the reasons; the run stands where it stood.
+    pub fn exchange(&mut self, model: &Model, part: &str, mesh: ImportedMesh, group: Option<&str>) -> Result<Remeshing, Error> {
+        either!(mut self, run => run.exchange(model, part, mesh, group))
     }
 
     /// Nodes of a part, of a side of it or of a group, by their numbers in frames, ascending; `None` where

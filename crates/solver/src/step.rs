@@ -5,6 +5,7 @@
 //! are joined in chunk order: the same bits for any number of threads.
 
 pub(crate) mod erosion;
+pub(crate) mod flow;
 pub(crate) mod free;
 mod assembled_bound;
 mod assembled_stiffness;
@@ -19,6 +20,7 @@ pub(crate) mod remap;
 pub(crate) mod stages;
 pub(crate) mod rotations;
 pub(crate) mod subcycling;
+mod surface_springs;
 
 use crate::assembly::Assembly;
 use crate::block::spring::together;
@@ -429,11 +431,12 @@ where
             self.penetration_max = self.penetration_max.max(contact.depth());
         }
         self.hand_contact_forces_on();
+        let stored = || reductions::sum(self.contacts.iter().map(|contact| contact.stored_before(&self.springs)));
         if let Some(erosion) = &mut self.erosion {
-            erosion.close_springs(|| reductions::sum(self.contacts.iter().map(|contact| contact.stored_before(&self.springs))));
+            erosion.energy += erosion.springs.close(stored);
         }
         if let Some(remap) = &mut self.remap {
-            remap.close_springs(|| reductions::sum(self.contacts.iter().map(|contact| contact.stored_before(&self.springs))));
+            remap.energy += remap.springs.close(stored);
         }
     }
 
@@ -484,6 +487,7 @@ where
             contact: springs,
             eroded: self.erosion.as_ref().map_or(0.0, |erosion| erosion.energy),
             remap: self.remap.as_ref().map_or(0.0, |remap| remap.energy),
+            flow: self.remap.as_ref().map_or(0.0, |remap| remap.flowed),
             ..Stores::default()
         };
         if !(sum.kinetic_half.is_finite() && stores.total().is_finite()) {

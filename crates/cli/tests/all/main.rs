@@ -19,6 +19,7 @@ mod messages;
 mod outside;
 mod packaging;
 mod post_mortem;
+mod remesh;
 mod report;
 mod restart;
 mod sweep;

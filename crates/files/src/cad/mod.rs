@@ -1,16 +1,20 @@
 //! Meshes of CAD files by the user's own Gmsh: STEP, IGES and BREP files become .msh files with a physical
 //! group for each volume and each of its faces.
 //!
-//! `script.rs` writes what Gmsh is to do and reads which volumes and faces it found; `program.rs` runs the
-//! program, in a folder of its own and with a time limit; `names.rs` names the groups, in the file too;
-//! `describe.rs` says what was made. Nothing of the user's is text of the script: the CAD file is copied
-//! under a name that is always the same, so that no path or name of a body can be taken for a command.
+//! `filling.rs` has Gmsh fill an outline of triangles, that of a part in a run. `script.rs` writes what Gmsh
+//! is to do and reads which volumes and faces it found; `program.rs` runs the program, in a folder of its own
+//! and with a time limit; `names.rs` names the groups, in the file too; `describe.rs` says what was made.
+//! Nothing of the user's is text of the script: the CAD file is copied under a name that is always the same,
+//! so that no path or name of a body can be taken for a command.
 
 mod describe;
+mod filling;
 pub(crate) mod messages;
 mod names;
 mod program;
 mod script;
+
+pub use filling::Filling;
 
 use crate::{gmsh, plain};
 use embate_solver::error::Fault;

@@ -34,6 +34,8 @@ const NAMES: &[(&str, &str)] = &[
     ("parts[", "part["),
     ("stages[", "stage["),
     ("remeshes[", "remesh["),
+    ("relocations[", "relocate["),
+    ("flows[", "flow["),
     ("load_terms[", "load["),
     ("contacts[", "contact["),
     ("obstacles[", "obstacle["),

@@ -97,6 +97,22 @@ pub struct Origin {
     pub path: PathBuf,
     /// Keys that were overridden.
     pub set: Vec<String>,
+    /// Where the run began, if that is not the start of the model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exchanged: Option<Exchanged>,
+}
+
+/// A part of another run that went over to a mesh of the user's, with which this run began.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Exchanged {
+    /// Result folder of the other run; absolute.
+    pub run: PathBuf,
+    /// After which step.
+    pub step: u64,
+    /// The part.
+    pub part: String,
+    /// File of the mesh; absolute.
+    pub mesh: PathBuf,
 }
 
 /// What stands at the head of the file, besides its blocks.

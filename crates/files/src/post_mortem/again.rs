@@ -150,11 +150,13 @@ impl Failed<'_> {
             }
             memory.map(|state| From::State(Arc::new(state.clone()), "kept in memory"))
         };
-        let is_short = self.simulation.elements() as u64 * step <= SHORT;
+        // From its start a run comes here only if nothing but its model led it.
+        let has_start = !self.simulation.summary().remeshings.iter().any(|event| event.reason == "mesh");
+        let is_short = self.simulation.elements() as u64 * step <= SHORT && has_start;
         newest_before(early)
             .or_else(|| is_short.then_some(From::Start))
             .or_else(|| newest_before(step.saturating_sub(1)))
-            .or_else(|| self.keeps_last_good.then_some(From::Start))
+            .or_else(|| (self.keeps_last_good && has_start).then_some(From::Start))
     }
 
     fn pass(

@@ -155,6 +155,7 @@ pub(super) fn figures(left: &Left) -> String {
     );
     add("mass added for longer steps", si("/mass_added", mass));
     add("elements made again", remeshed(summary));
+    add("flow", flows(summary));
     add("eroded elements", eroded(summary));
     add("mass of loose nodes", si("/erosion/mass_loose", mass));
     add("wall time", si("/wall_seconds", "s"));
@@ -174,6 +175,17 @@ fn remeshed(summary: &Value) -> Option<String> {
     let last = events.last()?;
     let time = shown(last.get("time")?.as_f64()?, "s");
     Some(format!("{} time(s), the last at {time}: {} elements", events.len(), last.pointer("/elements/1")?))
+}
+
+/// How far material has flowed through which parts, and since when this is steady.
+fn flows(summary: &Value) -> Option<String> {
+    let of = |flow: &Value| {
+        let steady =
+            flow.get("steady").and_then(Value::as_f64).map_or("not steady".into(), |time| format!("steady since {}", shown(time, "s")));
+        Some(format!("part \"{}\" passed {:.2} time(s), {steady}", flow.get("part")?.as_str()?, flow.get("passages")?.as_f64()?))
+    };
+    let all: Vec<String> = summary.get("flows")?.as_array()?.iter().filter_map(of).collect();
+    (!all.is_empty()).then(|| all.join("; "))
 }
 
 /// How the report was made.

@@ -5,7 +5,7 @@
 //! `run`.
 
 use super::{Checkpoints, ResultsError, write_whole};
-use crate::checkpoint::{Identity, Origin};
+use crate::checkpoint::{Exchanged, Identity, Origin};
 use crate::{plain, program};
 use embate_solver::model::{Camera, Model};
 use embate_solver::simulation::PartMeshed;
@@ -29,6 +29,9 @@ pub struct Provenance {
     model: String,
     /// Keys that were overridden.
     set: Vec<String>,
+    /// Where the run began, if that is not the start of the model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    exchanged: Option<Exchanged>,
     /// What the model was.
     pub keys: Identity,
     /// How it is shown; earlier versions did not write it.
@@ -141,6 +144,7 @@ impl Provenance {
             commit: program::commit().map(Into::into),
             model: path,
             set: origin.set.clone(),
+            exchanged: origin.exchanged.clone(),
             keys,
             appearance: Appearance::of(model),
             written: checkpoints.written.clone(),
@@ -164,6 +168,10 @@ impl Provenance {
     /// The command by which it is run again; none of a model that came from no file.
     #[must_use]
     pub fn command(&self) -> Option<String> {
+        if let Some(Exchanged { run, part, mesh, .. }) = &self.exchanged {
+            let [run, part, mesh] = [&run.to_string_lossy(), part.as_str(), &mesh.to_string_lossy()].map(quoted);
+            return Some(format!("embate remesh {run} --part {part} --mesh {mesh}"));
+        }
         let set: String = self.set.iter().map(|set| format!(" --set {}", quoted(set))).collect();
         (!self.model.is_empty()).then(|| format!("embate run {}{set}", quoted(&self.model)))
     }
@@ -171,7 +179,7 @@ impl Provenance {
     /// Where the model came from.
     #[must_use]
     pub fn origin(&self) -> Origin {
-        Origin { path: self.model.clone().into(), set: self.set.clone() }
+        Origin { path: self.model.clone().into(), set: self.set.clone(), exchanged: self.exchanged.clone() }
     }
 }
 

@@ -164,6 +164,25 @@ impl<'a> Recorder<'a> {
         Ok(Self { before: Some(past.reported.spent), channels, ..recorder })
     }
 
+    /// Keeps a state of the run: that from which it begins, where the model alone does not lead there.
+    ///
+    /// # Errors
+    /// [`ResultsError`] when something before it could not be written.
+    pub fn keep(&mut self, state: State) -> Result<(), ResultsError> {
+        let user_cpu = self.keeping.as_ref().and_then(|keeping| keeping.user_cpu_seconds?());
+        let spent = self.spent(user_cpu);
+        if let Some(keeping) = &mut self.keeping {
+            keeping.clock.take();
+            let is_wanted = std::mem::replace(&mut keeping.is_wanted, true);
+            let job = Job { state: Some(Kept { state: Arc::new(state), spent, is_wanted }), ..self.job() };
+            self.writer_channel.give(job);
+        }
+        if let Some(keeping) = &mut self.keeping {
+            keeping.clock.restart();
+        }
+        self.writer_channel.fault()
+    }
+
     fn of(
         writer: Writer,
         (model, part_names): (&Model, Vec<String>),
@@ -306,18 +325,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn state(&mut self, state: State) -> Result<(), ObserverError> {
-        let user_cpu = self.keeping.as_ref().and_then(|keeping| keeping.user_cpu_seconds?());
-        let spent = self.spent(user_cpu);
-        if let Some(keeping) = &mut self.keeping {
-            keeping.clock.take();
-            let is_wanted = std::mem::replace(&mut keeping.is_wanted, true);
-            let job = Job { state: Some(Kept { state: Arc::new(state), spent, is_wanted }), ..self.job() };
-            self.writer_channel.give(job);
-        }
-        if let Some(keeping) = &mut self.keeping {
-            keeping.clock.restart();
-        }
-        Ok(self.writer_channel.fault()?)
+        Ok(self.keep(state)?)
     }
 
     fn keeps_hashes(&self) -> bool {

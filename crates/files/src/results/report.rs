@@ -183,6 +183,9 @@ pub struct Report {
     /// Each time that elements were made again; left out where none were.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remeshings: Vec<Remeshing>,
+    /// Parts that material flows through; left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub flows: Vec<Flow>,
     /// What erosion has done; left out where nothing was eroded.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub erosion: Option<Erosion>,
@@ -223,7 +226,10 @@ pub struct Remeshing {
     pub step: u64,
     /// The part.
     pub part: String,
-    /// Why: `quality`, `time_step` or `interval`.
+    /// Whether nodes were moved, instead of elements made again.
+    #[serde(default)]
+    pub relocated: bool,
+    /// Why: `quality`, `time_step`, `size` or `interval`.
     pub reason: String,
     /// Elements before and after.
     pub elements: [usize; 2],
@@ -245,12 +251,13 @@ pub struct Remeshing {
 
 impl Remeshing {
     fn of(event: &output::Remeshing) -> Self {
-        let output::Remeshing { time, step, part, reason, elements, quality, time_step, .. } = event.clone();
+        let output::Remeshing { time, step, part, relocated, reason, elements, quality, time_step, .. } = event.clone();
         let output::Remeshing { kinetic_lost, elastic_lost, mass_correction, momentum_change, volume_change, .. } = *event;
         Self {
             time,
             step,
             part,
+            relocated,
             reason,
             elements,
             quality,
@@ -260,6 +267,62 @@ impl Remeshing {
             mass_correction,
             momentum_change,
             volume_change,
+        }
+    }
+}
+
+/// A part that material flows through.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Flow {
+    /// The part.
+    pub part: String,
+    /// How often its nodes went back to their places.
+    pub events: u64,
+    /// Way of the material over the length of the part.
+    pub passages: f64,
+    /// Mass that came in, kg/m (kg).
+    pub mass_in: f64,
+    /// Mass that went out, kg/m (kg).
+    pub mass_out: f64,
+    /// Kinetic and elastic energy that came in, J/m (J).
+    pub energy_in: f64,
+    /// Kinetic and elastic energy that went out, J/m (J).
+    pub energy_out: f64,
+    /// Kinetic energy that was lost, J/m (J).
+    pub kinetic_lost: f64,
+    /// Elastic energy that was lost, J/m (J).
+    pub elastic_lost: f64,
+    /// Largest change at once of linear and of angular momentum, beyond what came in and went out, over Σ
+    /// m|v| and Σ m|x − c||v|.
+    pub momentum_change: [f64; 2],
+    /// Largest correction of a node's mass, as a fraction of it.
+    pub mass_correction: f64,
+    /// Change of the state over the last quarter of a passage; left out where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub change: Option<f64>,
+    /// When the state was steady first, s; left out where it was not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steady: Option<f64>,
+}
+
+impl Flow {
+    fn of(flow: &output::Flow) -> Self {
+        let output::Flow { part, events, passages, mass, energy, kinetic_lost, elastic_lost, momentum_change, mass_correction, .. } =
+            flow.clone();
+        Self {
+            part,
+            events,
+            passages,
+            mass_in: mass[0],
+            mass_out: mass[1],
+            energy_in: energy[0],
+            energy_out: energy[1],
+            kinetic_lost,
+            elastic_lost,
+            momentum_change,
+            mass_correction,
+            change: flow.change,
+            steady: flow.steady,
         }
     }
 }
@@ -341,6 +404,7 @@ impl Report {
             }),
             element_evaluations: summary.element_evaluations,
             remeshings: summary.remeshings.iter().map(Remeshing::of).collect(),
+            flows: summary.flows.iter().map(Flow::of).collect(),
             erosion: summary.erosion.as_ref().map(|it| erosion(it, summary.dimension)),
             forces: summary.forces.iter().map(force).collect(),
             channels: BTreeMap::new(),

@@ -9,6 +9,7 @@
 
 pub(crate) mod messages;
 mod sheet;
+mod write;
 
 use crate::gmsh::messages::MESH_FILE;
 use crate::plain;
@@ -16,6 +17,7 @@ use embate_solver::error::Fault;
 use embate_solver::model::{ImportedMesh, TriangleSurface};
 use messages::STL;
 use std::path::Path;
+pub use write::outline;
 
 /// Bytes before the triangles of a binary file, the last four of them their number; and bytes of a triangle.
 const HEADER: usize = 84;

@@ -66,6 +66,7 @@ fn summary(steps: u64) -> Summary {
         rest: None,
         stages: vec![],
         remeshings: vec![],
+        flows: vec![],
         stable_time_step_min: 1e-4,
         stable_time_step_governor: "element 0 of part \"left\"".into(),
         energy_drift: 0.001,

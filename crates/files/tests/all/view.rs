@@ -67,7 +67,8 @@ fn run(text: &str, folder: &Path) -> (Vec<Frame>, Simulation) {
     let mut simulation = Simulation::new(&model, &Options { threads: 1, simd: None }).unwrap();
     let results = ResultFolder::create(folder, true).unwrap();
     let shown = (simulation.history_columns(), simulation.cells());
-    let checkpoints = Checkpoints::of(&model, Origin { path: "models/model.toml".into(), set: vec!["run.safety=0.9".into()] });
+    let checkpoints =
+        Checkpoints::of(&model, Origin { path: "models/model.toml".into(), set: vec!["run.safety=0.9".into()], ..Origin::default() });
     let recorder = Recorder::keeping(results, &model, shown, 1, Some(checkpoints), Box::new(|_| Control::Continue)).unwrap();
     let mut kept = Kept { recorder, frames: Vec::new() };
     simulation.run(&mut kept).unwrap();

@@ -1507,6 +1507,9 @@ class Sections:
         *,
         part: str,
         size: Quantity | None = None,
+        size_contact: Quantity | None = None,
+        strain_change: Quantity | None = None,
+        size_least: Quantity | None = None,
         quality: Quantity | None = None,
         time_step: Quantity | None = None,
         interval: Quantity | None = None,
@@ -1526,6 +1529,16 @@ class Sections:
             Name of the part.
         size
             Edge length of the new elements.
+        size_contact
+            Edge length where the part presses on something, as at the edge of a tool: elements grow
+            from there to those elsewhere. They are made again, too, where edges in contact are more
+            than twice as long.
+        strain_change
+            Plastic strain that may change across an element, such as 0.2: edges are shorter where
+            it changes more. Elements are made again, too, where they are more than twice as wide as
+            that asks for.
+        size_least
+            Shortest edge length that `strain_change` asks for.
         quality
             Least scaled Jacobian of an element (1: a rectangle, 0: an angle of 180 degrees) below
             which elements are made again.
@@ -1541,6 +1554,86 @@ class Sections:
         loss_limit
             Energy that may be lost in all by making elements again, as a fraction of the largest
             total energy: beyond it the run ends.
+        """
+        raise NotImplementedError
+
+    @section
+    def relocate(
+        self,
+        *,
+        part: str,
+        quality: Quantity | None = None,
+        time_step: Quantity | None = None,
+        interval: Quantity | None = None,
+        begin: Quantity | None = None,
+        loss_limit: Quantity | None = None,
+    ) -> Self:
+        """A part whose nodes are moved to better places when the form of its elements has become poor,
+        or their stable step short: those inside to where elements have the best form, those of the
+        outline along it, between its corners and, in 3D, its edges. Elements stay what they are.
+        Mass, momenta and stresses go over as with `[[remesh]]`, and what is lost is in
+        `energy.remap`. It costs less form than new elements where these are not needed; where the
+        part changes its shape altogether, only `[[remesh]]` helps: in 2D a part can have both.
+
+        Parameters
+        ----------
+        part
+            Name of the part.
+        quality
+            Least scaled Jacobian of an element (1: a rectangle or a cuboid, 0: an angle of 180
+            degrees) below which nodes are moved.
+        time_step
+            Stable step of the part, as a fraction of that after its nodes were moved, below which
+            they are moved again.
+        interval
+            Longest time between two times that nodes are moved.
+        begin
+            Time before which no node is moved.
+        loss_limit
+            Energy that may be lost in all by moving nodes, as a fraction of the largest total
+            energy: beyond it the run ends.
+        """
+        raise NotImplementedError
+
+    @section
+    def flow(
+        self,
+        *,
+        part: str,
+        direction: Quantities | None = None,
+        begin: Quantity | None = None,
+        travel: Quantity | None = None,
+        steady: Quantity | None = None,
+        stop: Flag | None = None,
+        loss_limit: Quantity | None = None,
+    ) -> Self:
+        """A part of a 2D model that stays in place while its material flows through it (a
+        quasi-Eulerian domain), as in rolling and extrusion. Nodes move with the material and go
+        back along the direction of the flow before they are an element away; across it they follow
+        the surfaces. What goes out at one end is gone, and what comes in at the other is as it was
+        there when the flow began. Mass, momenta and stresses go over as with `[[remesh]]`; the
+        history has what is lost as `energy.remap`, and what went out less what came in as
+        `energy.flow`. Probes stay with the mesh.
+
+        Parameters
+        ----------
+        part
+            Name of the part: a channel with one inlet, one outlet and a surface on either side.
+        direction
+            Direction of the flow, any length but zero; of axisymmetric parts along the axis.
+        begin
+            Time until which the part moves with its material. Nodes then stay where they are.
+        travel
+            Largest way of a node from its place over the width of an element along the flow, at
+            which nodes go back: the rarer, the less is averaged.
+        steady
+            Largest change of the surfaces and of what the law remembers, such as plastic strain,
+            while material passes a quarter of the part, at which its state counts as steady.
+        stop
+            Whether the run ends when the state is steady.
+        loss_limit
+            Energy that may be lost in all where nodes go back, as a fraction of the largest total
+            energy: beyond it the run ends.
         """
         raise NotImplementedError
 

@@ -4,10 +4,10 @@ use crate::plane::{Point, dot, minus};
 use robust::{Coord, orient2d};
 
 /// An edge: its polygon and its place in it.
-pub(super) type Edge = [usize; 2];
+pub(crate) type Edge = [usize; 2];
 
 /// Pairs of edges that have a point in common which is not the end that they share, `most` pairs at most.
-pub(super) fn crossings(polygons: &[Vec<Point>], most: usize) -> Vec<[Edge; 2]> {
+pub(crate) fn crossings(polygons: &[Vec<Point>], most: usize) -> Vec<[Edge; 2]> {
     let mut edges = Vec::new();
     for (p, polygon) in polygons.iter().enumerate() {
         let n = polygon.len();

@@ -3,7 +3,7 @@
 //! Source: Gordon & Hall, Int. J. Numer. Meth. Eng. 7 (1973) 461-477.
 
 use super::outline::Line;
-use super::{Meshed, OnOutline, smooth, volume};
+use super::{KeptOut, Meshed, OnOutline, smooth, volume};
 use crate::plane::{Cell, Measure, Point, cross, dot, minus};
 
 /// Cosine of the turn, 45 degrees, that makes a corner.
@@ -16,7 +16,7 @@ const SHORT: f64 = 0.45;
 
 /// The mesh; `None` where the region is not one with four corners and sides of like lengths. The line has
 /// places for all edges.
-pub(super) fn mapped(line: &Line, size: &dyn Fn(Point) -> f64, measure: Measure, limit: usize) -> Option<Meshed> {
+pub(super) fn mapped(line: &Line, size: &dyn Fn(Point) -> f64, measure: Measure, limit: usize, kept_out: KeptOut<'_>) -> Option<Meshed> {
     let corners = corners(line)?;
     let mut line = line.clone();
     let count = line.chains.len();
@@ -48,7 +48,7 @@ pub(super) fn mapped(line: &Line, size: &dyn Fn(Point) -> f64, measure: Measure,
     }
     let before = line.chains.iter().map(|chain| chain.places.len()).sum::<usize>();
     let mut lines = [line];
-    let nodes = volume::corrected(&mut lines, measure, false)?;
+    let nodes = volume::corrected(&mut lines, measure, false, kept_out)?;
     let [line] = lines;
     if line.chains.iter().map(|chain| chain.places.len()).sum::<usize>() != before {
         return None;

@@ -2,20 +2,22 @@
 //!
 //! The outline is divided first: points that are fixed or where it turns by more than 30 degrees, and the
 //! ends of straight lines, stay nodes; between them nodes are spaced as the size says, and curved pieces are
-//! moved along their normals until the region's measure is exactly what it was. Triangles fill it
+//! moved along their normals until the region's measure is exactly what it was, without nodes inside of what
+//! the body presses on. Triangles fill it
 //! (`delaunay`); for quadrilaterals they are twice as large, are merged in pairs, and all cells are divided
 //! in the middle of their edges. A region with four corners and sides of like lengths gets rows and columns
 //! where these are good. Nodes inside are smoothed. Only the four operations and square roots are
 //! used, in a fixed order: the same bits everywhere.
 
 pub mod delaunay;
-mod crossing;
+pub(crate) mod crossing;
 mod mapped;
 mod merge;
-mod outline;
+pub(crate) mod outline;
 mod quality;
-mod smooth;
-mod volume;
+pub(crate) mod rails;
+pub(crate) mod smooth;
+pub(crate) mod volume;
 
 pub use quality::{qualities, quality};
 
@@ -60,6 +62,32 @@ pub struct OnOutline {
     pub segment: u32,
     /// Place on the segment, from 0 to less than 1.
     pub fraction: f64,
+}
+
+/// A node of a new outline, which is asked about before it is given a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spot {
+    /// Number of the old loop.
+    pub of_loop: usize,
+    /// Segment of that loop, from its point of this number to the next.
+    pub segment: u32,
+    /// Place on the segment, from 0 to less than 1.
+    pub fraction: f64,
+    /// Where the node would be, m: first on the segment, then moved along the normal too.
+    pub place: Point,
+}
+
+/// Where a node of the new outline has to be, m, so that it is outside of what the body presses on; `None`
+/// where it may be at its place. It is put there, but no farther from its segment than a quarter of the
+/// edges' length, and held; other nodes move so that the region's measure stays. Points that stay are not
+/// asked about, nor are those of an axis of revolution and those of straight lines that are nodes again.
+/// Where the measure can't be kept so, nodes may be inside.
+pub type KeptOut<'a> = &'a dyn Fn(Spot) -> Option<Point>;
+
+/// Nodes may be anywhere: the body presses on nothing.
+#[must_use]
+pub fn anywhere(_: Spot) -> Option<Point> {
+    None
 }
 
 /// A mesh.
@@ -121,18 +149,33 @@ impl std::error::Error for Failure {}
 ///
 /// Where the outline is not that of a region, or no good mesh is found; see [`Failure`].
 pub fn quadrilaterals(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit: usize) -> Result<Meshed, Failure> {
+    quadrilaterals_outside(outline, size, measure, limit, &anywhere)
+}
+
+/// The same with nodes of the outline outside of what the body presses on.
+///
+/// # Errors
+///
+/// As those of [`quadrilaterals`].
+pub fn quadrilaterals_outside(
+    outline: &Outline,
+    size: &dyn Fn(Point) -> f64,
+    measure: Measure,
+    limit: usize,
+    kept_out: KeptOut<'_>,
+) -> Result<Meshed, Failure> {
     let lines = outline::lines(outline, size, 1.0, limit)?;
     check(&lines, measure)?;
-    let mapped = if let [line] = &lines[..] { mapped::mapped(line, size, measure, limit) } else { None };
+    let mapped = if let [line] = &lines[..] { mapped::mapped(line, size, measure, limit, kept_out) } else { None };
     let of = |meshed: &Meshed| quality(&meshed.positions, &meshed.cells);
     match mapped {
         Some(mapped) if of(&mapped) >= GOOD => Ok(mapped),
-        Some(mapped) => match mesh(outline, size, measure, limit, true) {
+        Some(mapped) => match mesh(outline, size, measure, limit, true, kept_out) {
             Err(_) if of(&mapped) >= WORST => Ok(mapped),
             Ok(other) if of(&mapped) > of(&other) => Ok(mapped),
             other => other,
         },
-        None => mesh(outline, size, measure, limit, true),
+        None => mesh(outline, size, measure, limit, true, kept_out),
     }
 }
 
@@ -142,10 +185,17 @@ pub fn quadrilaterals(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: M
 ///
 /// As those of [`quadrilaterals`].
 pub fn triangles(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit: usize) -> Result<Meshed, Failure> {
-    mesh(outline, size, measure, limit, false)
+    mesh(outline, size, measure, limit, false, &anywhere)
 }
 
-fn mesh(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit: usize, halves: bool) -> Result<Meshed, Failure> {
+fn mesh(
+    outline: &Outline,
+    size: &dyn Fn(Point) -> f64,
+    measure: Measure,
+    limit: usize,
+    halves: bool,
+    kept_out: KeptOut<'_>,
+) -> Result<Meshed, Failure> {
     let (per, scale) = if halves { (2.1, COARSE) } else { (1.0, FINE) };
     let mut lines = outline::lines(outline, size, per, limit)?;
     check(&lines, measure)?;
@@ -154,7 +204,7 @@ fn mesh(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit:
     let most = if halves { limit / 2 } else { limit };
     for round in 0..ROUNDS {
         lines.iter_mut().for_each(Line::level);
-        let nodes = volume::corrected(&mut lines, measure, halves).ok_or(Failure::Measure)?;
+        let nodes = volume::corrected(&mut lines, measure, halves, kept_out).ok_or(Failure::Measure)?;
         if nodes.iter().flatten().map(Vec::len).sum::<usize>() / 2 > limit.saturating_add(100) {
             return Err(Failure::Limit);
         }
@@ -188,7 +238,7 @@ fn mesh(outline: &Outline, size: &dyn Fn(Point) -> f64, measure: Measure, limit:
 }
 
 /// Whether the lines bound a region.
-fn check(lines: &[Line], measure: Measure) -> Result<(), Failure> {
+pub(crate) fn check(lines: &[Line], measure: Measure) -> Result<(), Failure> {
     let polygons: Vec<Vec<Point>> = lines.iter().map(|line| line.points.clone()).collect();
     if measure == Measure::Revolution && polygons.iter().flatten().any(|x| x[0] < 0.0) {
         return Err(Failure::Outline("it crosses the axis of revolution"));
@@ -249,7 +299,7 @@ fn divide(lines: &mut [Line], made: &delaunay::Triangles) -> bool {
 }
 
 /// Turns the nodes of a loop so that the first one after the loop's first point comes first.
-fn from_the_first(nodes: &mut [OnOutline]) {
+pub(crate) fn from_the_first(nodes: &mut [OnOutline]) {
     let place = |node: &OnOutline| (node.segment, node.fraction);
     let first = (0..nodes.len()).reduce(|a, b| if place(&nodes[b]) < place(&nodes[a]) { b } else { a });
     nodes.rotate_left(first.unwrap_or(0));
@@ -301,4 +351,6 @@ fn finish(lines: &[Line], nodes: &[Vec<Vec<Point>>], made: delaunay::Triangles, 
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
+#[cfg(test)]
+mod outside_tests;

@@ -20,29 +20,60 @@ const PARTS: f64 = 4.0;
 
 /// A closed line without points that coincide; it begins at a point that stays, where one does.
 #[derive(Clone, Debug)]
-pub(super) struct Line {
-    pub(super) points: Vec<Point>,
+pub(crate) struct Line {
+    pub(crate) points: Vec<Point>,
     /// The old segment that begins at each point.
-    segments: Vec<u32>,
+    pub(crate) segments: Vec<u32>,
     /// Length of the line up to each point, and in all.
-    pub(super) arc: Vec<f64>,
-    pub(super) chains: Vec<Chain>,
+    pub(crate) arc: Vec<f64>,
+    pub(crate) chains: Vec<Chain>,
+    /// Whether its points are the nodes, which only slide.
+    pub(super) is_of_nodes: bool,
 }
 
 /// A piece of a line between two points that stay, or all of a line without one.
 #[derive(Clone, Debug)]
-pub(super) struct Chain {
+pub(crate) struct Chain {
     /// From this point to that, the last of a line being its first again.
-    pub(super) points: [usize; 2],
-    pub(super) is_straight: bool,
-    pub(super) is_closed: bool,
+    pub(crate) points: [usize; 2],
+    pub(crate) is_straight: bool,
+    pub(crate) is_closed: bool,
     /// Places of its nodes along the line, both ends included.
-    pub(super) places: Vec<f64>,
+    pub(crate) places: Vec<f64>,
 }
 
 /// The lines of an outline, with places of nodes between which there will be `per` edges; `limit` on each
 /// chain at most.
 pub(super) fn lines(outline: &Outline, size: &dyn Fn(Point) -> f64, per: f64, limit: usize) -> Result<Vec<Line>, Failure> {
+    let near = near(outline)?;
+    outline.loops.iter().zip(&outline.fixed).map(|(points, fixed)| Line::new(points, fixed, size, near, per, limit)).collect()
+}
+
+/// The lines of an outline whose points are the nodes. Straight lines of two edges or more keep their ends,
+/// and a chain is straight where its points are no farther from its chord than rounding puts them.
+pub(crate) fn of_nodes(outline: &Outline) -> Result<Vec<Line>, Failure> {
+    let near = near(outline)?;
+    let of = |(points, fixed): (&Vec<Point>, &Vec<bool>)| {
+        let (mut line, _, _) = Line::divided(points, fixed, near, &|_, edges| Ok(edges > 1))?;
+        let n = line.points.len();
+        if n != points.len() {
+            return Err(Failure::Outline("two nodes are in one place"));
+        }
+        line.is_of_nodes = true;
+        for chain in &mut line.chains {
+            let [from, to] = chain.points;
+            chain.places = line.arc[from..=to].to_vec();
+            let (a, b) = (line.points[from], line.points[to % n]);
+            let off = |x: &Point| cross(minus(b, a), minus(*x, a)).abs();
+            chain.is_straight &= line.points[from + 1..to].iter().all(|x| off(x) <= near * distance(a, b));
+        }
+        Ok(line)
+    };
+    outline.loops.iter().zip(&outline.fixed).map(of).collect()
+}
+
+/// The distance below which points of an outline are one.
+fn near(outline: &Outline) -> Result<f64, Failure> {
     if outline.loops.is_empty() || outline.loops.len() != outline.fixed.len() {
         return Err(Failure::Outline("there are not as many lists of fixed points as loops, or none"));
     }
@@ -58,12 +89,27 @@ pub(super) fn lines(outline: &Outline, size: &dyn Fn(Point) -> f64, per: f64, li
     if !(extent > 1e-60 && farthest < 1e60 && extent > 1e-9 * farthest) {
         return Err(Failure::Outline("it is too small or too large, or too far from the origin, for its coordinates"));
     }
-    let near = 8.0 * f64::EPSILON * farthest;
-    outline.loops.iter().zip(&outline.fixed).map(|(points, fixed)| Line::new(points, fixed, size, near, per, limit)).collect()
+    Ok(8.0 * f64::EPSILON * farthest)
 }
 
 impl Line {
     fn new(points: &[Point], fixed: &[bool], size: &dyn Fn(Point) -> f64, near: f64, per: f64, limit: usize) -> Result<Self, Failure> {
+        let is_long = |[a, b]: [Point; 2], _: usize| Ok(distance(a, b) >= KEPT * checked(size, on_line(a, b, 0.5))?);
+        let (mut line, turns, start) = Self::divided(points, fixed, near, &is_long)?;
+        let stations = line.stations(&turns, start, size, per, limit)?;
+        line.place(&stations, per, limit)?;
+        Ok(line)
+    }
+
+    /// The line with its chains, which have no nodes but their ends, how much it turns at each point, and the
+    /// point that it begins at. A straight line keeps its ends if that is wanted for it, given where they are
+    /// and the number of its edges.
+    fn divided(
+        points: &[Point],
+        fixed: &[bool],
+        near: f64,
+        is_long: &dyn Fn([Point; 2], usize) -> Result<bool, Failure>,
+    ) -> Result<(Self, Vec<f64>, usize), Failure> {
         if points.len() != fixed.len() {
             return Err(Failure::Outline("a loop has not as many flags of fixed points as points"));
         }
@@ -111,7 +157,7 @@ impl Line {
         for (i, &from) in bends.iter().enumerate() {
             let to = if i + 1 < bends.len() { bends[i + 1] } else { bends[0] + n };
             let (a, b) = (kept[from].0, kept[to % n].0);
-            if distance(a, b) >= KEPT * checked(size, on_line(a, b, 0.5))? {
+            if is_long([a, b], to - from)? {
                 (stays[from], stays[to % n]) = (true, true);
             }
         }
@@ -126,32 +172,34 @@ impl Line {
         ends.push(n);
         let chain = |pair: &[usize]| Chain {
             points: [pair[0], pair[1]],
-            is_straight: (pair[0] + 1..pair[1]).all(|k| turns[turned(k)] == 0.0),
+            is_straight: first.is_some() && (pair[0] + 1..pair[1]).all(|k| turns[turned(k)] == 0.0),
             is_closed: first.is_none(),
             places: vec![arc[pair[0]], arc[pair[1]]],
         };
-        let mut chains: Vec<Chain> = ends.windows(2).map(chain).collect();
+        let chains: Vec<Chain> = ends.windows(2).map(chain).collect();
         let (points, segments) = (0..n).map(|k| (kept[turned(k)].0, kept[turned(k)].2)).unzip();
-        let mut line = Self { points, segments, arc, chains: Vec::new() };
-        let stations = line.stations(&chains, &turns, start, size, per, limit)?;
-        for chain in &mut chains {
-            chain.is_straight &= !chain.is_closed;
-        }
-        line.chains = chains;
-        line.place(&stations, per, limit)?;
-        Ok(line)
+        Ok((Self { points, segments, arc, chains, is_of_nodes: false }, turns, start))
     }
 
-    /// The place at a length along the line, with its segment and the fraction of it.
-    pub(super) fn at(&self, place: f64) -> (Point, u32, f64) {
-        let n = self.points.len();
-        let k = self.arc.partition_point(|&arc| arc <= place).clamp(1, n) - 1;
-        let fraction = (place - self.arc[k]) / (self.arc[k + 1] - self.arc[k]);
-        if place >= self.arc[n] {
-            return (self.points[0], self.segments[0], 0.0);
-        }
+    /// The same place from 0 to less than the line's length, for one less than that beyond.
+    fn wrapped(&self, place: f64) -> f64 {
+        let whole = self.arc[self.points.len()];
+        let place = if place < 0.0 { place + whole } else { place };
+        if place >= whole { place - whole } else { place }
+    }
+
+    /// The segment at a length along the line, and the fraction of it there.
+    pub(super) fn segment(&self, place: f64) -> (usize, f64) {
+        let place = self.wrapped(place);
+        let k = self.arc.partition_point(|&arc| arc <= place).clamp(1, self.points.len()) - 1;
+        (k, (place - self.arc[k]) / (self.arc[k + 1] - self.arc[k]))
+    }
+
+    /// The place at a length along the line, with its segment of the old loop and the fraction of it.
+    pub(crate) fn at(&self, place: f64) -> (Point, u32, f64) {
+        let (k, fraction) = self.segment(place);
         let fraction = fraction.clamp(0.0, 1.0 - f64::EPSILON);
-        (on_line(self.points[k], self.points[(k + 1) % n], fraction), self.segments[k], fraction)
+        (on_line(self.points[k], self.points[(k + 1) % self.points.len()], fraction), self.segments[k], fraction)
     }
 
     /// Gives both chains that meet in a corner of less than 60 degrees a first edge of the same length, so
@@ -182,29 +230,20 @@ impl Line {
 
     /// Length of the segment at a place along the line, and the fraction of it there.
     pub(super) fn edge(&self, place: f64) -> [f64; 2] {
-        let k = self.arc.partition_point(|&arc| arc <= place).clamp(1, self.points.len()) - 1;
-        let length = self.arc[k + 1] - self.arc[k];
-        [length, ((place - self.arc[k]) / length).clamp(0.0, 1.0)]
+        let (k, fraction) = self.segment(place);
+        [self.arc[k + 1] - self.arc[k], fraction.clamp(0.0, 1.0)]
     }
 
     /// Where a node of the line lies on the old outline.
-    pub(super) fn on_outline(&self, place: f64, node: u32) -> OnOutline {
+    pub(crate) fn on_outline(&self, place: f64, node: u32) -> OnOutline {
         let (_, segment, fraction) = self.at(place);
         OnOutline { node, segment, fraction }
     }
 
     /// Places along the line with the length that edges should have there: the wanted size, less where the
     /// line turns much or where points that stay are near to each other, and growing gently.
-    fn stations(
-        &self,
-        chains: &[Chain],
-        turns: &[f64],
-        start: usize,
-        size: &dyn Fn(Point) -> f64,
-        per: f64,
-        limit: usize,
-    ) -> Result<Vec<[f64; 2]>, Failure> {
-        let n = self.points.len();
+    fn stations(&self, turns: &[f64], start: usize, size: &dyn Fn(Point) -> f64, per: f64, limit: usize) -> Result<Vec<[f64; 2]>, Failure> {
+        let (n, chains) = (self.points.len(), &self.chains);
         // The sum of the turns, which is reached in the middle of each segment.
         let middles: Vec<f64> = (0..n).map(|k| 0.5 * (self.arc[k] + self.arc[k + 1])).collect();
         let mut sums = vec![0.0];

@@ -1,11 +1,14 @@
-//! Nodes inside moved to where the cells around them have the best shape.
+//! Nodes moved to where the cells around them have the best shape: those inside freely, those of the outline
+//! along it if they may.
 //!
 //! One node at a time, in ascending order, takes a Newton step on Σ µ² over the corners of the cells around
 //! it, halved until the sum falls and no corner turns inside out. The shape measure of a corner with edges a
 //! and b is µ = (|a|² + |b|²) / (2 a × b), 1 for a square; that of a triangle the sum of its squared edges
-//! over 4√3 of its area, 1 for an equilateral one. Both are convex in the place of one node. Source: Knupp,
-//! SIAM J. Sci. Comput. 23 (2001) 193-218 (mean ratio).
+//! over 4√3 of its area, 1 for an equilateral one. Both are convex in the place of one node. A node that
+//! slides takes the step of its line's direction only. Source: Knupp, SIAM J. Sci. Comput. 23 (2001) 193-218
+//! (mean ratio).
 
+use super::rails::Rails;
 use crate::plane::{Cell, Point, corners, cross, dot, minus};
 
 /// Sweeps at most, and the step by the length of edges below which a node is still.
@@ -40,17 +43,23 @@ struct Corners {
     all: Vec<Corner>,
 }
 
-/// Moves all nodes that are not held.
-pub(super) fn smooth(positions: &mut [Point], cells: &[Cell], held: &[bool]) {
+/// Moves all nodes that are not held, those inside.
+pub(crate) fn smooth(positions: &mut [Point], cells: &[Cell], held: &[bool]) {
+    slide(positions, cells, held, &mut Rails::none(), SWEEPS, STILL);
+}
+
+/// Moves all nodes that are not held, those on rails along them, in so many sweeps at most; a node whose
+/// step is shorter than the part `still` of the edges there is still.
+pub(crate) fn slide(positions: &mut [Point], cells: &[Cell], held: &[bool], rails: &mut Rails, sweeps: usize, still: f64) {
     let corners = Corners::new(positions.len(), cells);
     let free: Vec<usize> = (0..positions.len()).filter(|&node| !held[node]).collect();
-    untangle(positions, &corners, &free);
+    untangle(positions, &corners, &free, rails);
     // Nodes that have moved, or next to one, in this sweep and for the next.
     let mut moved = vec![true; positions.len()];
-    for _ in 0..SWEEPS {
+    for _ in 0..sweeps {
         let mut next = vec![false; positions.len()];
         for &node in &free {
-            if moved[node] && corners.step(positions, node) > STILL {
+            if moved[node] && corners.step(positions, node, rails) > still {
                 next[node] = true;
                 corners.around(node).flat_map(|corner| corner.others).for_each(|other| next[other as usize] = true);
             }
@@ -60,11 +69,11 @@ pub(super) fn smooth(positions: &mut [Point], cells: &[Cell], held: &[bool]) {
         }
         moved = next;
     }
-    untangle(positions, &corners, &free);
+    untangle(positions, &corners, &free, rails);
 }
 
 /// Moves nodes whose surroundings are poor to where the worst corner there is best.
-fn untangle(positions: &mut [Point], corners: &Corners, free: &[usize]) {
+fn untangle(positions: &mut [Point], corners: &Corners, free: &[usize], rails: &mut Rails) {
     const WAYS: [Point; 8] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [0.7, 0.7], [-0.7, 0.7], [-0.7, -0.7], [0.7, -0.7]];
     for _ in 0..ROUNDS {
         let mut moved = false;
@@ -77,15 +86,17 @@ fn untangle(positions: &mut [Point], corners: &Corners, free: &[usize]) {
             let mut step = 0.25 * length;
             for _ in 0..12 {
                 let from = positions[node];
-                let mut place = from;
+                let (mut place, mut by) = (from, 0.0);
                 for way in WAYS {
-                    positions[node] = [from[0] + step * way[0], from[1] + step * way[1]];
+                    let Some(x) = rails.near(node, from, [step * way[0], step * way[1]]) else { continue };
+                    positions[node] = x;
                     let worst = corners.worst(positions, node, length);
                     if worst > best + 1e-3 {
-                        (best, place) = (worst, positions[node]);
+                        (best, place, by) = (worst, x, step * way[0]);
                     }
                 }
                 positions[node] = place;
+                rails.slide(node, by);
                 if place == from {
                     step *= 0.5;
                 } else {
@@ -168,15 +179,15 @@ impl Corners {
         sum
     }
 
-    /// One guarded Newton step of a node; its length by that of the edges there.
-    fn step(&self, positions: &mut [Point], node: usize) -> f64 {
-        let from = positions[node];
+    /// Σ µ² around a node with its gradient and second derivatives (xx, xy, yy) by the node's place; `None`
+    /// where a corner is inside out.
+    fn derivatives(&self, positions: &[Point], node: usize) -> Option<(f64, Point, [f64; 3])> {
         let (mut sum, mut gradient, mut hessian) = (0.0, [0.0; 2], [0.0; 3]);
         for corner in self.around(node) {
             let (p, q) = corner.edges(positions, node);
             let twice = cross(p, q);
             if !(twice > 0.0) {
-                return 0.0;
+                return None;
             }
             let inverse = 1.0 / twice;
             let mu = corner.numerator(p, q) * inverse;
@@ -202,19 +213,37 @@ impl Corners {
             hessian[1] += 2.0 * (slope[0] * slope[1] + mu * curve(0, 1));
             hessian[2] += 2.0 * (slope[1] * slope[1] + mu * curve(1, 1));
         }
-        let determinant = hessian[0] * hessian[2] - hessian[1] * hessian[1];
-        let mut way = [
-            (hessian[1] * gradient[1] - hessian[2] * gradient[0]) / determinant,
-            (hessian[1] * gradient[0] - hessian[0] * gradient[1]) / determinant,
-        ];
+        Some((sum, gradient, hessian))
+    }
+
+    /// One guarded Newton step of a node; its length by that of the edges there.
+    fn step(&self, positions: &mut [Point], node: usize, rails: &mut Rails) -> f64 {
+        let from = positions[node];
+        let Some((sum, gradient, hessian)) = self.derivatives(positions, node) else { return 0.0 };
+        let (determinant, mut way) = match rails.direction(node) {
+            None => {
+                let determinant = hessian[0] * hessian[2] - hessian[1] * hessian[1];
+                let x = (hessian[1] * gradient[1] - hessian[2] * gradient[0]) / determinant;
+                let y = (hessian[1] * gradient[0] - hessian[0] * gradient[1]) / determinant;
+                (determinant, [x, y])
+            }
+            // Along the line; the second number stays zero.
+            Some([x, y]) => {
+                let second = hessian[0] * x * x + 2.0 * hessian[1] * x * y + hessian[2] * y * y;
+                (second, [-dot(gradient, [x, y]) / second, 0.0])
+            }
+        };
         if !(determinant > 0.0) || !way.iter().all(|x| x.is_finite()) {
             return 0.0;
         }
         let length = self.edge(positions, node);
         for _ in 0..6 {
-            positions[node] = [from[0] + way[0], from[1] + way[1]];
-            if self.sum(positions, node) < sum {
-                return dot(way, way).sqrt() / length;
+            if let Some(x) = rails.near(node, from, way) {
+                positions[node] = x;
+                if self.sum(positions, node) < sum {
+                    rails.slide(node, way[0]);
+                    return dot(way, way).sqrt() / length;
+                }
             }
             way = way.map(|x| 0.5 * x);
         }

@@ -5,11 +5,11 @@ use crate::plane::corners;
 
 type Make = fn(&Outline, &dyn Fn(Point) -> f64, Measure, usize) -> Result<Meshed, Failure>;
 
-fn polygon(points: &[Point]) -> Outline {
+pub(crate) fn polygon(points: &[Point]) -> Outline {
     Outline { loops: vec![points.to_vec()], fixed: vec![vec![false; points.len()]] }
 }
 
-fn with_hole(mut outline: Outline, hole: &[Point]) -> Outline {
+pub(crate) fn with_hole(mut outline: Outline, hole: &[Point]) -> Outline {
     outline.loops.push(hole.iter().rev().copied().collect());
     outline.fixed.push(vec![false; hole.len()]);
     outline
@@ -24,7 +24,7 @@ fn arc(centre: Point, radius: f64, from: f64, to: f64, n: usize) -> Vec<Point> {
     (0..=n).map(at).collect()
 }
 
-fn circle(centre: Point, radius: f64, n: usize) -> Vec<Point> {
+pub(crate) fn circle(centre: Point, radius: f64, n: usize) -> Vec<Point> {
     let mut points = arc(centre, radius, 0.0, 4.0, n);
     points.pop();
     points
@@ -216,17 +216,17 @@ fn there_are_as_many_cells_as_the_size_asks_for() {
 }
 
 /// Numbers from 0 to 1 without a generator of the platform.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 
 /// A star-shaped outline of smooth and of jagged pieces.
-fn star(random: &mut Random) -> Outline {
+pub(crate) fn star(random: &mut Random) -> Outline {
     let n = 24 + (random.next() * 100.0) as usize;
     let waves: Vec<[f64; 3]> = (2..7).map(|k| [f64::from(k), 0.35 / f64::from(k) * random.next(), 6.3 * random.next()]).collect();
     let jags = 0.6 * random.next();

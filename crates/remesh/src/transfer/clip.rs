@@ -2,6 +2,7 @@
 
 use super::{Failure, Side};
 use crate::plane::{Measure, Mesh, Point, corners, cross, minus};
+use crate::shared::grid::{Grid, bounds};
 
 /// Circumference of the unit circle: an axisymmetric body has the volume ∫ 2πx dA.
 pub(super) const TURN: f64 = std::f64::consts::TAU;
@@ -254,105 +255,16 @@ fn between(inner: &Vertex, outer: &Vertex, side: usize) -> Vertex {
 /// Calls `visit` with the indices of an old and a new triangle and what they have in common, for all that
 /// have any: new triangles in their order, old ones ascending for each.
 pub(super) fn pieces(old: &[Twin], new: &[Twin], mut visit: impl FnMut(usize, usize, &Piece)) {
-    let grid = Grid::new(old);
-    let mut seen = vec![u32::MAX; old.len()];
+    let mut grid = Grid::new(old.iter().map(|twin| bounds(&twin.places)).collect());
     let mut near: Vec<u32> = Vec::new();
     let mut piece = Piece { vertices: [[NONE; 8]; 2], current: 0, count: 0 };
     for (index, twin) in new.iter().enumerate() {
         let sides = [Line::of(twin, 0), Line::of(twin, 1), Line::of(twin, 2)];
-        near.clear();
-        grid.near(&bounds(&twin.places), index as u32, &mut seen, &mut near);
-        near.sort_unstable();
+        grid.near(&bounds(&twin.places), index as u32, &mut near);
         for &candidate in &near {
             let candidate = candidate as usize;
             if piece.set(&old[candidate], twin, &sides) {
                 visit(candidate, index, &piece);
-            }
-        }
-    }
-}
-
-/// Lowest and highest coordinates.
-type Bounds = [Point; 2];
-
-fn bounds(places: &[Point; 3]) -> Bounds {
-    let [a, b, c] = *places;
-    [[a[0].min(b[0]).min(c[0]), a[1].min(b[1]).min(c[1])], [a[0].max(b[0]).max(c[0]), a[1].max(b[1]).max(c[1])]]
-}
-
-/// Triangles by the squares of a grid that their boxes meet.
-struct Grid {
-    low: Point,
-    /// Squares by metre.
-    scale: Point,
-    counts: [usize; 2],
-    /// Of each square the first of its items; one more at the end.
-    starts: Vec<u32>,
-    items: Vec<u32>,
-    boxes: Vec<Bounds>,
-}
-
-impl Grid {
-    fn new(twins: &[Twin]) -> Self {
-        let boxes: Vec<Bounds> = twins.iter().map(|twin| bounds(&twin.places)).collect();
-        let mut all: Bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        let mut sides = [0.0; 2];
-        for [low, high] in &boxes {
-            for k in 0..2 {
-                all[0][k] = all[0][k].min(low[k]);
-                all[1][k] = all[1][k].max(high[k]);
-                sides[k] += high[k] - low[k];
-            }
-        }
-        // Squares as large as the mean box, four times as many as triangles at most.
-        let mut counts = [1; 2];
-        let limit = 4 * twins.len() + 1;
-        for k in 0..2 {
-            let number = (all[1][k] - all[0][k]) * twins.len() as f64 / sides[k];
-            counts[k] = if number >= 1.0 { (number as usize).min(limit) } else { 1 };
-        }
-        while counts[0].saturating_mul(counts[1]) > limit {
-            let k = usize::from(counts[1] > counts[0]);
-            counts[k] = (counts[k] / 2).max(1);
-        }
-        let scale = [0, 1].map(|k| counts[k] as f64 / (all[1][k] - all[0][k]));
-        let mut grid = Self { low: all[0], scale, counts, starts: vec![0; counts[0] * counts[1] + 1], items: Vec::new(), boxes };
-        for k in 0..grid.boxes.len() {
-            grid.squares(&grid.boxes[k]).for_each(|square| grid.starts[square + 1] += 1);
-        }
-        for square in 1..grid.starts.len() {
-            grid.starts[square] += grid.starts[square - 1];
-        }
-        let mut ends = grid.starts.clone();
-        grid.items = vec![0; grid.starts.last().map_or(0, |&last| last as usize)];
-        for k in 0..grid.boxes.len() {
-            for square in grid.squares(&grid.boxes[k]) {
-                grid.items[ends[square] as usize] = k as u32;
-                ends[square] += 1;
-            }
-        }
-        grid
-    }
-
-    /// The squares that a box meets.
-    fn squares(&self, of: &Bounds) -> impl Iterator<Item = usize> + use<> {
-        // A conversion saturates: what lies below or above is in the first or the last one.
-        let at = |x: Point| [0, 1].map(|k| (((x[k] - self.low[k]) * self.scale[k]) as usize).min(self.counts[k] - 1));
-        let ([left, low], [right, high], width) = (at(of[0]), at(of[1]), self.counts[0]);
-        (low..=high).flat_map(move |row| (left..=right).map(move |column| row * width + column))
-    }
-
-    /// Adds the triangles whose boxes meet a box, each once.
-    fn near(&self, of: &Bounds, mark: u32, seen: &mut [u32], found: &mut Vec<u32>) {
-        for square in self.squares(of) {
-            for &item in &self.items[self.starts[square] as usize..self.starts[square + 1] as usize] {
-                let k = item as usize;
-                let [low, high] = &self.boxes[k];
-                let meets = low[0] < of[1][0] && of[0][0] < high[0] && low[1] < of[1][1] && of[0][1] < high[1];
-                if seen[k] != mark && meets {
-                    seen[k] = mark;
-                    found.push(item);
-                }
             }
         }
     }

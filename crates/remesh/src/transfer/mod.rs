@@ -9,7 +9,6 @@
 
 mod boundary;
 mod clip;
-mod matrix;
 mod nodes;
 mod points;
 mod quarters;
@@ -39,7 +38,7 @@ pub enum Failure {
     Size,
     /// A number is not finite, or a mass is negative.
     Number,
-    /// A cell has no positive area, or a place that is not a finite number.
+    /// A cell has no positive area or volume, or a place that is not a finite number.
     Inverted {
         /// Its mesh.
         side: Side,
@@ -54,6 +53,11 @@ pub enum Failure {
     /// A new cell has old material in less than half of its volume.
     Uncovered {
         /// Its index.
+        cell: usize,
+    },
+    /// Old material is in more than one new cell: in 3D, where a warped quadrilateral is joined to triangles.
+    Overlap {
+        /// The old cell.
         cell: usize,
     },
     /// No number of integration points but 1, and 4 for quadrilaterals, is known.
@@ -77,9 +81,10 @@ impl fmt::Display for Failure {
         match *self {
             Self::Size => write!(to, "lengths of the inputs of a transfer disagree"),
             Self::Number => write!(to, "a number of the state is not finite"),
-            Self::Inverted { side, cell } => write!(to, "cell {cell} of the {} mesh has no positive area", side.name()),
+            Self::Inverted { side, cell } => write!(to, "cell {cell} of the {} mesh has no positive size", side.name()),
             Self::Massless { cell } => write!(to, "cell {cell} of the old mesh has no positive mass"),
             Self::Uncovered { cell } => write!(to, "cell {cell} of the new mesh has hardly any old material"),
+            Self::Overlap { cell } => write!(to, "material of cell {cell} of the old mesh is in several new cells at once"),
             Self::Points { side, cell } => write!(to, "points of cell {cell} of the {} mesh are not known", side.name()),
             Self::Correction(q) => write!(to, "masses of nodes would change by {q:.2}"),
             Self::Inertia => write!(to, "the inertia cannot be kept on the new nodes"),

@@ -12,9 +12,10 @@
 
 use super::Failure;
 use super::clip::Twin;
-use super::matrix::{Matrix, eliminate};
 use super::supermesh::Supermesh;
 use crate::plane::{Measure, Mesh, Point, corners, cross, dot, minus};
+use crate::shared::matrix::Matrix;
+use crate::shared::motion::{Component, Energies, WIDER, match_moments, moment};
 
 /// What the nodes of the old mesh have.
 #[derive(Clone, Copy, Debug)]
@@ -64,10 +65,6 @@ pub struct Nodes {
 const SMALL: f64 = 0.1;
 /// Largest |q| at all.
 const LARGEST: f64 = 0.5;
-/// Bounds of velocities are widened by this part of the largest one, or rounding would end uniform motion.
-const WIDER: f64 = 1e-12;
-/// Rounds in which more nodes may be limited; after them all are.
-const ROUNDS: usize = 20;
 
 /// Masses and velocities of the nodes of the new mesh.
 ///
@@ -97,7 +94,7 @@ pub fn nodes(supermesh: &Supermesh, old: &OldNodes<'_>, new: &NewNodes<'_>) -> R
     if !(is_massive && has_numbers && new.held.iter().flatten().flatten().all(|value| value.is_finite())) {
         return Err(Failure::Number);
     }
-    let mut gathered = Gathered::new(supermesh, old, new)?;
+    let gathered = Gathered::new(supermesh, old, new)?;
     let frame = Frame::of(supermesh.measure, old, new);
     let (mass, correction) = frame.match_masses(old, new, &gathered.mass)?;
     let mut velocities = vec![[0.0; 2]; count];
@@ -135,7 +132,7 @@ impl Gathered {
             corner_mass: vec![[0.0; 4]; new.mesh.cells.len()],
             mass: vec![0.0; count],
             momentum: [vec![0.0; count], vec![0.0; count]],
-            matrix: Matrix::of(new.mesh.cells, count),
+            matrix: Matrix::of(new.mesh.cells.iter().map(corners), count),
             bounds: vec![[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; count],
         };
         // Of each new triangle its mass matrix and momentum: its pieces follow one another.
@@ -195,60 +192,11 @@ impl Gathered {
     }
 
     /// One component of the velocities before rigid motion is settled.
-    fn velocities(&mut self, k: usize, held: &[[Option<f64>; 2]], old: &[Point]) -> Vec<f64> {
-        let count = self.mass.len();
-        let free: Vec<bool> = held.iter().map(|held| held[k].is_none()).collect();
-        // First order, but within bounds.
-        let low: Vec<f64> = (0..count).map(|a| if self.mass[a] > 0.0 { self.momentum[k][a] / self.mass[a] } else { 0.0 }).collect();
-        let mut high: Vec<f64> = (0..count).map(|a| held[a][k].unwrap_or(low[a])).collect();
-        self.matrix.solve(&self.momentum[k], &free, &mut high);
+    fn velocities(&self, k: usize, held: &[[Option<f64>; 2]], old: &[Point]) -> Vec<f64> {
         let largest = old.iter().fold(0.0, |largest: f64, v| largest.max(v[0].abs()).max(v[1].abs()));
-        for bounds in &mut self.bounds {
-            bounds[0][k] -= WIDER * largest;
-            bounds[1][k] += WIDER * largest;
-        }
-        self.limit(k, &free, &low, &high)
-    }
-
-    /// The solution, with fluxes lessened where it leaves its bounds.
-    fn limit(&self, k: usize, free: &[bool], low: &[f64], high: &[f64]) -> Vec<f64> {
-        let count = low.len();
-        let mut found = high.to_vec();
-        let is_out =
-            |a: usize, value: f64| free[a] && self.mass[a] > 0.0 && !(value >= self.bounds[a][0][k] && value <= self.bounds[a][1][k]);
-        // Parts of the fluxes into and out of a node that it can bear.
-        let mut parts = vec![[1.0; 2]; count];
-        let mut is_limited = vec![false; count];
-        for round in 0..=ROUNDS {
-            let mut is_more = false;
-            for a in 0..count {
-                let is_due = free[a] && self.mass[a] > 0.0 && (round == ROUNDS || is_out(a, found[a]));
-                if is_due && !is_limited[a] {
-                    let (mut gain, mut loss) = (0.0, 0.0);
-                    for (b, value) in self.matrix.row(a) {
-                        let flux = value * (high[a] - high[b]);
-                        gain += flux.max(0.0);
-                        loss += (-flux).max(0.0);
-                    }
-                    let room = [low[a] - self.bounds[a][0][k], self.bounds[a][1][k] - low[a]].map(|room| self.mass[a] * room.max(0.0));
-                    parts[a] = [if loss > room[0] { room[0] / loss } else { 1.0 }, if gain > room[1] { room[1] / gain } else { 1.0 }];
-                    (is_limited[a], is_more) = (true, true);
-                }
-            }
-            if !is_more {
-                break;
-            }
-            for a in (0..count).filter(|&a| free[a] && self.mass[a] > 0.0) {
-                // Fluxes that are not lessened need no sum: the solution less what is missing.
-                let missing = self.matrix.row(a).fold(0.0, |sum, (b, value)| {
-                    let flux = value * (high[a] - high[b]);
-                    let part: f64 = if flux > 0.0 { parts[a][1].min(parts[b][0]) } else { parts[a][0].min(parts[b][1]) };
-                    sum + (1.0 - part) * flux
-                });
-                found[a] = high[a] - missing / self.mass[a];
-            }
-        }
-        found
+        let bounds: Vec<[f64; 2]> = self.bounds.iter().map(|b| [b[0][k] - WIDER * largest, b[1][k] + WIDER * largest]).collect();
+        let held: Vec<Option<f64>> = held.iter().map(|held| held[k]).collect();
+        Component { matrix: &self.matrix, mass: &self.mass, momentum: &self.momentum[k], held: &held, bounds: &bounds }.velocities()
     }
 }
 
@@ -312,32 +260,15 @@ impl Frame {
         for (is_full, limit) in [(true, SMALL), (false, LARGEST)] {
             let count = self.basis(self.centre, is_full).1;
             let bases: Vec<[f64; 6]> = new.mesh.positions.iter().map(|&x| self.basis(x, is_full).0).collect();
-            let mut matrix = [[0.0; 6]; 6];
-            for (basis, mass) in bases.iter().zip(consistent) {
-                for i in 0..count {
-                    (0..count).for_each(|j| matrix[i][j] += mass * basis[i] * basis[j]);
-                }
-            }
             let mut wanted = [0.0; 6];
             for (&x, mass) in old.mesh.positions.iter().zip(old.node_mass) {
                 let basis = self.basis(x, is_full).0;
                 (0..count).for_each(|i| wanted[i] += mass * basis[i]);
             }
-            let mut coefficients = [0.0; 6];
-            let q = |a: usize, coefficients: &[f64; 6]| (0..count).fold(0.0, |sum, i| sum + coefficients[i] * bases[a][i]);
-            // Again for what rounding left.
-            for _ in 0..3 {
-                let mut rest = wanted;
-                for (a, mass) in consistent.iter().enumerate() {
-                    let mass = mass * (1.0 + q(a, &coefficients));
-                    (0..count).for_each(|i| rest[i] -= mass * bases[a][i]);
-                }
-                let more = eliminate(matrix, rest, count);
-                (0..count).for_each(|i| coefficients[i] += more[i]);
-            }
-            largest = (0..consistent.len()).filter(|&a| consistent[a] > 0.0).fold(0.0, |most: f64, a| most.max(q(a, &coefficients).abs()));
+            let (q, most) = match_moments(consistent, &bases, &wanted, count);
+            largest = most;
             if largest <= limit {
-                return Ok((consistent.iter().enumerate().map(|(a, mass)| mass * (1.0 + q(a, &coefficients))).collect(), largest));
+                return Ok((consistent.iter().zip(&q).map(|(mass, q)| mass * (1.0 + q)).collect(), largest));
             }
         }
         Err(Failure::Correction(largest))
@@ -373,26 +304,14 @@ impl Frame {
         let of_free = |a: usize| [0, 1].map(|k| if new.held[a][k].is_none() { velocities[a][k] } else { 0.0 });
         let (of_rest, of_rigid) = (kinetic(mass, of_free), kinetic(mass, rigid));
         let of_held = kinetic(mass, |a| [value(a, 0), value(a, 1)]);
-        let room = before + old.spare - of_rigid - of_held;
-        let scale = if of_rest <= room || of_rest <= 1e-28 * before {
-            1.0
-        } else if of_held > 0.0 {
-            (room.max(0.25 * of_rest) / of_rest).sqrt()
-        } else if room < -1e-12 * before {
-            return Err(Failure::Inertia);
-        } else {
-            (room.max(0.0) / of_rest).sqrt()
-        };
+        let energies = Energies { before, spare: old.spare, rigid: of_rigid, rest: of_rest, held: of_held };
+        let scale = energies.scale().ok_or(Failure::Inertia)?;
         for (a, velocity) in velocities.iter_mut().enumerate() {
             let rigid = rigid(a);
             *velocity = [0, 1].map(|k| new.held[a][k].unwrap_or(rigid[k] + scale * velocity[k]));
         }
         Ok((before - kinetic(mass, |a| velocities[a]), scale))
     }
-}
-
-fn moment(mass: &[f64], of: impl Fn(usize) -> f64) -> f64 {
-    mass.iter().enumerate().fold(0.0, |sum, (a, mass)| sum + mass * of(a))
 }
 
 fn kinetic(mass: &[f64], of: impl Fn(usize) -> Point) -> f64 {

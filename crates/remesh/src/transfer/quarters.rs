@@ -9,57 +9,45 @@
 use super::clip::TURN;
 use super::{Failure, Side};
 use crate::plane::{Cell, Measure, Mesh, Point, corners, cross, minus};
-
-/// Matrices of a cell with four points.
-#[derive(Clone, Debug)]
-pub(super) struct Quarters {
-    /// Means over quarters from values of points.
-    pub(super) means: [[f64; 4]; 4],
-    /// Values of points from means over quarters.
-    pub(super) values: [[f64; 4]; 4],
-    /// Volume that each point stands for, m³: Jacobian, times 2πx in an axisymmetric body.
-    pub(super) volumes: [f64; 4],
-}
+use crate::shared::limiter::{Layout, Rule};
 
 /// Signs of reference coordinates of corners and points.
 const SIGNS: [Point; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-impl Quarters {
-    /// The matrices of a quadrilateral. `None` if a corner turns inwards: there values are taken as means.
-    pub(super) fn of(x: &[Point; 4], measure: Measure) -> Option<Self> {
-        if !is_convex(x) {
-            return None;
-        }
-        let gauss = 1.0 / 3.0f64.sqrt();
-        let volume = |at: Point| {
-            let shape = SIGNS.map(|s| 0.25 * (1.0 + s[0] * at[0]) * (1.0 + s[1] * at[1]));
-            let (mut right, mut up, mut from_axis) = ([0.0; 2], [0.0; 2], 0.0);
-            for (corner, s) in SIGNS.iter().enumerate() {
-                for k in 0..2 {
-                    right[k] += 0.25 * s[0] * (1.0 + s[1] * at[1]) * x[corner][k];
-                    up[k] += 0.25 * s[1] * (1.0 + s[0] * at[0]) * x[corner][k];
-                }
-                from_axis += shape[corner] * x[corner][0];
-            }
-            cross(right, up) * if measure == Measure::Plane { 1.0 } else { TURN * from_axis }
-        };
-        let mut means = [[0.0; 4]; 4];
-        for (quarter, row) in SIGNS.iter().zip(&mut means) {
-            let mut sum = 0.0;
-            for s in SIGNS {
-                let at = [0, 1].map(|k| 0.5 * (quarter[k] + s[k] * gauss));
-                let weight = volume(at);
-                sum += weight;
-                for (entry, point) in row.iter_mut().zip(SIGNS) {
-                    *entry += weight * 0.25 * (1.0 + point[0] * at[0] / gauss) * (1.0 + point[1] * at[1] / gauss);
-                }
-            }
-            row.iter_mut().for_each(|entry| *entry /= sum);
-        }
-        let volumes = SIGNS.map(|s| volume([s[0] * gauss, s[1] * gauss]));
-        let is_positive = volumes.iter().all(|&volume| volume > 0.0);
-        inverse(&means).filter(|_| is_positive).map(|values| Self { means, values, volumes })
+/// The matrices of a quadrilateral; each point stands for its Jacobian, times 2πx in an axisymmetric body.
+/// `None` if a corner turns inwards: there values are taken as means.
+fn rule(x: &[Point; 4], measure: Measure) -> Option<Rule> {
+    if !is_convex(x) {
+        return None;
     }
+    let gauss = 1.0 / 3.0f64.sqrt();
+    let volume = |at: Point| {
+        let shape = SIGNS.map(|s| 0.25 * (1.0 + s[0] * at[0]) * (1.0 + s[1] * at[1]));
+        let (mut right, mut up, mut from_axis) = ([0.0; 2], [0.0; 2], 0.0);
+        for (corner, s) in SIGNS.iter().enumerate() {
+            for k in 0..2 {
+                right[k] += 0.25 * s[0] * (1.0 + s[1] * at[1]) * x[corner][k];
+                up[k] += 0.25 * s[1] * (1.0 + s[0] * at[0]) * x[corner][k];
+            }
+            from_axis += shape[corner] * x[corner][0];
+        }
+        cross(right, up) * if measure == Measure::Plane { 1.0 } else { TURN * from_axis }
+    };
+    let mut means = [[0.0; 4]; 4];
+    for (quarter, row) in SIGNS.iter().zip(&mut means) {
+        let mut sum = 0.0;
+        for s in SIGNS {
+            let at = [0, 1].map(|k| 0.5 * (quarter[k] + s[k] * gauss));
+            let weight = volume(at);
+            sum += weight;
+            for (entry, point) in row.iter_mut().zip(SIGNS) {
+                *entry += weight * 0.25 * (1.0 + point[0] * at[0] / gauss) * (1.0 + point[1] * at[1] / gauss);
+            }
+        }
+        row.iter_mut().for_each(|entry| *entry /= sum);
+    }
+    let volumes = SIGNS.map(|s| volume([s[0] * gauss, s[1] * gauss]));
+    Rule::of(&means, &volumes)
 }
 
 /// Whether no corner turns inwards.
@@ -67,42 +55,12 @@ fn is_convex(x: &[Point; 4]) -> bool {
     (0..4).all(|k| cross(minus(x[(k + 1) % 4], x[k]), minus(x[(k + 3) % 4], x[k])) > 0.0)
 }
 
-/// The inverse by elimination with the largest pivots; `None` if there is none.
-fn inverse(of: &[[f64; 4]; 4]) -> Option<[[f64; 4]; 4]> {
-    let mut a = *of;
-    let mut b: [[f64; 4]; 4] = std::array::from_fn(|row| std::array::from_fn(|column| f64::from(u8::from(row == column))));
-    for k in 0..4 {
-        let pivot = (k + 1..4).fold(k, |best, row| if a[row][k].abs() > a[best][k].abs() { row } else { best });
-        a.swap(k, pivot);
-        b.swap(k, pivot);
-        if !(a[k][k].abs() > 1e-6) {
-            return None;
-        }
-        let scale = a[k][k];
-        for column in 0..4 {
-            a[k][column] /= scale;
-            b[k][column] /= scale;
-        }
-        for row in (0..4).filter(|&row| row != k) {
-            let factor = a[row][k];
-            for column in 0..4 {
-                a[row][column] -= factor * a[k][column];
-                b[row][column] -= factor * b[k][column];
-            }
-        }
-    }
-    Some(b)
-}
-
 /// The sub-cells of integration points as a mesh.
 #[derive(Debug)]
 pub(super) struct SubCells {
     pub(super) positions: Vec<Point>,
     pub(super) cells: Vec<Cell>,
-    /// Of each cell with four points.
-    pub(super) quarters: Vec<Option<Quarters>>,
-    /// Sub-cells of a cell.
-    pub(super) points: usize,
+    pub(super) layout: Layout,
 }
 
 impl SubCells {
@@ -115,7 +73,10 @@ impl SubCells {
     pub(super) fn of(mesh: Mesh<'_>, points: usize, measure: Measure, side: Side) -> Result<Self, Failure> {
         let mut positions = mesh.positions.to_vec();
         match points {
-            1 => return Ok(Self { positions, cells: mesh.cells.to_vec(), quarters: Vec::new(), points }),
+            1 => {
+                let layout = Layout::new(mesh.cells.iter().map(|_| 1), Vec::new());
+                return Ok(Self { positions, cells: mesh.cells.to_vec(), layout });
+            }
             4 => {}
             _ => return Err(Failure::Points { side, cell: 0 }),
         }
@@ -132,16 +93,16 @@ impl SubCells {
         }
         let first = mesh.positions.len();
         let mut cells = Vec::with_capacity(4 * mesh.cells.len());
-        let mut quarters = Vec::with_capacity(mesh.cells.len());
+        let mut rules = Vec::with_capacity(mesh.cells.len());
         for cell in mesh.cells {
             let x = [at(cell[0])?, at(cell[1])?, at(cell[2])?, at(cell[3])?];
             let middles: [u32; 4] = std::array::from_fn(|k| (first + edges.binary_search(&ends(cell, k)).unwrap_or(0)) as u32);
             let centre = positions.len() as u32;
             positions.push(if is_convex(&x) { middle(middle(x[0], x[2]), middle(x[1], x[3])) } else { inner(&x) });
             cells.extend((0..4).map(|k| [cell[k], middles[k], centre, middles[(k + 3) % 4]]));
-            quarters.push(Quarters::of(&x, measure));
+            rules.push(rule(&x, measure));
         }
-        Ok(Self { positions, cells, quarters, points })
+        Ok(Self { positions, cells, layout: Layout::new(mesh.cells.iter().map(|_| 4), rules) })
     }
 }
 

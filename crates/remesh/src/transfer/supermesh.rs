@@ -4,6 +4,7 @@ use super::boundary::{Sliver, slivers};
 use super::clip::{Cut, Piece, TURN, Twin, Vertex, pieces, twins};
 use super::{Failure, Side};
 use crate::plane::{Measure, Mesh};
+use crate::shared::uncovered;
 
 /// Integrals over what an old and a new triangle have in common.
 #[derive(Clone, Copy, Debug)]
@@ -93,14 +94,6 @@ pub(super) fn cell_volumes(twins: &[Twin], moments: &[[f64; 3]], cells: usize, s
     match volumes.iter().position(|&volume| !(volume > 0.0)) {
         Some(cell) => Err(Failure::Inverted { side, cell }),
         None => Ok(volumes),
-    }
-}
-
-/// Volume of new cells without old material; `Uncovered` if that is more than half of one.
-pub(super) fn uncovered(covered: &[f64], volumes: &[f64]) -> Result<f64, Failure> {
-    match covered.iter().zip(volumes).position(|(part, whole)| !(2.0 * part >= *whole)) {
-        Some(cell) => Err(Failure::Uncovered { cell }),
-        None => Ok(covered.iter().zip(volumes).map(|(part, whole)| (whole - part).max(0.0)).sum()),
     }
 }
 

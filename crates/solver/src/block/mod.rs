@@ -324,7 +324,7 @@ pub trait Block<const D: usize>: Send + Sync {
     }
     /// Stresses and states of its points; `None`: it is not of solids whose law can continue with means of
     /// them.
-    fn point_values(&self) -> Option<PointValues> {
+    fn point_values(&self, _positions: &[[f64; D]]) -> Option<PointValues> {
         None
     }
     /// Elastic energy of the stresses of its points by their volumes now, J/m; of rate laws, where

@@ -55,6 +55,8 @@ pub(super) struct ElementStore<const D: usize> {
     pub(super) history: Vec<Batch>,
     /// Hyperelastic laws: initial geometry of the points.
     pub(super) initial: Vec<Batch>,
+    /// Whether they began strained, as elements that were made again in the run.
+    pub(super) is_strained: bool,
     pub(super) elements: Vec<ElementBatch>,
     /// With bulk viscosity or damping in proportion to the stiffness.
     pub(super) resistance: Vec<Resistance>,
@@ -155,6 +157,7 @@ where
             stress: scratch(points * components),
             history: scratch(points * law.state_width()),
             initial: Vec::new(),
+            is_strained: false,
             elements: vec![ElementBatch::default(); batches],
             resistance: Vec::new(),
             hourglass: scratch(hourglass),
@@ -597,8 +600,8 @@ where
         self.add_mass(squared, may, add).then(|| self.joined_reports().time_step_squared)
     }
 
-    fn point_values(&self) -> Option<PointValues> {
-        self.values_of_points()
+    fn point_values(&self, positions: &[[f64; D]]) -> Option<PointValues> {
+        self.values_of_points(positions)
     }
 
     fn elastic_energy(&self, positions: &[[f64; D]]) -> f64 {
@@ -651,9 +654,9 @@ where
         // Of the model, or worked out again in each step.
         #[rustfmt::skip]
         let Self {
-            kernel: _, law: _, source: _, density: _, viscosity: _, damping: _, count: _, nodes: _, initial: _, kept: _, keeps_forces: _, corner_mass: _, volume_initial: _,
+            kernel: _, law: _, source: _, density: _, viscosity: _, damping: _, count: _, nodes: _, kept: _, keeps_forces: _, corner_mass: _,
             strips: _, nodal: _,
-            reports, marks, weights, stress, damped, history, elements, resistance, hourglass, subcycles, eroded,
+            initial, is_strained, volume_initial, reports, marks, weights, stress, damped, history, elements, resistance, hourglass, subcycles, eroded,
         } = self;
         for list in [stress, damped, history, hourglass] {
             list[..].persist(archive)?;
@@ -663,6 +666,11 @@ where
             if !list.is_empty() {
                 list[..].persist(archive)?;
             }
+        }
+        is_strained.persist(archive)?;
+        if *is_strained {
+            initial[..].persist(archive)?;
+            volume_initial[..].persist(archive)?;
         }
         elements[..].persist(archive)?;
         resistance[..].persist(archive)?;

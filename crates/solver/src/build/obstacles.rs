@@ -84,7 +84,9 @@ impl Builder<'_, 2> {
         let count = own.len().max(1) as f64;
         let mean = |of: fn(&Tributary) -> f64| own.iter().map(of).fold(0.0, |sum, it| sum + it) / count;
         let mean = Tributary { area: mean(|it| it.area), length: mean(|it| it.length), stiffness: mean(|it| it.stiffness), of_mass: 0.0 };
-        let longest = target.surface.segments.iter().map(|&segment| length(segment, &self.mesh.positions)).fold(0.0, f64::max);
+        // Of elements that were made again, as they were then.
+        let places = self.mesh.references();
+        let longest = target.surface.segments.iter().map(|&segment| length(segment, &places)).fold(0.0, f64::max);
         let mut bodies: Vec<u32> = target.surface.nodes.iter().map(|&node| self.body_of_node[node as usize]).collect();
         bodies.sort_unstable();
         bodies.dedup();
@@ -156,15 +158,17 @@ impl Builder<'_, 2> {
         };
         let points = (0..=ROUND).map(place).collect();
         let shape = Box::new(shape);
-        // Smaller than the segments it can come in between the nodes.
-        let slips_through = !hollow && pushed < met.longest;
+        // Smaller than the segments it can come in between the nodes. Where elements are made again that may
+        // change.
+        let acts = pushed < met.longest;
+        let slips_through = !hollow && (acts || self.model.is_remeshed());
         let (body, own) = self.register(obstacle, reference, if slips_through { vec![(middle, centre)] } else { Vec::new() }, points);
         let nodes = self.node_obstacle(obstacle, &met, shape, body, |_| false);
         let Some(&node) = own.first() else { return Ok((body, Box::new(nodes))) };
         let (slave, depths) = (met.point(obstacle), met.depths());
         let tracker = self.tracker(met.outline, points_only(vec![node]), &[(1, 0)], &self.positions);
-        let segments =
-            RoundSegments::new(tracker, slave, pushed, body, Manner { reach: met.reach, ..manner(&obstacle.interface, 0.0) }, depths);
+        let manner = Manner { reach: met.reach, ..manner(&obstacle.interface, 0.0) };
+        let segments = RoundSegments::new(tracker, slave, pushed, body, manner, depths).acting(acts);
         Ok((body, Box::new(Both::new([Box::new(nodes), Box::new(segments)]))))
     }
 
@@ -181,7 +185,9 @@ impl Builder<'_, 2> {
         let lines: Vec<f64> = surface.segments.iter().map(|&segment| length(segment, &self.positions)).collect();
         // Lines as fine as the segments meet them as another surface would, half in each pass. Of long ones
         // only the corners count besides, each with as much as a node of the parts has.
-        let passes = if lines.iter().sum::<f64>() <= lines.len() as f64 * met.mean.length { 2 } else { 1 };
+        let is_fine = lines.iter().sum::<f64>() <= lines.len() as f64 * met.mean.length;
+        // Where elements are made again, the parts' may become finer than the lines.
+        let passes = if is_fine && !self.model.is_remeshed() { 2 } else { 1 };
         let slave = |own: Tributary, share: f64| {
             let here = law::Node { own, other: own.stiffness, share };
             Slave { stiffness: stiffness_of(&obstacle.interface, here, passes), area: own.area / passes as f64, of_mass: 0.0 }

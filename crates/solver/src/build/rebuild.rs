@@ -45,7 +45,7 @@ where
             rebuild: true,
             ..Builder::of(&self.model, take(parts.mesh), Joins::default(), Curves::default())
         };
-        builder.rebuild_contacts(contacts);
+        builder.in_references(|builder| builder.rebuild_contacts(contacts));
         let Builder { mesh, constraints, positions, mass, node_elements, moduli, bodies, .. } = builder;
         (*parts.mesh, *parts.constraints, *parts.mass, *parts.bodies) = (mesh, constraints, mass, bodies);
         (self.positions, self.node_elements, self.moduli) = (positions, node_elements.into_inner().unwrap_or_default(), moduli);

@@ -40,6 +40,7 @@ use crate::step::erosion::Erosion;
 use crate::step::free::Groups;
 use crate::step::mass_scaling::MassScaling;
 use crate::step::relaxation::Relaxation;
+use crate::step::remap::Remap;
 use crate::step::rotations::NodalRotations;
 use crate::step::stages::Stages;
 use crate::step::{CHUNK, Governor, NodalBound, System};
@@ -169,21 +170,27 @@ where
         let (forces, boundary) = self.loads();
         let cavities = self.cavities();
         self.check_moments(&elements.blocks);
-        // Areas and lengths of parts that were made again are those of that time.
-        let references = match self.mesh.references() {
-            Cow::Owned(positions) => Some(positions),
-            Cow::Borrowed(_) => None,
-        };
-        let initial = references.map(|positions| replace(&mut self.mesh.positions, positions));
-        let contacts = self.contacts_and_obstacles();
-        if let Some(positions) = initial {
-            self.mesh.positions = positions;
-        }
+        let contacts = self.in_references(Self::contacts_and_obstacles);
         let contacts = self.sound(contacts)?;
         self.bodies.weigh(&elements.body_forces, &self.mass);
         let criteria = self.criteria();
         let criteria = self.sound(criteria)?;
         Ok(Conditions { springs, forces, cavities, boundary, contacts, criteria })
+    }
+
+    /// What is made of the mesh where areas and lengths of parts whose elements were made again are those of
+    /// that time.
+    pub(super) fn in_references<T>(&mut self, make: impl FnOnce(&mut Self) -> T) -> T {
+        let references = match self.mesh.references() {
+            Cow::Owned(positions) => Some(positions),
+            Cow::Borrowed(_) => None,
+        };
+        let initial = references.map(|positions| replace(&mut self.mesh.positions, positions));
+        let made = make(self);
+        if let Some(positions) = initial {
+            self.mesh.positions = positions;
+        }
+        made
     }
 
     /// The system.
@@ -280,7 +287,7 @@ where
             nodal_bound: (model.run.stable_step != StableStep::Elements).then(NodalBound::default),
             assembled_bound: None,
             subcycling: None,
-            remap: (!model.remeshes.is_empty()).then(Box::default),
+            remap: (model.is_remeshed() || !mesh.remeshed.is_empty()).then(|| Box::new(Remap::new(model))),
             team: if count >= SERIAL { Team::new(threads) } else { Team::alone() },
             mesh,
             blocks,
@@ -380,7 +387,9 @@ where
                 Some(mut block) => {
                     if let Some(own) = self.mesh.remeshed.of(i) {
                         // What they hold is filled in later.
-                        for (element, mass) in own.masses.iter().enumerate() {
+                        let earlier = self.mesh.groups[..index].iter().filter(|other| other.part == i);
+                        let first: usize = earlier.map(ElementGroup::elements).sum();
+                        for (element, mass) in own.masses.iter().skip(first).take(group.elements()).enumerate() {
                             block.scale_density(element, mass / block.mass(element));
                         }
                         blocks.push(block);

@@ -1,7 +1,7 @@
 //! What is kept of the springs of slave nodes from step to step, in 2D and 3D: the gap that counts as zero,
 //! where a spring was in the middle of the step, and its energy.
 
-use super::initial::{is_ignored, kept};
+use super::initial::{is_ignored, kept, moved_by, pressing};
 use super::springs::{Answer, Springs, TangentSpace};
 use crate::archive::{Archive, ArchiveResult, Persist, persist_all, persist_each};
 use crate::model;
@@ -55,6 +55,8 @@ pub(super) struct Continuity<const D: usize> {
     /// Initial positions, m: only where a surface meets itself at a distance.
     initial: Vec<[f64; D]>,
     pub(super) has_begun: bool,
+    /// Whether elements were made again since the last step.
+    is_new: bool,
     /// Energy of the springs of the last step, and of those that were not found again, J (in 2D J/m).
     closed: Closed,
     pub(super) lost_contact_energy: f64,
@@ -73,6 +75,7 @@ where
             ignores_start: is_ignored(interface),
             initial: if interface.thickness + reach > 0.0 { initial.to_vec() } else { Vec::new() },
             has_begun: false,
+            is_new: false,
             closed: Closed::default(),
             lost_contact_energy: 0.0,
         }
@@ -88,10 +91,37 @@ where
         gap + (self.thickness + self.reach - 0.5 * distance(&self.initial)).max(0.0)
     }
 
-    /// Gap as the spring sees it, and the gap that counts as zero.
+    /// Continues that of surfaces whose elements were made again since the last step.
+    pub(super) fn carry(&mut self, old: &Self) {
+        (self.has_begun, self.is_new) = (old.has_begun, true);
+    }
+
+    /// The history of a spring whose stiffness by area has changed, with its elements, from the first to the
+    /// second of `by_area` (Pa/m): its gap is such that it presses as before.
+    pub(super) fn pressing(&self, history: &SpringHistory<D>, gap: f64, by_area: [f64; 2]) -> SpringHistory<D> {
+        if !(self.is_new && self.stores) || history.normal == [0.0; D] {
+            return *history;
+        }
+        SpringHistory { offset: gap - pressing(gap - history.offset, by_area), ..*history }
+    }
+
+    /// The history of a spring that was carried over to other elements, which has where its gap was before in
+    /// `half`: now that the gap is `gap`, it presses as before. Another one is as it is.
+    pub(super) fn moved(&self, history: &SpringHistory<D>, gap: f64, by_area: [f64; 2]) -> SpringHistory<D> {
+        if !self.is_new || history.normal == [0.0; D] {
+            return *history;
+        }
+        let before = if self.stores { pressing(history.half, by_area) } else { history.half };
+        // Where it was half a step ago, and with what energy, follows from where the node is now.
+        SpringHistory { offset: moved_by(before, gap), half: f64::NAN, stored: 0.0, ..*history }
+    }
+
+    /// Gap as the spring sees it, and the gap that counts as zero. What is inside of a surface whose elements
+    /// were made again, and was not in contact, came in there by no motion.
     pub(super) fn beyond(&self, gap: f64, own: bool, history: &SpringHistory<D>) -> (f64, f64) {
-        let offset = kept(self.has_begun, history.offset, gap);
-        let offset = if self.ignores_start && !own { offset } else { 0.0 };
+        let begins = self.is_new && history.normal == [0.0; D];
+        let counts = (self.ignores_start && !own) || begins || history.offset != 0.0;
+        let offset = if counts { kept(self.has_begun && !begins, history.offset, gap) } else { 0.0 };
         (gap - offset, offset)
     }
 
@@ -105,7 +135,7 @@ where
     /// Compares the energy of the springs that were found again with those of the step before.
     pub(super) fn found(&mut self, again: &Closed) {
         self.lost_contact_energy = self.closed.less(again);
-        self.has_begun = true;
+        (self.has_begun, self.is_new) = (true, false);
     }
 
     /// Begins to note the solved springs of a step.
@@ -126,8 +156,9 @@ where
 
 impl<const D: usize> Persist for Continuity<D> {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { thickness: _, reach: _, stores: _, ignores_start: _, initial: _, lost_contact_energy: _, has_begun, closed } = self;
-        persist_each!(archive; has_begun, closed);
+        let Self { thickness: _, reach: _, stores: _, ignores_start: _, initial: _, lost_contact_energy: _, has_begun, is_new, closed } =
+            self;
+        persist_each!(archive; has_begun, is_new, closed);
         Ok(())
     }
 }

@@ -475,7 +475,8 @@ impl EdgeTracker {
 
     /// Takes over what another one knew whose `surfaces` were those before they changed: of edges that are
     /// still there in `new` ones.
-    pub(super) fn inherit(&mut self, old: &Self, surfaces: &[SpaceSurface], new: &[SpaceSurface]) {
+    pub(super) fn inherit(&mut self, old: &Self, surfaces: [&[SpaceSurface]; 2], number: impl Fn(u32) -> Option<u32>) {
+        let [surfaces, new] = surfaces;
         let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
         let by_nodes = |side: usize| {
             let mut all: Vec<([u32; 2], u32)> = new[side].edges.iter().map(|edge| sorted(edge.nodes)).zip(0..).collect();
@@ -486,7 +487,8 @@ impl EdgeTracker {
         let known = old.pairs.iter().filter(|pair| pair.touches).filter_map(|pair| {
             let mut edges = [0; 2];
             for of in 0..2 {
-                let nodes = sorted(surfaces[old.sides[of]].edges[pair.edges[of] as usize].nodes);
+                let [a, b] = surfaces[old.sides[of]].edges[pair.edges[of] as usize].nodes;
+                let nodes = sorted([number(a)?, number(b)?]);
                 let at = tables[of].binary_search_by_key(&nodes, |entry| entry.0).ok()?;
                 edges[of] = tables[of][at].1;
             }

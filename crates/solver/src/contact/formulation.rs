@@ -42,6 +42,8 @@ pub struct FormulationKind {
     pub passes: fn(&model::Contact) -> Passes,
     /// What it is in contacts with `tied`; `None`: it can't hold surfaces together.
     pub tied: Option<&'static FormulationKind>,
+    /// Whether in 2D what it knows goes over to surfaces of elements that were made again.
+    pub is_carried: bool,
     /// Makes one in 2D; `None`: there is none.
     pub in_2d: Option<Make<2>>,
     /// Makes one in 3D; `None`: there is none.

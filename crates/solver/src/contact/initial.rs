@@ -91,18 +91,43 @@ pub fn is_ignored(interface: &Interface) -> bool {
     interface.initial_penetration == InitialPenetration::Ignore || interface.active[0] > 0.0
 }
 
-/// The gap that counts as zero (m, negative), now that the gap is `gap`: that at which the interface began to
-/// act, until the surfaces part. One that went with the gap would give to springs what no one put in.
-/// `offset` is that of the step before; it has none before it has begun.
+/// The gap that counts as zero (m), now that the gap is `gap`: that at which the interface began to act, or
+/// by which surfaces of elements that were made again are off those before, until the surfaces part. One that
+/// went with the gap would give to springs what no one put in. `offset` is that of the step before; it has
+/// none before it has begun.
 #[must_use]
 pub fn kept(has_begun: bool, offset: f64, gap: f64) -> f64 {
     if !has_begun {
         gap.min(0.0)
-    } else if gap < 0.0 {
+    } else if gap < offset.max(0.0) {
         offset
     } else {
         0.0
     }
+}
+
+/// The gap that counts as zero (m) where surfaces of elements that were made again have the gap `now` and
+/// those before had `before`, not a number where there was none: springs press as before.
+#[must_use]
+pub fn moved_by(before: f64, now: f64) -> f64 {
+    if before.is_nan() {
+        now.min(0.0)
+    } else if before < 0.0 || now < 0.0 {
+        now - before
+    } else {
+        0.0
+    }
+}
+
+/// Most that a spring's gap changes by, as a factor, so that it presses as before with another stiffness.
+const STIFFER: f64 = 4.0;
+
+/// The gap (m) of a spring that presses as one of the gap `gap` did whose stiffness by area was the first of
+/// `by_area` and is now the second, Pa/m.
+#[must_use]
+pub fn pressing(gap: f64, [before, now]: [f64; 2]) -> f64 {
+    let known = gap < 0.0 && before > 0.0 && now > 0.0;
+    if known { gap * (before / now).clamp(1.0 / STIFFER, STIFFER) } else { gap }
 }
 
 /// How far a model is drawn: its farthest coordinate, m.

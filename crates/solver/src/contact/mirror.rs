@@ -7,7 +7,7 @@
 //! stiffness k of a pass its energy is 2 · ½ k (2g)² / 2 = ½ (4k) g².
 
 use super::springs::{Answers, End, Slip, Spring, Springs};
-use super::{Formulation, Scene};
+use super::{Formulation, Origins, Scene};
 use crate::archive::{Archive, ArchiveResult};
 use crate::contact::springs::TangentSpace;
 use crate::tensor::Dim;
@@ -100,6 +100,12 @@ where
     fn inherit(&mut self, old: Box<dyn Any>) {
         if let Ok(old) = old.downcast::<Self>() {
             self.contact.inherit(old.contact);
+        }
+    }
+
+    fn carry(&mut self, old: &dyn Any, origins: &Origins<'_, D>) {
+        if let Some(old) = old.downcast_ref::<Self>() {
+            self.contact.carry(&*old.contact, origins);
         }
     }
 

@@ -19,9 +19,8 @@
 //! have met before 2 (T' − T) > d: until then it sleeps, and counts as swept. What touches and continues
 //! doing so was not missed, and is not swept.
 
-use super::Sweep;
 use super::edge_edge::{Around, EdgeTouch, EdgeTracker};
-use super::node_facet::groups::{Group, Meeting, bend, bodies_of, halves, mean_edge};
+use super::node_facet::groups::{Group, Meeting, bend, bodies_of, halves, mean_edge, nearest, renumbered};
 use super::node_facet::passage::{ALONG, Outcome, Passages};
 use super::node_facet::tracker::{ContactPoint, FACING, SAME_SIDE, Tracker};
 use super::projection::edge_edge::{crossing, distance};
@@ -30,6 +29,7 @@ use super::projection::swept::crossings;
 use super::search::{Pair, Query, Search};
 use super::tracker::Certificate;
 use super::tracker::sleep::AWAKE;
+use super::{Origins, Sweep};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::tensor::dot;
@@ -318,6 +318,20 @@ impl MissedContactCheck {
         for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
             let inside = before.groups.iter().filter(|group| group.known.side != [0.0; 3]);
             pass.groups = Group::moved(inside, &surfaces[pass.slave].nodes);
+            pass.wakes = vec![AWAKE; pass.groups.len()];
+            pass.order.clear();
+        }
+        (self.certificate, self.has_begun) = (old.certificate, old.has_begun);
+    }
+
+    /// The same before elements were made again: a node between some that were inside is inside. `bodies` of
+    /// old nodes and of new ones.
+    pub(super) fn carry(&mut self, old: &Self, surfaces: &[SpaceSurface], bodies: (&[u32], &[u32]), origins: &Origins<'_, 3>) {
+        let bodies = renumbered(bodies.0, bodies.1, origins);
+        for (pass, before) in self.passes.iter_mut().zip(&old.passes) {
+            let inside = before.groups.iter().filter(|group| group.known.side != [0.0; 3]);
+            let known = |others: &[(f64, &Group<Known>)]| nearest(others).map_or_else(Known::default, |own| own.known);
+            pass.groups = Group::carried(inside, (&surfaces[pass.slave].nodes, &bodies), origins, known);
             pass.wakes = vec![AWAKE; pass.groups.len()];
             pass.order.clear();
         }

@@ -81,9 +81,16 @@ where
     /// surfaces changed. What belongs to nodes and segments that are no more is forgotten.
     fn inherit(&mut self, old: Box<dyn Any>);
 
-    /// Takes over what its predecessor knew of the nodes that each node of the mesh lies between, which are
-    /// named with their shares: elements were made again, and numbers have changed. The rest is forgotten.
-    fn carry(&mut self, _old: &dyn Any, _origins: &[Vec<(u32, f64)>]) {}
+    /// Takes over what its predecessor knew of the places where its surfaces are now: elements were made
+    /// again, and numbers have changed. The rest is forgotten.
+    fn carry(&mut self, _old: &dyn Any, _origins: &Origins<'_, D>) {}
+
+    /// Where a new node has to be instead of this place of a surface, m, between some nodes with these
+    /// shares: as deep as their springs are, if all of them press, and no deeper else. By being made it must
+    /// neither come in nor leave. `None`: it may be there.
+    fn fitted(&self, between: &[(u32, f64)], place: [f64; D], now: &Standing<'_, D>) -> Option<[f64; D]> {
+        self.within()?.fitted(between, place, now)
+    }
 
     /// The formulation that it stands around, if it does: what is asked for and not answered below is that
     /// one's.
@@ -150,6 +157,44 @@ where
     fn thinnest(&self) -> f64 {
         self.within().map_or(f64::INFINITY, |within| within.thinnest())
     }
+}
+
+/// Where the nodes of a mesh whose elements were made again come from.
+#[derive(Clone, Copy, Debug)]
+pub struct Origins<'a, const D: usize> {
+    /// Of each node the old nodes of the outline that it lies between, with their shares; none inside.
+    pub nodes: &'a [Vec<(u32, f64)>],
+    /// Where nodes are, m.
+    pub positions: &'a [[f64; D]],
+    /// Where the old nodes were at the same time, m.
+    pub before: &'a [[f64; D]],
+}
+
+impl<const D: usize> Origins<'_, D> {
+    /// The old node that a node is nearest to.
+    #[must_use]
+    pub fn nearest(&self, node: u32) -> Option<u32> {
+        let between = self.nodes[node as usize].iter();
+        between.reduce(|most, own| if own.1 > most.1 { own } else { most }).map(|&(from, _)| from)
+    }
+
+    /// Whether a node is an old one.
+    #[must_use]
+    pub fn is_as_before(&self, node: u32) -> bool {
+        matches!(self.nodes[node as usize][..], [(_, 1.0)])
+    }
+}
+
+/// Where everything is between two steps.
+#[derive(Clone, Copy)]
+pub struct Standing<'a, const D: usize>
+where
+    Dim<D>: TangentSpace<D>,
+{
+    /// Of the nodes, m.
+    pub positions: &'a [[f64; D]],
+    /// Rigid bodies.
+    pub bodies: &'a Bodies<D>,
 }
 
 /// What a step shows to contacts.
@@ -373,9 +418,13 @@ where
         self.formulation.inherit(old);
     }
 
-    /// Continues where a contact of the same model was before elements were made again; `origins` as in
-    /// [`Formulation::carry`].
-    pub(crate) fn carry(&mut self, old: Self, origins: &[Vec<(u32, f64)>]) {
+    /// See [`Formulation::fitted`].
+    pub(crate) fn fitted(&self, between: &[(u32, f64)], place: [f64; D], now: &Standing<'_, D>) -> Option<[f64; D]> {
+        self.formulation.fitted(between, place, now)
+    }
+
+    /// Continues where a contact of the same model was before elements were made again.
+    pub(crate) fn carry(&mut self, old: Self, origins: &Origins<'_, D>) {
         self.checked = old.certificate();
         (self.totals, self.penetration, self.has_pressed) = (old.totals, old.penetration, old.has_pressed);
         (self.friction_work, self.window, self.time) = (old.friction_work, old.window, old.time);

@@ -31,7 +31,7 @@ use super::spin;
 use super::springs::friction::cone;
 use super::springs::{Answer, Answers, End, Slip, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
-use super::{Formulation, Scene, Sweep, both};
+use super::{Formulation, Origins, Scene, Sweep, both};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::contact::springs::TangentSpace;
 use crate::mesh::surface::{Corners, NONE};
@@ -41,6 +41,7 @@ use crate::vector::any_tangent;
 pub use ends::ends;
 use ends::{ends_with, pushed};
 use std::any::Any;
+use std::collections::BTreeMap;
 use tracker::{ContactHistory, ContactPoint, Tracker};
 
 /// The formulation.
@@ -222,8 +223,7 @@ impl NodeFacet {
     /// The spring of a node that touches.
     fn push_node(&mut self, index: usize, scene: &Scene<'_, 3>, springs: &mut Springs<3>) {
         let touch = self.tracker.touches()[index];
-        let history = self.tracker.kept(&touch).spring;
-        let (gap, offset) = self.continuity.beyond(self.gap(&touch), touch.own, &history);
+        let ContactHistory { spring: history, by_area: by_area_before, .. } = *self.tracker.kept(&touch);
         let mut more = std::mem::take(&mut self.more);
         let (pass, node, slave) = (&self.passes[touch.pass as usize], touch.node, touch.slave as usize);
         let Projection { normal, facet, weights, .. } = touch.projection;
@@ -231,6 +231,10 @@ impl NodeFacet {
         let rest = Placed { surface: target, positions: scene.sweep.new }.rests_on(&touch.projection);
         let facets = target.sharing(facet, rest);
         let (stiffness, area) = (pass.softest(slave, Face::WHOLE, facets.clone()), pass.slaves[slave].area);
+        let by_area = if area > 0.0 { stiffness / area } else { 0.0 };
+        let whole = self.gap(&touch);
+        let history = self.continuity.moved(&history, whole, [by_area_before, by_area]);
+        let (gap, offset) = self.continuity.beyond(whole, touch.own, &history);
         let (thickness, of_mass) = (pass.thickness(slave, facets.clone()), pass.of_mass(slave, facets));
         let (stiffening, side) = (stiffening(thickness, pass.factor(stiffness, of_mass)), self.tracker.side(touch.pass));
         let spring = Spring { normal, gap, stiffness, area, stiffening, side, ..Spring::default() };
@@ -246,7 +250,7 @@ impl NodeFacet {
         self.more = more;
         let kept = self.tracker.kept_mut(&touch);
         (kept.spring.offset, kept.spring.normal, kept.spring.stored) = (offset, normal, 0.0);
-        (kept.facet, kept.rest) = (facet, rest);
+        (kept.facet, kept.rest, kept.by_area) = (facet, rest, by_area);
     }
 
     /// The same with slip and rims.
@@ -397,7 +401,7 @@ impl Formulation<3> for NodeFacet {
             // What is not found again went with its surface.
             self.tracker.inherit(&old.tracker);
             if let (Some(edges), Some(before)) = (&mut self.edges, &old.edges) {
-                edges.inherit(before, old.tracker.surfaces(), self.tracker.surfaces());
+                edges.inherit(before, [old.tracker.surfaces(), self.tracker.surfaces()], Some);
             }
             if let (Some(proof), Some(before)) = (&mut self.proof, &old.proof) {
                 proof.inherit(before, self.tracker.surfaces());
@@ -408,6 +412,26 @@ impl Formulation<3> for NodeFacet {
             self.continuity.has_begun = old.continuity.has_begun;
             self.is_stale = true;
         }
+    }
+
+    fn carry(&mut self, old: &dyn Any, origins: &Origins<'_, 3>) {
+        let Some(old) = old.downcast_ref::<Self>() else { return };
+        self.tracker.carry(&old.tracker, origins, |touch| old.gap(touch) - old.tracker.kept(touch).spring.offset);
+        let surfaces = self.tracker.surfaces();
+        if let (Some(edges), Some(before)) = (&mut self.edges, &old.edges) {
+            // Between nodes that are as they were; others are found again.
+            let as_before = origins.nodes.iter().zip(0..).filter(|(own, _)| matches!(own[..], [(_, 1.0)]));
+            let numbers: BTreeMap<u32, u32> = as_before.map(|(own, node)| (own[0].0, node)).collect();
+            edges.inherit(before, [old.tracker.surfaces(), surfaces], |node| numbers.get(&node).copied());
+        }
+        if let (Some(proof), Some(before)) = (&mut self.proof, &old.proof) {
+            proof.carry(before, surfaces, (old.tracker.bodies(), self.tracker.bodies()), origins);
+        }
+        if let (Some(overlap_check), Some(before)) = (&mut self.overlap_check, &old.overlap_check) {
+            overlap_check.inherit(before);
+        }
+        self.continuity.carry(&old.continuity);
+        self.is_stale = true;
     }
 
     fn overlaps(&self) -> Option<&Findings> {

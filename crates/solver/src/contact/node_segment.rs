@@ -18,7 +18,7 @@ use super::projection::node_segment::{Projection, Target};
 use super::slaves::{PassInput, Slave};
 use super::springs::{Answers, End, Slip, Spring, Springs, tangent};
 use super::tracker::{Certificate, ContactHistory, ContactPoint, SearchReport, Tracker, is_facing};
-use super::{Formulation, Scene, Vector};
+use super::{Formulation, Origins, Scene, Vector};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::mesh::surface::NONE;
 use crate::model;
@@ -32,6 +32,7 @@ pub const DOUBLE_PASS: FormulationKind = FormulationKind {
     source: "Bittencourt and Creus (1995)",
     passes: both_passes,
     tied: Some(&super::tied::NODES),
+    is_carried: true,
     in_2d: Some(|setup| Ok(Box::new(NodeSegment::of(setup)))),
     in_3d: Some(|setup| Ok(Box::new(NodeFacet::checked(setup)))),
 };
@@ -43,6 +44,7 @@ pub const SINGLE_PASS: FormulationKind = FormulationKind {
     source: "Bittencourt and Creus (1995)",
     passes: one_pass,
     tied: Some(&super::tied::NODES),
+    is_carried: true,
     in_2d: Some(|setup| Ok(Box::new(NodeSegment::of(setup)))),
     in_3d: Some(|setup| Ok(Box::new(NodeFacet::checked(setup)))),
 };
@@ -156,7 +158,9 @@ impl NodeSegment {
             let other = other_at_node(touch.node, &touch.projection, target);
             let stiffness = pass.softest(slave, part, std::iter::once(segment).chain(other));
             let area = part.length * pass.slaves[slave].area;
-            let (gap, offset) = self.continuity.beyond(self.gap(&touch), touch.own, &memory.spring);
+            let by_area = if area > 0.0 { stiffness / area } else { 0.0 };
+            let history = self.continuity.pressing(&memory.spring, self.gap(&touch), [memory.stiffness, by_area]);
+            let (gap, offset) = self.continuity.beyond(self.gap(&touch), touch.own, &history);
             let thickness = self.depths.thickness(self.tracker.around(&touch)).min(pass.thickness(slave, None));
             self.depths.see(&self.tracker, &touch, offset - touch.projection.gap, thickness, scene);
             let stiffening = stiffening(thickness, pass.factor(stiffness, pass.of_mass(slave, [segment])));
@@ -171,7 +175,7 @@ impl NodeSegment {
             }
             self.continuity.resume(&memory.spring, springs);
             let spring = SpringHistory { offset, normal, stored: 0.0, ..memory.spring };
-            *self.tracker.kept_mut(&touch) = ContactHistory { spring, faces, ..memory };
+            *self.tracker.kept_mut(&touch) = ContactHistory { spring, faces, stiffness: by_area, ..memory };
             self.used.push(index as u32);
         }
         self.depths.end();
@@ -208,6 +212,13 @@ impl Formulation<2> for NodeSegment {
             self.continuity.has_begun = old.continuity.has_begun;
             self.depths.inherit(&old.depths);
         }
+    }
+
+    fn carry(&mut self, old: &dyn Any, origins: &Origins<'_, 2>) {
+        let Some(old) = old.downcast_ref::<Self>() else { return };
+        self.tracker.carry(&old.tracker, origins);
+        self.continuity.carry(&old.continuity);
+        self.depths.inherit(&old.depths);
     }
 
     fn lost_contact_energy(&self) -> f64 {

@@ -37,6 +37,7 @@ pub const KIND: FormulationKind = FormulationKind {
     source: "Belytschko and Neal (1991), split as by Belytschko and Yeh (1993); disks and balls that touch the surface from inside",
     passes: both_passes,
     tied: None,
+    is_carried: false,
     in_2d: Some(|setup| Ok(Box::new(Checked::new(Box::new(Pinball::of(&setup)), setup.overlap_check)))),
     in_3d: Some(|setup| Ok(Box::new(Checked::new(Box::new(space::Pinball::of(&setup)), setup.overlap_check.without_nets())))),
 };

@@ -50,6 +50,7 @@ pub const KIND: FormulationKind = FormulationKind {
     source: "Papadopoulos and Taylor (1992); common plane as in Puso and Laursen (2004)",
     passes: both_passes,
     tied: Some(&tied::SURFACES),
+    is_carried: false,
     in_2d: Some(|setup| Ok(Box::new(Segment::of(setup)))),
     in_3d: Some(|setup| Ok(Box::new(space::Segment::of(setup)))),
 };

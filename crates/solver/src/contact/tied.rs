@@ -39,6 +39,7 @@ pub const NODES: FormulationKind = FormulationKind {
     source: "two-way springs or multipliers on gap and slip",
     passes: one_pass,
     tied: None,
+    is_carried: false,
     in_2d: Some(|setup| {
         let (pending, at_start) = PendingTies::of(&setup);
         Ok(Box::new(Tied::new(pending, NodeSegment::of(setup), at_start)?))

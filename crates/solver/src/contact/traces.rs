@@ -4,6 +4,7 @@
 //! Springs come solved; fields go to the record. Each spring stands for a length of surface on both sides,
 //! and a node has its shares of the springs at it.
 
+use super::Origins;
 use super::springs::{Answer, Springs};
 use crate::archive::{Archive, ArchiveResult, Persist};
 use crate::contact::springs::TangentSpace;
@@ -148,11 +149,11 @@ where
         *self = Self { slip, heat, ..Self::new(outside, positions, depth) };
     }
 
-    /// Takes over what contacts left at the old nodes that each node lies between, which are named with their
-    /// shares: by surface, what lies between is a mean.
-    pub(crate) fn carry(&mut self, old: &Self, origins: &[Vec<(u32, f64)>]) {
+    /// Takes over what contacts left at the old nodes that each node lies between: by surface, what lies
+    /// between is a mean.
+    pub(crate) fn carry(&mut self, old: &Self, origins: &Origins<'_, D>) {
         for (node, (slip, heat)) in self.slip.iter_mut().zip(&mut self.heat).enumerate() {
-            let Some(origin) = origins.get(node).filter(|_| self.area[node] > 0.0) else { continue };
+            let Some(origin) = origins.nodes.get(node).filter(|_| self.area[node] > 0.0) else { continue };
             *slip = origin.iter().map(|&(from, share)| share * old.slip(from as usize)).sum();
             *heat = origin.iter().map(|&(from, share)| share * old.heat(from as usize)).sum::<f64>() * self.area[node];
         }

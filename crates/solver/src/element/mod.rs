@@ -27,6 +27,7 @@ pub use bar2::BAR2;
 pub use beam2::BEAM2;
 pub use hex8::Hex8;
 pub use hex8_reduced::{Hex8Reduced, Hex8ReducedAssumedStrain, Hex8ReducedViscous};
+pub(crate) use of_part::points_of;
 pub use quad4::{Quad4, Quad4Full};
 pub use quad4_reduced::{Quad4Reduced, Quad4ReducedAssumedStrain, Quad4ReducedViscous};
 pub use shell2::SHELL2;

@@ -1,8 +1,9 @@
 //! Which elements a part is made of.
 
-use super::{BARS, BEAMS, ELEMENTS, ElementKind, SHELLS, elements_of};
+use super::{BARS, BEAMS, ELEMENTS, Element, ElementKind, ElementVisitor, Registered, SHELLS, elements_of, with_element};
 use crate::mesh::cell::CellKind;
 use crate::model::{Model, Part};
+use crate::tensor::{Dim, Space};
 
 impl Part {
     /// Whether it consists of bars: lines without a surface.
@@ -63,6 +64,26 @@ impl Part {
         let stands_in = |kind: &&ElementKind| dimension == 3 && ELEMENTS.iter().filter(is_named).any(|own| own.extruded == Some(kind.name));
         elements_for(dimension, cell).find(|kind| is_named(kind) || stands_in(kind))
     }
+}
+
+/// Integration points of an element of a surface in 2D or of a volume in 3D; `None`: there is no such one.
+#[must_use]
+pub(crate) fn points_of<const D: usize>(name: &str) -> Option<usize>
+where
+    Dim<D>: Space<D> + Registered<D>,
+{
+    struct Points;
+    impl<const D: usize> ElementVisitor<D> for Points
+    where
+        Dim<D>: Space<D>,
+    {
+        type Output = usize;
+
+        fn visit<E: Element<D, N, P>, const N: usize, const P: usize>(self) -> usize {
+            P
+        }
+    }
+    with_element::<D, _>(name, Points)
 }
 
 /// Elements of a kind of cell in a model of so many dimensions.

@@ -8,8 +8,8 @@ use crate::contact::{formulation, law, search};
 use crate::failure::CRITERIA;
 use crate::model::values::Datum;
 use crate::model::{
-    CAVITY, CHANNEL, CONSTRAINT, CONTACT, CURVE, CUT, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART, POINT_MASS,
-    PROBE, REMESH, RUN, SPRING, STAGE, SYMMETRY, Values, WELD,
+    CAVITY, CHANNEL, CONSTRAINT, CONTACT, CURVE, CUT, FLOW, JOIN, JOINT, LOAD, Material, NON_REFLECTING, OBSTACLE, OUTPUT, PART,
+    POINT_MASS, PROBE, RELOCATE, REMESH, RUN, SPRING, STAGE, SYMMETRY, Values, WELD,
 };
 use crate::quantity::Parameter;
 use crate::stress_state::STRESS_STATES;
@@ -39,6 +39,8 @@ pub static SECTIONS: &[&Section] = &[
     &CONTACT,
     &OBSTACLE,
     &REMESH,
+    &RELOCATE,
+    &FLOW,
     &SYMMETRY,
     &CONSTRAINT,
     &JOIN,

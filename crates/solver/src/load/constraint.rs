@@ -40,6 +40,9 @@ struct Contradiction {
     sources: Vec<u32>,
 }
 
+/// Components of unit vectors that are less are nothing.
+const SAME_DIRECTION: f64 = 1e-9;
+
 impl<const D: usize> NodeConstraint<D> {
     /// Adds a direction of rest for a condition; nothing where all of it rests already.
     pub(crate) fn rest(&mut self, direction: [f64; D], source: u32) {
@@ -56,6 +59,29 @@ impl<const D: usize> NodeConstraint<D> {
     pub(crate) fn directions(&self) -> Option<impl Iterator<Item = (u32, [f64; D])>> {
         let is_own = self.directions.iter().zip(&self.given).all(|((direction, _), given)| direction == given);
         is_own.then(|| self.sources.iter().copied().zip(self.given.iter().copied()))
+    }
+
+    /// Components of the velocity that are prescribed, each by itself; see [`Self::is_oblique`].
+    pub(crate) fn components(&self) -> [bool; D] {
+        std::array::from_fn(|k| {
+            let mut left = [0.0; D];
+            left[k] = 1.0;
+            for (direction, _) in &self.directions {
+                let along = direction[k];
+                left.iter_mut().zip(direction).for_each(|(left, own)| *left -= along * own);
+            }
+            left.iter().all(|left| left.abs() < SAME_DIRECTION)
+        })
+    }
+
+    /// Whether anything else than single components is prescribed.
+    pub(crate) fn is_oblique(&self) -> bool {
+        self.directions.len() != self.components().into_iter().filter(|&held| held).count()
+    }
+
+    /// Whether nothing of a component is prescribed.
+    pub(crate) fn leaves_free(&self, component: usize) -> bool {
+        self.directions.iter().all(|(direction, _)| direction[component].abs() < SAME_DIRECTION)
     }
 
     /// The parts of a reaction R (N/m, N) that each condition takes: along its own direction a_k, with Σ µ_k

@@ -28,6 +28,7 @@ impl Law for NeoHookean {
         parameters: &[DENSITY.such_as("1000 kg/m^3"), YOUNG.such_as("5 MPa"), POISSON.such_as("0.49")],
     };
     const FAMILY: Family = Family::Hyperelastic;
+    const CAN_BE_AVERAGED: bool = true;
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 0];
 
     fn new(parameters: &Parameters<'_>) -> Self {

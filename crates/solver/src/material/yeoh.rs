@@ -35,6 +35,7 @@ impl Law for Yeoh {
         ],
     };
     const FAMILY: Family = Family::Hyperelastic;
+    const CAN_BE_AVERAGED: bool = true;
     type State<L: Lane, T: SymmetricTensor<L>> = [L; 0];
 
     fn new(parameters: &Parameters<'_>) -> Self {

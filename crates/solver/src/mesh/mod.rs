@@ -15,6 +15,7 @@ mod imported;
 mod middles;
 mod order;
 mod persist;
+pub(crate) mod relocated;
 pub(crate) mod remeshed;
 mod skin;
 mod thickness;

@@ -76,10 +76,8 @@ where
 {
     /// Its index.
     pub(crate) part: usize,
-    /// Kind of all its elements.
-    pub(crate) kind: CellKind,
-    /// Nodes of each element.
-    pub(crate) connectivity: Vec<u32>,
+    /// Its elements, kind by kind: the nodes of each.
+    pub(crate) elements: Vec<(CellKind, Vec<u32>)>,
     /// Where its nodes are now, and where their material was at the start, m.
     pub(crate) places: Vec<[f64; D]>,
     pub(crate) initial: Vec<[f64; D]>,
@@ -254,16 +252,23 @@ where
         for group in self.groups.iter_mut().filter(|group| group.part != new.part) {
             group.connectivity.iter_mut().for_each(|node| *node = numbers.of_old[*node as usize]);
         }
-        let mut group = ElementGroup::new(new.part, new.kind);
-        group.connectivity = new.connectivity.iter().map(|&node| numbers.of_new[node as usize]).collect();
-        group.user_elements = (0..(new.connectivity.len() / new.kind.nodes()) as u32).collect();
         let mut places = self.positions.clone();
         for (&node, &place) in numbers.of_new.iter().zip(&new.places) {
             places[node as usize] = place;
         }
-        group.reorder(&places, false);
         let at = self.groups.iter().position(|group| group.part == new.part).unwrap_or(self.groups.len());
         self.groups.retain(|group| group.part != new.part);
-        self.groups.insert(at, group);
+        let mut first = 0;
+        let mut group = |(kind, connectivity): &(CellKind, Vec<u32>)| {
+            let mut group = ElementGroup::new(new.part, *kind);
+            let count = (connectivity.len() / kind.nodes()) as u32;
+            group.connectivity = connectivity.iter().map(|&node| numbers.of_new[node as usize]).collect();
+            group.user_elements = (first..first + count).collect();
+            first += count;
+            group.reorder(&places, false);
+            group
+        };
+        let groups: Vec<ElementGroup> = new.elements.iter().map(&mut group).collect();
+        self.groups.splice(at..at, groups);
     }
 }

@@ -170,9 +170,10 @@ pub(crate) static FORMULA: Message = Message {
 pub(crate) static NO_REMESHING: Message = Message {
     code: "E0128",
     title: "elements that can't be made again",
-    example: Example::Model("[[remesh]]\npart = \"block\"\n\n[[contact]]\nname = \"hit\"\nbodies = \"all\"\n"),
-    cause: "`[[remesh]]` names a part, or stands in a model, with something that does not go over to new elements yet: the message says what.",
-    remedy: "Do what the message proposes, or leave `[[remesh]]` out.",
+    example: Example::Model("[[remesh]]\npart = \"block\"\n\n[[contact]]\nname = \"hit\"\nbodies = \"all\"\nformulation = \"segment\"\n"),
+    cause: "`[[remesh]]`, `[[relocate]]` or `[[flow]]` names a part, or stands in a model, with something that does not go over to new \
+        elements or moved nodes yet: the message says what.",
+    remedy: "Do what the message proposes, or leave the section out.",
 };
 
 pub(crate) static COARSE_CHANNEL: Message = Message {

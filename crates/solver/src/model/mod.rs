@@ -42,7 +42,7 @@ pub use part::Part;
 pub use placement::{Copies, Mirror, Placement};
 pub use profile::{BOX, GIVEN, I, PROFILES, Profile, RECTANGLE, ROUND, TUBE};
 pub(crate) use profile::{PROFILE, beam_axes};
-pub use remesh::Remesh;
+pub use remesh::{Flow, Relocate, Remesh};
 pub use run::{MassScaling, Relaxation, Run, StableStep};
 pub(crate) use shell::SHELL_SECTION;
 pub use shell::{GAUSS, LOBATTO, LOWER, MIDDLE, ShellLayer, ShellSection, UPPER};
@@ -67,7 +67,7 @@ pub(crate) use motion::CURVE;
 pub(crate) use obstacle::OBSTACLE;
 pub(crate) use output::{CHANNEL, CUT, OUTPUT, PROBE};
 pub(crate) use part::PART;
-pub(crate) use remesh::REMESH;
+pub(crate) use remesh::{FLOW, RELOCATE, REMESH, Rule};
 pub(crate) use run::RUN;
 pub(crate) use section::section;
 use std::collections::BTreeMap;
@@ -94,6 +94,10 @@ pub struct Model {
     pub stages: Vec<Stage>,
     /// `[[remesh]]`.
     pub remeshes: Vec<Remesh>,
+    /// `[[relocate]]`.
+    pub relocations: Vec<Relocate>,
+    /// `[[flow]]`.
+    pub flows: Vec<Flow>,
     /// `[material.NAME]`.
     pub materials: BTreeMap<String, Material>,
     /// `[[part]]`.

@@ -223,8 +223,10 @@ where
             let variable = |of: &Variable| block.variable(&state, of).unwrap_or(f64::NAN);
             vitals.time_step = block.time_step_squared(element).sqrt();
             vitals.shape = <Dim<D>>::shape_quality(cell, &self.positions);
-            vitals.area_ratio = <Dim<D>>::size(cell, &self.positions) / <Dim<D>>::size(cell, &self.mesh.positions);
-            vitals.strains = <Dim<D>>::principal_strains(cell, &self.mesh.positions, &self.positions);
+            // Of elements that were made again, since then.
+            let begun = self.mesh.references();
+            vitals.area_ratio = <Dim<D>>::size(cell, &self.positions) / <Dim<D>>::size(cell, &begun);
+            vitals.strains = <Dim<D>>::principal_strains(cell, &begun, &self.positions);
             vitals.plastic_strain = variable(&PLASTIC_STRAIN);
             vitals.temperature = variable(&TEMPERATURE);
             vitals.damage = variable(&DAMAGE);

@@ -150,7 +150,8 @@ where
         if !simulation.model_warnings.iter().any(says_why) {
             simulation.model_warnings.extend(few::warning(model, &simulation.system));
         }
-        simulation.momentum = Momentum::new(&simulation.system);
+        // What flows through a part takes momentum with it.
+        simulation.momentum = if model.flows.is_empty() { Momentum::new(&simulation.system) } else { None };
         simulation.shortest.note(&simulation.system);
         simulation.check_obstacles(model)?;
         let [added, of] = simulation.system.mass_added;

@@ -101,5 +101,5 @@ where
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "whole-runs"))]
 mod tests;

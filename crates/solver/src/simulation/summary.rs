@@ -180,6 +180,7 @@ where
             penetration_max: system.penetration_max,
             contact: self.certificate(),
             remeshings: system.remap.as_ref().map_or(Vec::new(), |remap| remap.events.clone()),
+            flows: system.remap.as_ref().map_or(Vec::new(), |remap| remap.flows.clone()),
             erosion: self.erosion(),
             forces: self.recorded.peaks(),
             mass_added: system.mass_added[0] + mass_in_run.map_or(0.0, |brought| brought.mass),

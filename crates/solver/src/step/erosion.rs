@@ -8,6 +8,7 @@
 //! there, is entered with it. So the drift does not see erosion.
 
 use super::System;
+use super::surface_springs::SurfaceSprings;
 use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, persist_each};
 use crate::block::{NodalForces, Report};
 use crate::contact::rebuild::{ContactParts, ContactSource};
@@ -32,8 +33,7 @@ where
     pub(crate) energy: f64,
     /// Blocks without elements.
     gone: Vec<bool>,
-    /// Energy of the contact springs before surfaces changed in this step, J/m.
-    springs: Option<f64>,
+    pub(super) springs: SurfaceSprings,
     /// Elements by part, and what the first one was.
     pub(crate) by_part: Vec<usize>,
     pub(crate) first: Option<Eroded>,
@@ -63,7 +63,7 @@ where
 {
     pub(crate) fn new(criteria: Vec<Vec<Criterion>>, source: Box<dyn ContactSource<D>>) -> Self {
         let gone = vec![false; criteria.len()];
-        Self { criteria, source, energy: 0.0, gone, springs: None, by_part: Vec::new(), first: None }
+        Self { criteria, source, energy: 0.0, gone, springs: SurfaceSprings::default(), by_part: Vec::new(), first: None }
     }
 
     /// Whether elements of a block may fail.
@@ -73,14 +73,6 @@ where
 
     pub(crate) fn is_gone(&self, block: usize) -> bool {
         self.gone.get(block).is_some_and(|&gone| gone)
-    }
-
-    /// Records the energy of the contact springs that surfaces took with them, if they changed in this step;
-    /// `stored`: what springs of the new ones store, J/m.
-    pub(crate) fn close_springs(&mut self, stored: impl FnOnce() -> f64) {
-        if let Some(before) = self.springs.take() {
-            self.energy += before - stored();
-        }
     }
 }
 
@@ -241,7 +233,11 @@ where
         // The outside of what was sound before stays sound with elements taken out of it.
         let outside = self.mesh.outside_without(&[], |segment| self.constraints.is_mirror(segment)).unwrap_or_default();
         self.traces.renew(outside, &self.mesh.positions);
-        erosion.springs = Some(reductions::sum(self.contacts.iter().map(|contact| contact.stored(&self.springs))));
+        // Where elements were made again since the last step, springs are none yet, and their account is
+        // open.
+        if !self.remap.as_ref().is_some_and(|remap| remap.springs.is_open()) {
+            erosion.springs.open(reductions::sum(self.contacts.iter().map(|contact| contact.stored(&self.springs))));
+        }
         let parts =
             ContactParts { mesh: &mut self.mesh, constraints: &mut self.constraints, mass: &mut self.mass, bodies: &mut self.bodies };
         erosion.source.rebuild(parts, &mut self.contacts);

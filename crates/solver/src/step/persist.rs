@@ -34,6 +34,16 @@ impl Persist for Governor {
     }
 }
 
+impl<const D: usize> System<D>
+where
+    Dim<D>: Dimension<D>,
+{
+    /// How many nodes an archive of it may name, and how many places: also those of rigid bodies.
+    pub(super) fn archive_sizes(&self) -> [usize; 2] {
+        [self.positions.len(), self.positions.len() + self.bodies.len()]
+    }
+}
+
 impl<const D: usize> Persist for System<D>
 where
     Dim<D>: Dimension<D>,
@@ -42,7 +52,7 @@ where
         if archive.reads() && self.nodal_bound.is_some() {
             self.mark_time_steps();
         }
-        (archive.nodes, archive.places) = (self.positions.len(), self.positions.len() + self.bodies.len());
+        [archive.nodes, archive.places] = self.archive_sizes();
         archive.section("system")?;
         self.persist_stages(archive)?;
         self.persist_system(archive)?;

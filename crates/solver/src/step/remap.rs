@@ -8,12 +8,16 @@
 //! surfaces store there, is entered in the step that follows.
 
 use super::System;
+use super::flow::Flow;
+use super::surface_springs::SurfaceSprings;
 use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, persist_all, persist_each};
 use crate::block::{Motion, NodalForces, PointValues, Report};
+use crate::contact::Origins;
 use crate::dimension::Dimension;
 use crate::mesh::remeshed::{GONE, Renumbered};
+use crate::model::{Model, in_3d};
 use crate::reductions::{self, SumInOrder};
-use crate::tensor::Dim;
+use crate::tensor::{Dim, cross};
 use crate::vector::{dot, minus, plus, times};
 
 /// What was lost so far, and each event.
@@ -21,8 +25,7 @@ use crate::vector::{dot, minus, plus, times};
 pub(crate) struct Remap {
     /// Energy, J/m.
     pub(crate) energy: f64,
-    /// Energy of the contact springs before surfaces changed between the last two steps, J/m.
-    springs: Option<f64>,
+    pub(super) springs: SurfaceSprings,
     /// Each time that elements of a part were made again.
     pub(crate) events: Vec<Remeshing>,
     /// Of each entry of the model the step at which this was done or tried last, how often it was tried in
@@ -32,27 +35,24 @@ pub(crate) struct Remap {
     pub(crate) reference: Vec<f64>,
     /// Why it was in vain the last time.
     pub(crate) refused: Option<String>,
+    /// Parts that material flows through, in the order of the model.
+    pub(crate) flows: Vec<Flow>,
+    /// Energy, kinetic and elastic, that left with material less what came in with it, J/m.
+    pub(crate) flowed: f64,
+}
+
+impl Remap {
+    /// Of a model, at its start.
+    pub(crate) fn new(model: &Model) -> Self {
+        Self { flows: model.flows.iter().map(|flow| Flow::new(&flow.part)).collect(), ..Self::default() }
+    }
 }
 
 impl Persist for Remap {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { energy, springs, events, tried, failures, reference, refused } = self;
-        persist_each!(archive; energy, springs, events, tried, failures, reference, refused);
+        let Self { energy, springs, events, tried, failures, reference, refused, flows, flowed } = self;
+        persist_each!(archive; energy, springs, events, tried, failures, reference, refused, flows, flowed);
         Ok(())
-    }
-}
-
-impl Remap {
-    /// Notes what contact springs stored when surfaces changed, J/m.
-    pub(crate) fn open_springs(&mut self, stored: f64) {
-        *self.springs.get_or_insert(0.0) += stored;
-    }
-
-    /// Enters what they took with them; `stored`: what springs of the new surfaces store, J/m.
-    pub(crate) fn close_springs(&mut self, stored: impl FnOnce() -> f64) {
-        if let Some(before) = self.springs.take() {
-            self.energy += before - stored();
-        }
     }
 }
 
@@ -65,7 +65,9 @@ pub struct Remeshing {
     pub step: u64,
     /// The part.
     pub part: String,
-    /// Why: `quality`, `time_step` or `interval`.
+    /// Whether nodes were moved, instead of elements made again.
+    pub relocated: bool,
+    /// Why: `quality`, `time_step`, `size` or `interval`.
     pub reason: String,
     /// Elements before and after.
     pub elements: [usize; 2],
@@ -89,6 +91,7 @@ persist_all!(Remeshing {
     time,
     step,
     part,
+    relocated,
     reason,
     elements,
     quality,
@@ -111,8 +114,10 @@ pub(crate) struct NewState<'a, const D: usize> {
     pub(crate) between: &'a [Vec<(u32, f64)>],
     /// Velocities of its nodes, in the order of the new part, m/s.
     pub(crate) velocities: &'a [[f64; D]],
-    /// What the points hold.
-    pub(crate) points: &'a PointValues,
+    /// What the points of each group of its elements hold.
+    pub(crate) points: &'a [PointValues],
+    /// Kinetic and elastic energy that material took with it which has left, less what came in, J/m.
+    pub(crate) flowed: [f64; 2],
 }
 
 /// What one value knows is given to another one that was made of the same model.
@@ -158,23 +163,39 @@ where
         (stored, 0.5 * self.time_step * work.value())
     }
 
-    /// Σ m v, and about the place `centre` Σ m (x − c) × v in 2D, of the nodes of a part; Σ m|v| and Σ m|x −
-    /// c||v|. Of axisymmetric bodies what goes along the axis: the rest is none that is kept.
-    pub(crate) fn momentum_of(&self, part: usize, centre: [f64; D]) -> ([f64; D], f64, [f64; 2]) {
-        let (mut linear, mut angular, mut sizes) = ([0.0; D], 0.0, [0.0; 2]);
+    /// Σ m v, and about the place `centre` Σ m (x − c) × v, of the nodes of a part; Σ m|v| and Σ m|x − c||v|.
+    /// What supports of the part take is none that is kept, and of axisymmetric bodies what does not go along
+    /// the axis: these components are zero.
+    pub(crate) fn momentum_of(&self, part: usize, centre: [f64; D]) -> ([f64; 3], [f64; 3], [f64; 2]) {
+        let (mut linear, mut angular, mut sizes) = ([0.0; 3], [0.0; 3], [0.0; 2]);
         for &node in &self.mesh.parts[part].nodes {
             let (mass, velocity) = (self.mass[node as usize], self.velocities[node as usize]);
             let arm = minus(self.positions[node as usize], centre);
-            if self.of_revolution {
-                linear[1] += mass * velocity[1];
-            } else {
-                linear = plus(linear, times(mass, velocity));
-                angular += mass * (arm[0] * velocity[1] - arm[1] * velocity[0]);
-            }
+            linear = plus(linear, times(mass, in_3d(velocity)));
+            angular = plus(angular, times(mass, cross(in_3d(arm), in_3d(velocity))));
             let speed = dot(velocity, velocity).sqrt();
             sizes = [sizes[0] + mass * speed, sizes[1] + mass * dot(arm, arm).sqrt() * speed];
         }
+        let [linear, angular] = self.kept(part, [linear, angular]);
         (linear, angular, sizes)
+    }
+
+    /// Of a momentum and an angular momentum of a part the components that are kept; the others are zero.
+    pub(crate) fn kept(&self, part: usize, [linear, angular]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+        let is_free = self.free_directions(part);
+        let kept = |value: f64, is_kept: bool| if is_kept { value } else { 0.0 };
+        let linear = std::array::from_fn(|d| kept(linear[d], is_free[d]));
+        let angular = std::array::from_fn(|d| kept(angular[d], is_free[(d + 1) % 3] && is_free[(d + 2) % 3]));
+        [linear, angular]
+    }
+
+    /// Directions in which no node of a part is held; of axisymmetric bodies only that of the axis.
+    fn free_directions(&self, part: usize) -> [bool; 3] {
+        let mut is_free = std::array::from_fn(|d| d < D && !(self.of_revolution && d == 0));
+        for constraint in self.mesh.parts[part].nodes.iter().filter_map(|&node| self.constraints.of(node as usize)) {
+            (0..D).for_each(|d| is_free[d] &= constraint.leaves_free(d));
+        }
+        is_free
     }
 
     /// Continues where the system `old` is between two steps, with the elements of a part made again. This
@@ -187,13 +208,19 @@ where
         let (kinetic_before, (stored_before, work_before)) = (old.kinetic_half(), old.pulled(state.part));
         let springs_before = reductions::sum(old.contacts.iter().map(|contact| contact.stored(&old.springs)));
         let update = 0.5 * (old.time_step + old.time_step_old);
-        // Σ f·v of all forces on what is free: what a change of the coming step changes of the first half.
+        // Σ f·v of all forces on what has a mass, which nodes of obstacles have not: what a change of the
+        // coming step changes of the first half.
         let change = |(node, mass): (usize, &f64)| mass * dot(minus(old.velocities[node], old.velocities_old[node]), old.velocities[node]);
-        let power = if update > 0.0 { reductions::sum(old.mass.iter().enumerate().map(change)) / update } else { 0.0 };
+        let power = if update > 0.0 {
+            reductions::sum(old.mass.iter().take(old.mesh.positions.len()).enumerate().map(change)) / update
+        } else {
+            0.0
+        };
         let before = old.time_step;
         self.take_course(&mut old)?;
         self.take_nodes(&old, state);
         self.take_blocks(&mut old, state)?;
+        self.take_erosion(&mut old)?;
         self.take_contacts(&mut old, state);
         // What holds nodes leads the new ones.
         self.lead_held([self.time, self.time + self.time_step]);
@@ -207,12 +234,14 @@ where
         let (stored, work) = self.pulled(state.part);
         self.ledger.transfer(-kinetic);
         if let Some(remap) = &mut self.remap {
-            remap.energy += kinetic + (stored_before - stored) - (work_before - work) + 0.5 * (self.time_step - before) * power;
+            let flowed = state.flowed[0] + state.flowed[1];
+            remap.flowed += flowed;
+            remap.energy += kinetic + (stored_before - stored) - (work_before - work) + 0.5 * (self.time_step - before) * power - flowed;
             if !self.contacts.is_empty() {
-                remap.open_springs(springs_before);
+                remap.springs.open(springs_before);
             }
         }
-        Ok([kinetic, stored_before - stored])
+        Ok([kinetic - state.flowed[0], stored_before - stored - state.flowed[1]])
     }
 
     /// Time, ledger, curves and rigid bodies.
@@ -223,7 +252,7 @@ where
         (self.ledger, self.mass_added) = (old.ledger, old.mass_added);
         self.initial_penetrations = std::mem::take(&mut old.initial_penetrations);
         self.remap = old.remap.take();
-        let sizes = [self.positions.len(), self.positions.len() + self.bodies.len()];
+        let sizes = self.archive_sizes();
         hand_over(&mut old.curves, &mut self.curves, sizes, Persist::persist)?;
         hand_over(&mut old.bodies, &mut self.bodies, sizes, Persist::persist)
     }
@@ -248,21 +277,24 @@ where
         }
     }
 
-    /// States of the elements: those of other parts as they are. Returns how many blocks are new.
+    /// States of the elements: those of other parts as they are.
     fn take_blocks(&mut self, old: &mut Self, state: &NewState<'_, D>) -> ArchiveResult {
-        let sizes = [self.positions.len(), self.positions.len() + self.bodies.len()];
+        let sizes = self.archive_sizes();
         let mut olds: Vec<usize> = (0..old.mesh.groups.len()).filter(|&group| old.mesh.groups[group].part != state.part).collect();
         olds.reverse();
         let own = |index: &usize| old.mesh.groups[*index].part == state.part;
         let mut before = Report::joined((0..old.mesh.groups.len()).filter(own).map(|index| old.reports[index]));
         // The sum of the works of all steps is not quite the energy of the stresses; the difference stays.
         before.stored -= (0..old.mesh.groups.len()).filter(own).map(|index| old.blocks[index].elastic_energy(&old.positions)).sum::<f64>();
-        let mut first = 0;
+        let (mut first, mut points) = (0, state.points.iter());
         for index in 0..self.blocks.len() {
             let slots = first..first + self.blocks[index].slots().len();
             first = slots.end;
             if self.mesh.groups[index].part == state.part {
-                self.blocks[index].take_point_values(state.points, &before, &self.positions);
+                let points = points.next().ok_or_else(|| ArchiveError::new("a part has more kinds of elements than before"))?;
+                // What is none of the points' goes to the first.
+                let before = std::mem::replace(&mut before, Report::NOTHING);
+                self.blocks[index].take_point_values(points, &before, &self.positions);
                 let velocities = vec![[0.0; D]; self.velocities.len()];
                 let motion = Motion::new(&self.positions, &velocities, 0.0);
                 let pulls = NodalForces::new(&mut self.slots[slots]);
@@ -279,6 +311,16 @@ where
         Ok(())
     }
 
+    /// What has failed in other parts.
+    fn take_erosion(&mut self, old: &mut Self) -> ArchiveResult {
+        let sizes = self.archive_sizes();
+        self.remove_eroded_elements();
+        match (&mut old.erosion, &mut self.erosion) {
+            (Some(old), Some(own)) => hand_over(&mut **old, &mut **own, sizes, Persist::persist),
+            _ => Ok(()),
+        }
+    }
+
     /// What contacts have done, and what they know of nodes.
     fn take_contacts(&mut self, old: &mut Self, state: &NewState<'_, D>) {
         let mut origins = vec![Vec::new(); self.positions.len()];
@@ -290,10 +332,11 @@ where
         }
         let (first, first_old) = (self.mesh.positions.len(), old.mesh.positions.len());
         (first..self.positions.len()).for_each(|node| origins[node] = vec![((node - first + first_old) as u32, 1.0)]);
+        let origins = &Origins { nodes: &origins, positions: &self.positions, before: &old.positions };
         for (contact, before) in self.contacts.iter_mut().zip(old.contacts.drain(..)) {
-            contact.carry(before, &origins);
+            contact.carry(before, origins);
         }
-        self.traces.carry(&old.traces, &origins);
+        self.traces.carry(&old.traces, origins);
         self.find_free_nodes();
     }
 }

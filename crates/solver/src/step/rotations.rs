@@ -495,5 +495,5 @@ where
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "whole-runs"))]
 mod tests;

@@ -1,5 +1,5 @@
 //! The stable step by the frequency of the assembled mesh: against true frequencies, found by differences of
-//! forces and Jacobi's rotations, at the start and while bodies deform; stable in runs, with equal bits.
+//! forces and all eigenvalues, at the start and while bodies deform; stable in runs, with equal bits.
 
 use crate::bodies::*;
 use crate::long::samples;

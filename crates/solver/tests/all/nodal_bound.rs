@@ -1,5 +1,5 @@
 //! The stable step by nodes: a bound of the true frequencies of assembled meshes, found by differences of
-//! forces and Jacobi's rotations; never shorter than the step by elements; stable in runs.
+//! forces and all eigenvalues; never shorter than the step by elements; stable in runs.
 
 use crate::bodies::*;
 use crate::long::samples;

@@ -455,39 +455,76 @@ where
     columns.collect()
 }
 
-/// Eigenvalues of a symmetric matrix, ascending, by Jacobi's rotations.
-pub(crate) fn eigenvalues(mut a: Vec<Vec<f64>>) -> Vec<f64> {
+/// Eigenvalues of a symmetric matrix, ascending.
+pub(crate) fn eigenvalues(a: Vec<Vec<f64>>) -> Vec<f64> {
     let n = a.len();
-    // What is below the rounding of the largest entry turns nothing.
-    let least = f64::EPSILON * a.iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
-    for _ in 0..30 {
-        for p in 0..n {
-            for q in p + 1..n {
-                if !(a[p][q].abs() > least) {
-                    continue;
-                }
-                let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-                let c = 1.0 / (t * t + 1.0).sqrt();
-                let s = t * c;
-                for k in 0..n {
-                    (a[k][p], a[k][q]) = (c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]);
-                }
-                for k in 0..n {
-                    (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
-                }
+    eigenvalues_at(a, 0..n)
+}
+
+/// Some of the eigenvalues of a symmetric matrix, by their places in ascending order: Householder's
+/// reflections make it tridiagonal, and bisection with Sturm's sequence finds each value to the rounding of
+/// the largest one.
+fn eigenvalues_at(a: Vec<Vec<f64>>, places: std::ops::Range<usize>) -> Vec<f64> {
+    let n = a.len();
+    let (diagonal, beside) = tridiagonal(a);
+    let reach = |k: usize| beside[k].abs() + if k > 0 { beside[k - 1].abs() } else { 0.0 };
+    let bound = (0..n).map(|k| diagonal[k].abs() + reach(k)).fold(0.0, f64::max);
+    let count_below = |x: f64| {
+        let (mut count, mut q) = (0, 1.0);
+        for k in 0..n {
+            q = diagonal[k] - x - if k > 0 { beside[k - 1] * beside[k - 1] / q } else { 0.0 };
+            count += usize::from(q < 0.0);
+            if q == 0.0 {
+                q = f64::EPSILON * bound;
             }
         }
+        count
+    };
+    let value = |k: usize| {
+        let (mut low, mut high) = (-bound, bound);
+        while high - low > f64::EPSILON * bound {
+            let middle = 0.5 * (low + high);
+            if count_below(middle) > k {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        0.5 * (low + high)
+    };
+    places.map(value).collect()
+}
+
+/// Diagonal, and what is beside it (the last entry is 0), of a tridiagonal matrix with the eigenvalues of a
+/// symmetric one.
+fn tridiagonal(mut a: Vec<Vec<f64>>) -> (Vec<f64>, Vec<f64>) {
+    let n = a.len();
+    let mut beside = vec![0.0; n];
+    for k in 0..n.saturating_sub(1) {
+        let mut v: Vec<f64> = a[k + 1..].iter().map(|row| row[k]).collect();
+        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        beside[k] = -length.copysign(v[0]);
+        v[0] -= beside[k];
+        let square = v.iter().map(|x| x * x).sum::<f64>();
+        if square == 0.0 {
+            continue;
+        }
+        let of = |row: &[f64], v: &[f64]| row.iter().zip(v).map(|(a, b)| a * b).sum::<f64>();
+        let mut w: Vec<f64> = a[k + 1..].iter().map(|row| 2.0 * of(&row[k + 1..], &v) / square).collect();
+        let along = of(&w, &v) / square;
+        w.iter_mut().zip(&v).for_each(|(w, v)| *w -= along * v);
+        for (i, row) in a[k + 1..].iter_mut().enumerate() {
+            row[k + 1..].iter_mut().enumerate().for_each(|(j, a)| *a -= v[i] * w[j] + w[i] * v[j]);
+        }
     }
-    let mut values: Vec<f64> = (0..n).map(|k| a[k][k]).collect();
-    values.sort_by(f64::total_cmp);
-    values
+    ((0..n).map(|k| a[k][k]).collect(), beside)
 }
 
 /// Largest eigenvalue of M⁻¹K.
 pub(crate) fn frequency_squared(stiffness: &[Vec<f64>], masses: &[f64]) -> f64 {
     let d = stiffness.len() / masses.len();
     let entry = |i: usize, j: usize| 0.5 * (stiffness[i][j] + stiffness[j][i]) / (masses[i / d] * masses[j / d]).sqrt();
-    let scaled = (0..stiffness.len()).map(|i| (0..stiffness.len()).map(|j| entry(i, j)).collect()).collect();
-    eigenvalues(scaled).pop().unwrap()
+    let n = stiffness.len();
+    let scaled = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+    eigenvalues_at(scaled, n - 1..n)[0]
 }

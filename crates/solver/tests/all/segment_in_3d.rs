@@ -195,10 +195,11 @@ fn curved_error(elements: [&str; 2], cells: [[usize; 3]; 2]) -> f64 {
 fn on_curved_interfaces_the_pressure_is_even() {
     let pairs: &[[&str; 2]] = if is_long() { &[["hex8", "tet4"], ["wedge6", "hex8"]] } else { &[["hex8", "tet4"]] };
     for &elements in pairs {
-        let cells = [[120, 2, 1], [150, 2, 1]];
+        // The error falls with the square of the chords.
+        let (cells, most) = if is_long() { ([[120, 2, 1], [150, 2, 1]], 0.01) } else { ([[60, 2, 1], [75, 2, 1]], 0.04) };
         let error = curved_error(elements, cells);
         println!("{elements:?} {cells:?}: {error:.1e}");
-        assert!(error < 0.01, "{elements:?} {cells:?}: {error}");
+        assert!(error < most, "{elements:?} {cells:?}: {error}");
     }
 }
 

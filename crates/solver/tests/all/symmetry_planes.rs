@@ -1,6 +1,7 @@
 //! Contact in 3D at symmetry planes: a slice between two of them does what the plane does.
 
 use crate::bodies::{every_step, rough, to_end, value};
+use crate::long::is_long;
 use crate::patches::material;
 use crate::self_contact::crushed_ring;
 use embate_solver::model::{
@@ -120,7 +121,7 @@ fn half_of_crushed_ring() -> Model {
 fn a_slice_of_half_a_crushed_ring_meets_its_image_as_half_the_ring_of_2d_does() {
     let depth = 0.004;
     let half = half_of_crushed_ring();
-    for thickness in [0.0, 1e-3] {
+    for &thickness in if is_long() { &[0.0, 1e-3][..] } else { &[1e-3] } {
         let mut plane = half.clone();
         // How flat an element is, is not the same in 2D and 3D: the same stiffness for both. The
         // plate begins nearer than the thickness.

@@ -5,6 +5,9 @@ import assert from "node:assert/strict";
 import { basename, join } from "node:path";
 import { chromium } from "playwright-core";
 
+/** Seconds for what takes one or two, beside other tests some more. */
+const PATIENCE = 40;
+
 let browser = null;
 export async function open() {
   browser ??= await chromium.launch({
@@ -28,7 +31,7 @@ export async function pageAt(address, { width = 1280, height = 720, dark = false
     await context.route(/\/app\.(js|css)$/, (route) => route.fulfill({ path: join(process.env.BUNDLE, basename(new URL(route.request().url()).pathname)) }));
   }
   const page = await context.newPage();
-  page.setDefaultTimeout(12_000);
+  page.setDefaultTimeout(1000 * PATIENCE);
   const faults = [];
   page.on("console", (message) => {
     if (message.type() === "error" || message.type() === "warning") faults.push(message.text());
@@ -47,7 +50,7 @@ export async function pageAt(address, { width = 1280, height = 720, dark = false
   };
 }
 
-export async function until(test, what, seconds = 12) {
+export async function until(test, what, seconds = PATIENCE) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
     const value = await test();

@@ -20,9 +20,9 @@ use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
 use embate_solver::model::{
-    Cavity, Channel, Constraint, Curve, Cut, Drive, ImportedMesh, Join, Joint, Load, LoadTerms, Material, Model, NonReflecting, Obstacle,
-    ObstacleShape, Output, Part, Partners, Placement, PointMass, Probe, Remesh, Run, Shape, Spring, Stage, Symmetry, TriangleSurface,
-    Values, Weld,
+    Cavity, Channel, Constraint, Curve, Cut, Drive, Flow, ImportedMesh, Join, Joint, Load, LoadTerms, Material, Model, NonReflecting,
+    Obstacle, ObstacleShape, Output, Part, Partners, Placement, PointMass, Probe, Relocate, Remesh, Run, Shape, Spring, Stage, Symmetry,
+    TriangleSurface, Values, Weld,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -43,6 +43,8 @@ pub(super) fn model(document: &Document, name: &str, meshes: &mut Meshes<'_>, fa
         run: all(document, "run", Run::read).pop().unwrap_or_default(),
         stages: all(document, "stage", Stage::read),
         remeshes: all(document, "remesh", Remesh::read),
+        relocations: all(document, "relocate", Relocate::read),
+        flows: all(document, "flow", Flow::read),
         materials: named(document, "material", Material::read),
         parts,
         meshes: meshes.loaded.clone(),

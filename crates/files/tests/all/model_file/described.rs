@@ -37,7 +37,8 @@ struct Bad {
     says: &'static str,
 }
 
-/// A sound model with a part that is meshed again: much may not stand beside it.
+/// A sound model with a part that is meshed again, and one that material flows through: much may not stand
+/// beside them.
 const MESHED_AGAIN: &str = r#"
 [run]
 end = "1 ms"
@@ -52,13 +53,22 @@ material = "steel"
 rectangle = { corner = [0, 0], size = [1, 1], elements = [2, 2] }
 [[remesh]]
 part = "block"
+[[relocate]]
+part = "block"
+[[part]]
+name = "strip"
+material = "steel"
+rectangle = { corner = [2, 0], size = [1, 1], elements = [2, 2] }
+[[flow]]
+part = "strip"
+direction = [1, 0]
 "#;
 
 /// The sound model; for keys of a stage one that has stages in the place of its end, for those of remeshing
 /// one of its own.
 fn sound_for(path: &str) -> String {
     let all = all_sections();
-    if path.starts_with("remesh") {
+    if ["remesh", "relocate", "flow"].iter().any(|section| path.starts_with(section)) {
         return MESHED_AGAIN.into();
     }
     if !path.starts_with("stage") {

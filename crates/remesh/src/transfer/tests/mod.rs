@@ -7,23 +7,7 @@ use super::clip::TURN;
 use super::supermesh::weights;
 use super::{Failure, NewNodes, OldNodes, Order, PointMap, Points, Side, Supermesh, Values};
 use crate::plane::{Cell, Measure, Mesh, Point, corners, cross, minus};
-
-/// Numbers that look random: xorshift.
-pub(super) struct Random(u64);
-
-impl Random {
-    pub(super) fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-
-    /// Between −1 and 1.
-    pub(super) fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
+use crate::shared::random::Random;
 
 #[derive(Clone, Debug)]
 pub(super) struct Made {

@@ -4,11 +4,13 @@
 //! Pairs come from the global search; groups go to the tracker of the nodes ([`super::tracker`]) and to the
 //! check of missed contacts ([`super::super::missed_contacts`]), which keep what they know of each.
 
+use super::super::Origins;
 use super::super::projection::node_facet::Vector;
 use super::super::search::{Pair, Query, Search};
 use crate::archive::{Archive, ArchiveResult, Persist, persist_each};
 use crate::mesh::surface::{Corners, SpaceSurface};
 use crate::vector::{length, minus};
+use std::collections::BTreeMap;
 use std::iter::Peekable;
 use std::ops::Range;
 
@@ -109,6 +111,36 @@ impl<T: Copy> Group<T> {
         moved
     }
 
+    /// Those of other `slaves` that lie between the nodes of these, without candidates, in their order. Their
+    /// `bodies` have other numbers; `mix` makes what is known of one of what is known of those nodes, each
+    /// with its share.
+    pub(in crate::contact) fn carried<'g>(
+        groups: impl Iterator<Item = &'g Self>,
+        (slaves, bodies): (&[u32], &BTreeMap<u32, u32>),
+        origins: &Origins<'_, 3>,
+        mix: impl Fn(&[(f64, &'g Self)]) -> T,
+    ) -> Vec<Self>
+    where
+        T: 'g,
+    {
+        let mut of_nodes: BTreeMap<u32, Vec<&'g Self>> = BTreeMap::new();
+        groups.for_each(|group| of_nodes.entry(group.node).or_default().push(group));
+        let mut carried = Vec::new();
+        for (slave, &node) in (0..).zip(slaves) {
+            let mut near: Vec<(f64, &Self)> = Vec::new();
+            for &(from, share) in &origins.nodes[node as usize] {
+                near.extend(of_nodes.get(&from).into_iter().flatten().map(|&group| (share, group)));
+            }
+            near.sort_by_key(|(_, group)| group.body);
+            for of_body in near.chunk_by(|a, b| a.1.body == b.1.body) {
+                let Some(&body) = bodies.get(&of_body[0].1.body) else { continue };
+                carried.push(Self { slave, node, body, begin: 0, end: 0, own: of_body[0].1.own, known: mix(of_body) });
+            }
+        }
+        carried.sort_by_key(Self::key);
+        carried
+    }
+
     /// What ascending groups know of this slave and body, after all before them have been passed.
     pub(in crate::contact) fn known_of<'g>(groups: &mut Peekable<impl Iterator<Item = &'g Self>>, key: (u32, u32)) -> Option<T>
     where
@@ -123,6 +155,17 @@ impl<T: Copy> Group<T> {
 pub(in crate::contact) fn bodies_of(surfaces: &[SpaceSurface], bodies: &[u32]) -> Vec<u32> {
     let count = surfaces.iter().filter_map(|surface| surface.nodes.last()).map(|&last| last as usize + 1).max().unwrap_or(0);
     bodies[..count.min(bodies.len())].to_vec()
+}
+
+/// The number that each of the `old` bodies of nodes has among the `new` ones; obstacles keep theirs.
+pub(in crate::contact) fn renumbered(old: &[u32], new: &[u32], origins: &Origins<'_, 3>) -> BTreeMap<u32, u32> {
+    let of = |(from, &body): (&Vec<(u32, f64)>, &u32)| Some((*old.get(from.first()?.0 as usize)?, body));
+    origins.nodes.iter().zip(new).filter_map(of).chain([(u32::MAX, u32::MAX)]).collect()
+}
+
+/// The one of some with shares that has the largest; of equal ones the first.
+pub(in crate::contact) fn nearest<'a, T>(all: &[(f64, &'a T)]) -> Option<&'a T> {
+    all.iter().copied().reduce(|most, own| if own.0 > most.0 { own } else { most }).map(|(_, own)| own)
 }
 
 /// Two triangles of a facet; of one with three nodes twice itself.

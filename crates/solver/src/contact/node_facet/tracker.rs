@@ -25,13 +25,13 @@
 mod locate;
 mod steady;
 
-use super::super::Sweep;
 use super::super::continuity::SpringHistory;
 use super::super::projection::node_facet::{Placed, Projection, Vector};
 use super::super::search::{Query, Search};
 use super::super::tracker::sleep::{AWAKE, awake, wake_at};
 use super::super::tracker::{Reach, SKIN, SLACK, SearchReport};
-use super::groups::{Group, Meeting, bend, bodies_of, halves, mean_edge};
+use super::super::{Origins, Sweep};
+use super::groups::{self, Group, Meeting, bend, bodies_of, halves, mean_edge, nearest, renumbered};
 use super::measured::Measures;
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::{NONE, SpaceSurface};
@@ -78,16 +78,18 @@ pub struct ContactHistory {
     pub side: Vector,
     /// Whether the face by which it came in leads it, though something else is nearer.
     pub is_led: bool,
+    /// Stiffness of its spring by area, Pa/m.
+    pub by_area: f64,
 }
 
 impl Default for ContactHistory {
     fn default() -> Self {
         let (none, spring) = ([0.0; 3], SpringHistory::default());
-        Self { slip: none, facet: NONE, rest: [NONE; 2], spring, carried: 0.0, side: none, is_led: false }
+        Self { slip: none, facet: NONE, rest: [NONE; 2], spring, carried: 0.0, side: none, is_led: false, by_area: 0.0 }
     }
 }
 
-persist_all!(ContactHistory { slip, facet, rest, spring, carried, side, is_led });
+persist_all!(ContactHistory { slip, facet, rest, spring, carried, side, is_led, by_area });
 
 /// What is known of a slave node and a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -470,10 +472,62 @@ impl Tracker {
             pass.groups.iter_mut().for_each(|group| (group.known.memory.facet, group.known.memory.rest) = (NONE, [NONE; 2]));
             pass.wakes = vec![AWAKE; pass.groups.len()];
         }
+        self.inherit_course(old);
+    }
+
+    fn inherit_course(&mut self, old: &Self) {
         self.is_new = old.is_new;
         (self.travel, self.task.found.deepest) = (old.travel, old.task.found.deepest);
         self.reach.inherit(&old.reach);
     }
+
+    /// Takes over what another one knew before elements were made again: a node has what those knew that it
+    /// lies between. `gap` is that of the spring of an old touch, m, which goes into `half`: see
+    /// [`super::super::continuity::Continuity::moved`].
+    pub(in crate::contact) fn carry(&mut self, old: &Self, origins: &Origins<'_, 3>, gap: impl Fn(&ContactPoint) -> f64) {
+        let bodies = renumbered(&old.bodies, &self.bodies, origins);
+        let mut gaps: Vec<Vec<f64>> = old.passes.iter().map(|pass| vec![0.0; pass.groups.len()]).collect();
+        old.touches().iter().for_each(|touch| gaps[touch.pass as usize][touch.group as usize] = gap(touch));
+        for ((pass, before), gaps) in self.passes.iter_mut().zip(&old.passes).zip(&mut gaps) {
+            // What a node has to do with its body, with its gap.
+            let with_gap = |(group, gap): (&Group<Known>, &f64)| {
+                let mut own = *group;
+                own.known.memory.spring.half = *gap;
+                own
+            };
+            let touching: Vec<Group<Known>> =
+                before.groups.iter().zip(&*gaps).filter(|(group, _)| group.known.touches).map(with_gap).collect();
+            pass.groups = Group::carried(touching.iter(), (&self.surfaces[pass.slave].nodes, &bodies), origins, mixed);
+            pass.wakes = vec![AWAKE; pass.groups.len()];
+        }
+        self.inherit_course(old);
+    }
+}
+
+/// What is known of a node between others that touch a body: means, and the rest from the nearest.
+fn mixed(others: &[(f64, &Group<Known>)]) -> Known {
+    let whole: f64 = others.iter().map(|(share, _)| share).sum();
+    let mean = |of: &dyn Fn(&ContactHistory) -> f64| others.iter().map(|(share, group)| share * of(&group.known.memory)).sum::<f64>();
+    let Some(nearest) = nearest(others) else { return Known::default() };
+    // Who came in is inside, whatever those know that are not.
+    let came_in: Vec<(f64, &Group<Known>)> = others.iter().copied().filter(|(_, group)| group.known.memory.side != [0.0; 3]).collect();
+    let inside = groups::nearest(&came_in).unwrap_or(nearest).known.memory;
+    let has_spring: Vec<(f64, &Group<Known>)> =
+        others.iter().copied().filter(|(_, group)| group.known.memory.spring.normal != [0.0; 3]).collect();
+    let shares: f64 = has_spring.iter().map(|(share, _)| share).sum();
+    let of_springs = |of: &dyn Fn(&ContactHistory) -> f64| {
+        if shares > 0.0 { has_spring.iter().map(|(share, group)| share * of(&group.known.memory)).sum::<f64>() / shares } else { 0.0 }
+    };
+    let spring = groups::nearest(&has_spring).map_or_else(SpringHistory::default, |own| own.known.memory.spring);
+    let memory = ContactHistory {
+        slip: [0, 1, 2].map(|d| mean(&|memory| memory.slip[d])),
+        spring: SpringHistory { offset: 0.0, half: of_springs(&|memory| memory.spring.half), stored: 0.0, ..spring },
+        side: inside.side,
+        is_led: inside.is_led,
+        by_area: of_springs(&|memory| memory.by_area),
+        ..ContactHistory::default()
+    };
+    Known { touches: whole > 0.0, memory }
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@
 
 use super::{ContactHistory, Manner, Shape, State, Way};
 use crate::archive::{Archive, ArchiveResult, Persist};
+use crate::contact::Origins;
 use crate::contact::Vector;
 use crate::contact::depths::Depths;
 use crate::contact::initial::kept;
@@ -147,6 +148,8 @@ pub struct RoundSegments {
     /// Knows how thick the bodies are; by what factor springs stiffen.
     depths: Depths,
     factor: f64,
+    /// Whether it is small enough now to come in between nodes.
+    acts: bool,
 }
 
 impl RoundSegments {
@@ -155,7 +158,14 @@ impl RoundSegments {
     #[must_use]
     pub fn new(tracker: Tracker, slave: Slave, radius: f64, body: usize, manner: Manner, depths: Depths) -> Self {
         let Manner { reach, factor, ignores_start } = manner;
-        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false, depths, factor }
+        Self { tracker, slave, radius, reach, body, ignores_start, has_begun: false, depths, factor, acts: true }
+    }
+
+    /// The same, acting or not: a circle that is large for the segments would have a spring where the surface
+    /// happens to be nearest, which jumps along it.
+    #[must_use]
+    pub fn acting(self, acts: bool) -> Self {
+        Self { acts, ..self }
     }
 
     /// The spring at a body that is near, its slip, and its ends.
@@ -178,6 +188,9 @@ impl RoundSegments {
 
 impl Formulation<2> for RoundSegments {
     fn detect(&mut self, scene: &Scene<'_, 2>, springs: &mut Springs<2>) {
+        if !self.acts {
+            return;
+        }
         let count = self.tracker.track(scene.sweep, self.radius + self.reach).len();
         for index in 0..count {
             let touch = self.tracker.touches()[index];
@@ -200,7 +213,7 @@ impl Formulation<2> for RoundSegments {
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { slave: _, radius: _, reach: _, body: _, ignores_start: _, depths: _, factor: _, tracker, has_begun } = self;
+        let Self { slave: _, radius: _, reach: _, body: _, ignores_start: _, depths: _, factor: _, acts: _, tracker, has_begun } = self;
         tracker.persist(archive)?;
         has_begun.persist(archive)
     }
@@ -208,6 +221,13 @@ impl Formulation<2> for RoundSegments {
     fn inherit(&mut self, old: Box<dyn Any>) {
         if let Ok(old) = old.downcast::<Self>() {
             self.tracker.inherit(&old.tracker);
+            self.has_begun = old.has_begun;
+        }
+    }
+
+    fn carry(&mut self, old: &dyn Any, origins: &Origins<'_, 2>) {
+        if let Some(old) = old.downcast_ref::<Self>() {
+            self.tracker.carry(&old.tracker, origins);
             self.has_begun = old.has_begun;
         }
     }

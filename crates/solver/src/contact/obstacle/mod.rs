@@ -13,19 +13,19 @@ pub mod points;
 pub mod space;
 
 use super::findings::Findings;
-use super::initial::kept;
+use super::initial::{kept, moved_by, pressing};
 use super::law::penalty::stiffening;
 use super::slaves::Slave;
 use super::springs::{Answers, End, Slip, Spring, Springs, Stiffening};
 use super::tracker::{Certificate, SearchReport};
-use super::{Formulation, Scene, Vector};
+use super::{Formulation, Origins, Scene, Standing, Vector};
 use crate::archive::{Archive, ArchiveError, ArchiveResult, Persist, persist_all, persist_each};
 use crate::contact::springs::TangentSpace;
 use crate::model::in_3d;
 use crate::outline::Outline;
 use crate::rigid::Bodies;
 use crate::tensor::Dim;
-use crate::vector::{bound_of, dot};
+use crate::vector::{bound_of, dot, plus, times};
 use behind::{Behind, Thick};
 use std::any::Any;
 
@@ -57,7 +57,7 @@ pub struct Way {
 }
 
 /// What an obstacle remembers of a node.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactHistory {
     /// Where the node is.
     pub state: State,
@@ -67,6 +67,14 @@ pub struct ContactHistory {
     pub normal: Vector,
     /// Gap that counts as zero, m.
     pub offset: f64,
+    /// Gap of its spring in the last step, m; not a number: not known.
+    pub gap: f64,
+}
+
+impl Default for ContactHistory {
+    fn default() -> Self {
+        Self { state: State::default(), presses: false, normal: Vector::default(), offset: 0.0, gap: f64::NAN }
+    }
 }
 
 /// Where a node is with respect to an obstacle that has another side.
@@ -144,6 +152,8 @@ pub struct NodeObstacle {
     /// Where their springs stiffen, and the thickness of their bodies there at the start, m.
     walls: Vec<(Stiffening, f64)>,
     memories: Vec<ContactHistory>,
+    /// Whether elements were made again since the last step.
+    is_new: bool,
     /// Nodes within this distance get a spring, m.
     reach: f64,
     /// Whether gaps that are negative when it begins to act count as zero.
@@ -194,7 +204,8 @@ impl NodeObstacle {
         let walls = nodes.iter().map(|&(node, _)| wall(bodies.at(node).min(thickness))).collect();
         let (behind, found, near) = (Behind::new(bodies, thickness), Vec::new(), Near::default());
         let sees_facets = !ignores_start && shape.radius().is_some_and(|radius| behind.may_be_between(radius));
-        Self { shape, body, memories, nodes, slips, walls, reach, ignores_start, has_begun: false, found, near, behind, sees_facets }
+        let (has_begun, is_new) = (false, false);
+        Self { shape, body, memories, is_new, nodes, slips, walls, reach, ignores_start, has_begun, found, near, behind, sees_facets }
     }
 }
 
@@ -202,9 +213,9 @@ persist_all!(Near { indices, since, place });
 
 impl Persist for ContactHistory {
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
-        let Self { state, presses, normal, offset } = self;
+        let Self { state, presses, normal, offset, gap } = self;
         let mut number = STATES.iter().position(|it| it == state).unwrap_or(0) as u8;
-        persist_each!(archive; &mut number, presses, normal, offset);
+        persist_each!(archive; &mut number, presses, normal, offset, gap);
         *state = *STATES.get(usize::from(number)).ok_or_else(|| ArchiveError::new("a node is neither before nor behind an obstacle"))?;
         Ok(())
     }
@@ -237,14 +248,18 @@ impl Formulation<2> for NodeObstacle {
             }
             let pressed = std::mem::replace(&mut memory.presses, false);
             let Some((gap, normal)) = met else {
-                memory.offset = 0.0;
+                (memory.offset, memory.gap) = (0.0, f64::NAN);
                 continue;
             };
-            if self.ignores_start {
+            let moved = [way.to[0] - way.from[0], way.to[1] - way.from[1]];
+            if self.is_new {
+                memory.offset = moved_by(memory.gap, gap - dot(normal, moved));
+            }
+            if self.ignores_start || memory.offset != 0.0 {
                 memory.offset = kept(self.has_begun, memory.offset, gap);
             }
             let gap = gap - memory.offset;
-            let moved = [way.to[0] - way.from[0], way.to[1] - way.from[1]];
+            memory.gap = gap;
             // Who comes from behind, or past a corner, has pressed no spring that could give anything back.
             if gap >= 0.0 && !pressed && normal[0] * moved[0] + normal[1] * moved[1] > 2.0 * gap {
                 continue;
@@ -270,16 +285,16 @@ impl Formulation<2> for NodeObstacle {
             self.behind.see_facets(body, |ends| self.shape.deepest(ends), scene);
         }
         self.behind.end();
-        self.has_begun = true;
+        (self.has_begun, self.is_new) = (true, false);
     }
 
     fn persist(&mut self, archive: &mut Archive<'_>) -> ArchiveResult {
         #[rustfmt::skip]
         let Self {
             shape: _, body: _, walls: _, reach: _, ignores_start: _, found: _, sees_facets: _,
-            nodes, slips, memories, has_begun, near, behind,
+            nodes, slips, memories, is_new, has_begun, near, behind,
         } = self;
-        persist_each!(archive; &mut slips[..], &mut memories[..], has_begun, near);
+        persist_each!(archive; &mut slips[..], &mut memories[..], is_new, has_begun, near);
         behind.persist(archive)?;
         archive.check(near.indices.iter().all(|&index| (index as usize) < nodes.len()), "an obstacle looks at nodes that are not there")
     }
@@ -288,6 +303,7 @@ impl Formulation<2> for NodeObstacle {
         let Ok(old) = old.downcast::<Self>() else { return };
         self.has_begun = old.has_begun;
         self.behind.inherit(&old.behind);
+        self.is_new = old.is_new;
         for (((node, _), slip), memory) in self.nodes.iter().zip(&mut self.slips).zip(&mut self.memories) {
             if let Ok(at) = old.nodes.binary_search_by_key(node, |&(node, _)| node) {
                 (*slip, *memory) = (old.slips[at], old.memories[at]);
@@ -295,19 +311,41 @@ impl Formulation<2> for NodeObstacle {
         }
     }
 
-    fn carry(&mut self, old: &dyn Any, origins: &[Vec<(u32, f64)>]) {
+    fn carry(&mut self, old: &dyn Any, origins: &Origins<'_, 2>) {
         let Some(old) = old.downcast_ref::<Self>() else { return };
-        self.has_begun = old.has_begun;
+        (self.has_begun, self.is_new) = (old.has_begun, true);
         self.behind.inherit(&old.behind);
         let place = |node: u32| old.nodes.binary_search_by_key(&node, |&(node, _)| node).ok();
-        for (((node, _), slip), memory) in self.nodes.iter().zip(&mut self.slips).zip(&mut self.memories) {
-            let near = || origins[*node as usize].iter().filter_map(|&(node, share)| Some((place(node)?, share)));
+        let by_area = |slave: &Slave| slave.stiffness / slave.area;
+        for (((node, slave), slip), memory) in self.nodes.iter().zip(&mut self.slips).zip(&mut self.memories) {
+            let near = || origins.nodes[*node as usize].iter().filter_map(|&(node, share)| Some((place(node)?, share)));
             *slip = near().map(|(at, share)| share * old.slips[at]).sum();
             // On which side it is, as the nearest of them.
             if let Some((at, _)) = near().reduce(|most, own| if own.1 > most.1 { own } else { most }) {
-                *memory = ContactHistory { offset: near().map(|(at, share)| share * old.memories[at].offset).sum(), ..old.memories[at] };
+                let gap = near().map(|(at, share)| share * old.memories[at].gap).sum();
+                let by_areas = [near().map(|(at, share)| share * by_area(&old.nodes[at].1)).sum(), by_area(slave)];
+                *memory = ContactHistory { offset: 0.0, gap: pressing(gap, by_areas), ..old.memories[at] };
             }
         }
+    }
+
+    fn fitted(&self, between: &[(u32, f64)], place: Vector, now: &Standing<'_, 2>) -> Option<Vector> {
+        // Chords cut what is round; on what is straight they are as deep as their ends.
+        self.shape.radius()?;
+        let known = |&(node, share): &(u32, f64)| {
+            let at = self.nodes.binary_search_by_key(&node, |&(node, _)| node).ok()?;
+            Some((share, &self.memories[at]))
+        };
+        let near: Vec<(f64, &ContactHistory)> = between.iter().filter_map(known).collect();
+        let (_, nearest) = near.iter().reduce(|most, own| if own.0 > most.0 { own } else { most })?;
+        let body = now.bodies.state(self.body);
+        let x = body.to_local(place);
+        let (gap, normal) = self.shape.meet(Way { from: x, to: x }, &mut (**nearest).clone())?;
+        // Of open ones it is none, or not known.
+        let of = |memory: &ContactHistory| memory.gap.min(0.0) + if self.ignores_start { memory.offset.min(0.0) } else { 0.0 };
+        let allowed: f64 = near.iter().map(|(share, memory)| share * of(memory)).sum();
+        let all_press = near.len() == between.len() && near.iter().all(|(_, memory)| memory.presses);
+        (gap < allowed || all_press).then(|| plus(place, times(allowed - gap, body.to_global(normal))))
     }
 
     fn remember(&mut self, solved: Answers<'_, 2>) {
@@ -371,7 +409,7 @@ impl Formulation<2> for Both {
         self.find();
     }
 
-    fn carry(&mut self, old: &dyn Any, origins: &[Vec<(u32, f64)>]) {
+    fn carry(&mut self, old: &dyn Any, origins: &Origins<'_, 2>) {
         if let Some(old) = old.downcast_ref::<Self>() {
             for (part, old) in self.parts.iter_mut().zip(&old.parts) {
                 let old: &dyn Any = &**old;
@@ -379,6 +417,10 @@ impl Formulation<2> for Both {
             }
         }
         self.find();
+    }
+
+    fn fitted(&self, between: &[(u32, f64)], place: Vector, now: &Standing<'_, 2>) -> Option<Vector> {
+        self.parts.iter().find_map(|part| part.fitted(between, place, now))
     }
 
     fn overlaps(&self) -> Option<&Findings> {

@@ -8,13 +8,13 @@
 //! but reported.
 
 use super::super::findings::Findings;
-use super::super::initial::kept;
+use super::super::initial::{kept, moved_by};
 use super::super::law::penalty::stiffening;
 use super::super::projection::node_facet::place_on_triangle;
 use super::super::slaves::Slave;
 use super::super::springs::friction::cone;
 use super::super::springs::{Answers, End, Slip, Spring, Springs, Stiffening};
-use super::super::{Formulation, Scene};
+use super::super::{Formulation, Origins, Scene};
 use super::Manner;
 use super::behind::{Behind, Thick, divisions, may_be_between};
 use super::far::{Far, LOOK_AHEAD};
@@ -25,8 +25,9 @@ use crate::mesh::surface::Corners;
 use crate::tensor::{Dim, cross, dot};
 use crate::vector::{any_tangent, length, minus, plus, times};
 use std::any::Any;
-use std::collections::BTreeMap;
 use std::ops::Range;
+
+mod carried;
 
 /// A vector in 3D.
 pub type Vector = [f64; 3];
@@ -190,6 +191,10 @@ pub struct NodeSolid {
     /// Where their springs stiffen, and the thickness of their bodies there at the start, m.
     walls: Vec<(Stiffening, f64)>,
     memories: Vec<ContactHistory>,
+    /// Gaps of their springs in the last step, m; not a number: they have none.
+    gaps: Vec<f64>,
+    /// Whether nodes were moved along surfaces since the last step.
+    is_new: bool,
     /// What is within this distance gets a spring, m.
     reach: f64,
     /// Whether gaps that are negative when it begins to act count as zero.
@@ -225,8 +230,26 @@ impl NodeSolid {
         let walls = points.iter().map(wall).collect();
         let sees_facets = !ignores_start && divisions.iter().any(|&count| may_be_between(count));
         let (memories, behind, nodes) = (vec![ContactHistory::default(); points.len()], Behind::new(bodies, own), nodes.len());
-        let (has_begun, found, far) = (false, Vec::new(), Far::new(nodes, facets.len()));
-        Self { solid, body, points, nodes, facets, walls, memories, reach, ignores_start, has_begun, found, behind, far, sees_facets }
+        let (has_begun, is_new, found, far) = (false, false, Vec::new(), Far::new(nodes, facets.len()));
+        let gaps = vec![f64::NAN; points.len()];
+        Self {
+            solid,
+            body,
+            points,
+            nodes,
+            facets,
+            walls,
+            memories,
+            gaps,
+            is_new,
+            reach,
+            ignores_start,
+            has_begun,
+            found,
+            behind,
+            far,
+            sees_facets,
+        }
     }
 
     /// Meets a point; what is so far away that nothing at it may press in this step has no spring.
@@ -237,16 +260,20 @@ impl NodeSolid {
         let (from, to) = (body.to_local_old(point.place(scene.sweep.old)), body.to_local(x));
         let (distance, normal) = self.solid.distance(to);
         let pressed = std::mem::replace(&mut memory.presses, false);
+        let before = std::mem::replace(&mut self.gaps[index], f64::NAN);
         if !distance.is_finite() {
             *memory = ContactHistory::default();
             return;
         }
+        let moved = minus(to, from);
+        if self.is_new && point.count == 1 {
+            memory.offset = moved_by(before, distance - dot(normal, moved));
+        }
         // What lies between nodes that touch a round obstacle is a little inside from the start.
-        if self.ignores_start || point.count > 1 {
+        if self.ignores_start || point.count > 1 || memory.offset != 0.0 {
             memory.offset = kept(self.has_begun, memory.offset, distance);
         }
         let gap = distance - memory.offset;
-        let moved = minus(to, from);
         if gap > 0.0
             && !pressed
             && let Some((depth, place)) = self.solid.passed(from, to)
@@ -278,6 +305,7 @@ impl NodeSolid {
         let spring = Spring { normal, gap, stiffness, area, stiffening, side: 1.0, ..Spring::default() };
         springs.push(spring, Slip { slip, tangent }, &ends[..=point.count]);
         self.found.push(index as u32);
+        self.gaps[index] = gap;
     }
 
     /// How much farther than twice its size the corners of a facet are from the obstacle, m, of which this is
@@ -331,7 +359,7 @@ impl Formulation<3> for NodeSolid {
             self.behind.see_facets(body, deepest, scene);
         }
         self.behind.end();
-        self.has_begun = true;
+        (self.has_begun, self.is_new) = (true, false);
     }
 
     fn remember(&mut self, solved: Answers<'_, 3>) {
@@ -349,19 +377,25 @@ impl Formulation<3> for NodeSolid {
             solid: _, body: _, points: _, nodes: _, facets: _, walls: _, reach: _, ignores_start: _, found: _, sees_facets: _,
             // All are looked at again: nothing comes of those that slept.
             far: _,
-            memories, has_begun, behind,
+            memories, gaps, is_new, has_begun, behind,
         } = self;
-        persist_each!(archive; &mut memories[..], has_begun);
+        persist_each!(archive; &mut memories[..], &mut gaps[..], is_new, has_begun);
         behind.persist(archive)
+    }
+
+    fn carry(&mut self, old: &dyn Any, origins: &Origins<'_, 3>) {
+        if let Some(old) = old.downcast_ref::<Self>() {
+            self.continue_from(old, origins);
+        }
     }
 
     fn inherit(&mut self, old: Box<dyn Any>) {
         let Ok(old) = old.downcast::<Self>() else { return };
-        self.has_begun = old.has_begun;
+        (self.has_begun, self.is_new) = (old.has_begun, old.is_new);
         self.behind.inherit(&old.behind);
-        let known: BTreeMap<_, _> = old.points.iter().map(Point::key).zip(old.memories).collect();
-        for (point, memory) in self.points.iter().zip(&mut self.memories) {
-            *memory = known.get(&point.key()).copied().unwrap_or_default();
+        let known = old.known(0);
+        for ((point, memory), gap) in self.points.iter().zip(&mut self.memories).zip(&mut self.gaps) {
+            (*memory, *gap) = known.get(&point.key()).copied().unwrap_or((ContactHistory::default(), f64::NAN));
         }
     }
 

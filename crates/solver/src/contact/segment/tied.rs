@@ -16,6 +16,7 @@ pub(super) const SURFACES: FormulationKind = FormulationKind {
     source: "weights as in Puso (2004), held by two-way springs on gap and slip",
     passes: both_passes,
     tied: None,
+    is_carried: false,
     in_2d: Some(|setup| {
         let (pending, at_start) = PendingTies::of(&setup);
         Ok(Box::new(Tied::new(pending, Segment::of(setup), at_start)?))

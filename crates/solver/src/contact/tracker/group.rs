@@ -67,7 +67,7 @@ pub(super) struct Pass {
     pub(super) slave_bodies: Vec<u32>,
     pub(super) segment_bodies: Vec<u32>,
     /// Bodies whose surface has ends, ascending.
-    open: Vec<u32>,
+    pub(super) open: Vec<u32>,
     /// Segments on symmetry lines that would close the target, and their bodies.
     pub(super) lids: Vec<([u32; 2], u32)>,
     /// Ascending by slave and body.

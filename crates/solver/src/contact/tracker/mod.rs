@@ -6,6 +6,7 @@
 //! or between another body and a fold of its own, meets both. Order is fixed: passes, then slave nodes, then
 //! bodies ascending; so results depend neither on the search nor on the number of threads.
 
+mod carried;
 mod certificate;
 mod ends;
 mod group;
@@ -24,7 +25,7 @@ pub(in crate::contact) use reach::{Reach, SLACK};
 use super::continuity::SpringHistory;
 use super::projection::node_segment::{Projection, Target, Vector};
 use super::search::Search;
-use super::{Sweep, length};
+use super::{Origins, Sweep, length};
 use crate::archive::{Archive, ArchiveResult, persist_all, persist_each};
 use crate::mesh::surface::NONE;
 use crate::vector::{bound_of, minus};
@@ -64,9 +65,11 @@ pub struct ContactHistory {
     /// Which of the segments at the slave node stand for it: 1 that which ends there, 2 that which begins
     /// there, 3 both; 0 not known.
     pub faces: u8,
+    /// Stiffness of its spring by area, Pa/m; 0 not known.
+    pub stiffness: f64,
 }
 
-persist_all!(ContactHistory { slip, spring, faces });
+persist_all!(ContactHistory { slip, spring, faces, stiffness });
 
 /// Follows the nodes of surfaces along the bodies of other surfaces, or of their own.
 pub struct Tracker {

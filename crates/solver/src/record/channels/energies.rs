@@ -34,6 +34,9 @@ where
         if system.remap.is_some() {
             columns.push("energy.remap".into());
         }
+        if has_flow(system) {
+            columns.push("energy.flow".into());
+        }
         for part in &system.mesh.parts {
             columns.extend(["kinetic", "internal", "plastic"].iter().map(|name| format!("energy.{name}[{}]", part.name)));
         }
@@ -55,6 +58,7 @@ where
             stores.total() - external,
         ]);
         row.extend(system.remap.as_ref().map(|_| stores.remap));
+        row.extend(has_flow(system).then_some(stores.flow));
         let mut of_parts = vec![[0.0; 3]; system.mesh.parts.len()];
         for (group, report) in system.mesh.groups.iter().zip(&system.reports) {
             let energies = [report.stored + report.dissipated, report.dissipated];
@@ -66,4 +70,12 @@ where
         }
         row.extend(of_parts.iter().flatten());
     }
+}
+
+/// Whether material flows through a part.
+fn has_flow<const D: usize>(system: &System<D>) -> bool
+where
+    Dim<D>: Dimension<D>,
+{
+    system.remap.as_ref().is_some_and(|remap| !remap.flows.is_empty())
 }

@@ -1,7 +1,8 @@
 //! New elements inside the outline of a part, and the state of the part on them: in 2D.
 
-use super::{Remeshes, Wish};
+use super::{Places, Remeshes, Wish};
 use crate::block::PointValues;
+use crate::contact::Standing;
 use crate::load::constraint::{Constraints, NodeConstraint};
 use crate::load::join::Joins;
 use crate::mesh::Mesh;
@@ -9,15 +10,21 @@ use crate::mesh::cell::CellKind;
 use crate::mesh::remeshed::{NewPart, Renumbered};
 use crate::model::Model;
 use crate::step::System;
+use crate::step::flow::Exchange;
 use crate::tensor::Dim;
 use crate::vector::{plus, times};
 use embate_remesh::mesher::{self, Meshed, Outline};
 use embate_remesh::plane::{self, Cell, Measure, Point};
-use embate_remesh::transfer;
+use embate_remesh::relocate;
 use locate::Located;
-use std::collections::BTreeMap;
+use sizes::Sizes;
+use source::Source;
 
+mod flow;
 mod locate;
+mod onto;
+mod sizes;
+mod source;
 
 /// A part with new elements, and its state on them.
 pub struct Fresh<const D: usize>
@@ -28,7 +35,8 @@ where
     pub(super) numbers: Renumbered,
     pub(super) between: Vec<Vec<(u32, f64)>>,
     pub(super) velocities: Vec<[f64; D]>,
-    pub(super) points: PointValues,
+    /// Of each group of its elements.
+    pub(super) points: Vec<PointValues>,
     /// Least scaled Jacobian.
     pub(super) quality: f64,
     /// Largest correction of a mass.
@@ -36,6 +44,8 @@ where
     pub(super) volume_change: f64,
     /// Centre of mass, m.
     pub(super) centre: [f64; D],
+    /// What has come in and gone out, of a part that material flows through.
+    pub(super) exchange: Option<Exchange<D>>,
 }
 
 /// A part as it is: nodes are numbered from 0 in it.
@@ -86,30 +96,7 @@ impl Present {
 
     /// Closed chains of nodes, the body on the left.
     fn loops(&self) -> Result<Vec<Vec<u32>>, String> {
-        let edges = |cell: &Cell| {
-            let corners = plane::corners(cell).to_vec();
-            (0..corners.len()).map(move |k| [corners[k], corners[(k + 1) % corners.len()]])
-        };
-        let mut next: BTreeMap<u32, u32> = BTreeMap::new();
-        let all: std::collections::BTreeSet<[u32; 2]> = self.cells.iter().flat_map(edges).collect();
-        for &[a, b] in all.iter().filter(|&&[a, b]| !all.contains(&[b, a])) {
-            if next.insert(a, b).is_some() {
-                return Err("its outline meets itself in a node".into());
-            }
-        }
-        let mut loops = Vec::new();
-        while let Some((&first, _)) = next.first_key_value() {
-            let (mut chain, mut at) = (Vec::new(), first);
-            while let Some(following) = next.remove(&at) {
-                chain.push(at);
-                at = following;
-            }
-            if at != first {
-                return Err("its outline is not closed".into());
-            }
-            loops.push(chain);
-        }
-        Ok(loops)
+        Ok(plane::loops(&self.cells)?)
     }
 }
 
@@ -131,20 +118,11 @@ fn measure_of(positions: &[Point], cell: &Cell, measure: Measure) -> f64 {
 /// Which components of the velocity of a node are prescribed, each by itself: not those of an oblique
 /// direction.
 fn held_components(constraint: Option<&NodeConstraint<2>>) -> [bool; 2] {
-    let Some(own) = constraint else { return [false; 2] };
-    let (zero, x, y) = (own.apply([0.0; 2]), own.apply([1.0, 0.0]), own.apply([0.0, 1.0]));
-    [0, 1].map(|d| (x[d] - zero[d]).abs() < 1e-9 && (y[d] - zero[d]).abs() < 1e-9)
+    constraint.map_or([false; 2], NodeConstraint::components)
 }
 
-/// Edge length and the most cells.
-fn size_of(present: &Present, wish: &Wish) -> (f64, usize) {
-    let area: f64 = present.cells.iter().map(|cell| measure_of(&present.positions, cell, Measure::Plane)).sum();
-    let [start, most] = wish.elements;
-    let size = wish.size.unwrap_or_else(|| (area / start as f64).sqrt());
-    // The mesher may need some more than the mean says.
-    (size.max((area / (0.8 * most as f64)).sqrt()), most)
-}
-
+/// Moved nodes must give a least scaled Jacobian that is better by this factor.
+pub(super) const BETTER: f64 = 1.02;
 impl Remeshes<2> for Dim<2> {
     fn quality(system: &System<2>, part: usize) -> f64 {
         let of = |cell: crate::mesh::cell::Cell<'_>| -> f64 {
@@ -155,10 +133,18 @@ impl Remeshes<2> for Dim<2> {
         system.mesh.groups_of(part).flat_map(|group| group.cells()).map(of).fold(f64::INFINITY, f64::min)
     }
 
+    fn coarseness(system: &System<2>, model: &Model, part: usize, wish: &Wish) -> f64 {
+        if wish.size_contact.is_none() && wish.strain_change.is_none() {
+            return 0.0;
+        }
+        // Of a part that can't be meshed nothing is too long.
+        Present::new(system, model, part).map_or(0.0, |present| Sizes::new(system, part, &present, wish).coarseness)
+    }
+
     fn fresh(system: &System<2>, model: &Model, part: usize, wish: &Wish) -> Result<Fresh<2>, String> {
         let present = Present::new(system, model, part)?;
         let loops = present.loops()?;
-        let meshed = mesh_of(system, &present, &loops, wish)?;
+        let meshed = mesh_of(system, part, &present, &loops, wish)?;
         let quality = mesher::quality(&meshed.positions, &meshed.cells);
         if quality <= wish.quality {
             return Err(format!("the new mesh has a least scaled Jacobian of {quality:.3}, and not more than {:.3}", wish.quality));
@@ -166,10 +152,30 @@ impl Remeshes<2> for Dim<2> {
         let part = &Fill { system, model, part, present: &present, loops: &loops };
         part.filled(meshed, quality)
     }
+
+    fn onto(system: &System<2>, model: &Model, part: usize, new: &Mesh<2>) -> Result<Fresh<2>, String> {
+        let present = Present::new(system, model, part)?;
+        let loops = present.loops()?;
+        let meshed = present.meshed(&loops, new)?;
+        let quality = mesher::quality(&meshed.positions, &meshed.cells);
+        Fill { system, model, part, present: &present, loops: &loops }.filled(meshed, quality)
+    }
+
+    fn travel(system: &System<2>, model: &Model, window: &Places<2>) -> Result<f64, String> {
+        flow::travel(system, model, window)
+    }
+
+    fn inflow(system: &System<2>, model: &Model, window: &Places<2>) -> Result<Vec<f64>, String> {
+        flow::inflow(system, model, window)
+    }
+
+    fn returned(system: &System<2>, model: &Model, window: &Places<2>) -> Result<Fresh<2>, String> {
+        flow::returned(system, model, window)
+    }
 }
 
 /// New cells inside the outline.
-fn mesh_of(system: &System<2>, present: &Present, loops: &[Vec<u32>], wish: &Wish) -> Result<Meshed, String> {
+fn mesh_of(system: &System<2>, part: usize, present: &Present, loops: &[Vec<u32>], wish: &Wish) -> Result<Meshed, String> {
     let number = |&local: &u32| present.nodes[local as usize];
     let of_mesh: Vec<Vec<u32>> = loops.iter().map(|chain| chain.iter().map(number).collect()).collect();
     let fixed = |chain: &Vec<u32>| -> Vec<bool> {
@@ -183,8 +189,61 @@ fn mesh_of(system: &System<2>, present: &Present, loops: &[Vec<u32>], wish: &Wis
         loops: loops.iter().map(|chain| chain.iter().map(|&node| present.positions[node as usize]).collect()).collect(),
         fixed: of_mesh.iter().map(fixed).collect(),
     };
-    let (size, most) = size_of(present, wish);
-    mesher::quadrilaterals(&outline, &|_| size, present.measure, most).map_err(|failure| failure.to_string())
+    let now = Standing { positions: &system.positions, bodies: &system.bodies };
+    // Where a new node has to be beside what the part presses on.
+    let fitted = |spot: mesher::Spot| -> Option<Point> {
+        let (chain, at) = (&of_mesh[spot.of_loop], spot.segment as usize);
+        let ends = [chain[at % chain.len()], chain[(at + 1) % chain.len()]];
+        let held = ends.map(|node| held_components(system.constraints.of(node as usize)));
+        // Nodes of a side that is held stay on it.
+        if (0..2).any(|d| held[0][d] && held[1][d]) {
+            return None;
+        }
+        let between = [(ends[0], 1.0 - spot.fraction), (ends[1], spot.fraction)];
+        let between = &between[..if spot.fraction == 0.0 { 1 } else { 2 }];
+        system.contacts.iter().find_map(|contact| contact.fitted(between, spot.place, &now))
+    };
+    if wish.relocates {
+        let body = relocate::Body { mesh: present.mesh(), loops, fixed: &outline.fixed };
+        return relocate::relocated_outside(&body, present.measure, BETTER, &fitted).map_err(|failure| failure.to_string());
+    }
+    let sizes = Sizes::new(system, part, present, wish);
+    let at = |place| sizes.at(place);
+    mesher::quadrilaterals_outside(&outline, &at, present.measure, sizes.most, &fitted).map_err(|failure| failure.to_string())
+}
+
+/// The mesh with a part that was made again.
+struct Renewed {
+    mesh: Mesh<2>,
+    numbers: Renumbered,
+    /// Number of each node of the mesh in the new part.
+    locals: Vec<u32>,
+    /// Cells of the part as the mesh has them: in its order, each begun at the corner where it begins there.
+    cells: Vec<Cell>,
+}
+
+impl Renewed {
+    fn new(system: &System<2>, new: &NewPart<2>, limits: [f64; 2]) -> Result<Self, String> {
+        let (mesh, numbers) = system.mesh.with_new(new, limits);
+        let mut locals = vec![0; mesh.positions.len()];
+        numbers.of_new.iter().enumerate().for_each(|(local, &node)| locals[node as usize] = local as u32);
+        let group = mesh.groups_of(new.part).next().ok_or("it has no elements")?;
+        let cells: Vec<Cell> = group.cells().map(|cell| std::array::from_fn(|k| locals[cell.nodes[k] as usize])).collect();
+        Ok(Self { mesh, numbers, locals, cells })
+    }
+
+    /// Gives the part the masses of its cells and of its nodes, kg/m (kg).
+    fn give(&mut self, part: usize, masses: &[f64], node_masses: &[f64]) -> Result<(), String> {
+        let own = self.mesh.remeshed.parts.last_mut().ok_or("it was not made again")?;
+        own.masses = masses.to_vec();
+        own.node_masses = self.mesh.parts[part].nodes.iter().map(|&node| node_masses[self.locals[node as usize] as usize]).collect();
+        Ok(())
+    }
+}
+
+/// Mass of each cell, kg/m (kg), of those of its corners.
+fn sums(corner_mass: &[[f64; 4]]) -> Vec<f64> {
+    corner_mass.iter().map(|corners| corners.iter().sum()).collect()
 }
 
 /// What new cells are filled from.
@@ -212,54 +271,35 @@ impl Fill<'_> {
         };
         let new = NewPart {
             part: self.part,
-            kind: CellKind::Quadrilateral,
-            connectivity: meshed.cells.iter().flatten().copied().collect(),
+            elements: vec![(CellKind::Quadrilateral, meshed.cells.iter().flatten().copied().collect())],
             places: meshed.positions.clone(),
             initial: places.iter().map(initial).collect(),
             origins: places.iter().map(|it| it.shares.iter().map(|entry| number(entry).0).collect()).collect(),
             outline,
         };
         let limits = [system.limits.step, system.limits.velocity];
-        let (mut mesh, numbers) = system.mesh.with_new(&new, limits);
-        // Cells as the mesh has them: in its order, each begun at the corner where it begins there.
-        let mut locals = vec![0; mesh.positions.len()];
-        numbers.of_new.iter().enumerate().for_each(|(local, &node)| locals[node as usize] = local as u32);
-        let group = mesh.groups_of(self.part).next().ok_or("it has no elements")?;
-        let cells: Vec<Cell> = group.cells().map(|cell| std::array::from_fn(|k| locals[cell.nodes[k] as usize])).collect();
-        let held = self.held(&mesh, &numbers, &places)?;
+        let mut renewed = Renewed::new(system, &new, limits)?;
+        let held = self.held(&renewed, &places)?;
+        let source = Source::new(system, self.part, present)?;
+        let cells = renewed.cells.clone();
         let new_mesh = plane::Mesh { positions: &meshed.positions, cells: &cells };
-        let nodes = self.nodes(new_mesh, &held)?;
-        let own = mesh.remeshed.parts.last_mut().ok_or("it was not made again")?;
-        own.masses = nodes.corner_mass.iter().map(|corners| corners.iter().sum()).collect();
-        let node_mass = |&node: &u32| nodes.mass[locals[node as usize] as usize];
-        own.node_masses = mesh.parts[self.part].nodes.iter().map(node_mass).collect();
-        let points = self.points(new_mesh)?;
+        let nodes = source.nodes(new_mesh, &held)?;
+        let masses = sums(&nodes.corner_mass);
+        renewed.give(self.part, &masses, &nodes.mass)?;
+        let points = source.points(new_mesh, masses)?.values;
         let volume: f64 = cells.iter().map(|cell| measure_of(&meshed.positions, cell, present.measure)).sum();
         Ok(Fresh {
-            mesh,
-            numbers,
+            mesh: renewed.mesh,
+            numbers: renewed.numbers,
             between,
             velocities: nodes.velocities,
-            points,
+            points: vec![points],
             quality,
             correction: nodes.correction,
             volume_change: volume / present.volume() - 1.0,
-            centre: self.centre(),
+            centre: source.centre(),
+            exchange: None,
         })
-    }
-
-    fn velocities(&self) -> Vec<Point> {
-        self.present.nodes.iter().map(|&node| self.system.velocities[node as usize]).collect()
-    }
-
-    fn node_masses(&self) -> Vec<f64> {
-        self.present.nodes.iter().map(|&node| self.system.mass[node as usize]).collect()
-    }
-
-    fn centre(&self) -> Point {
-        let masses = self.node_masses();
-        let sum = masses.iter().zip(&self.present.positions).fold([0.0; 2], |sum, (&mass, &place)| plus(sum, times(mass, place)));
-        times(1.0 / masses.iter().sum::<f64>(), sum)
     }
 
     /// Where the material of each new node is among the old nodes.
@@ -296,8 +336,8 @@ impl Fill<'_> {
     }
 
     /// Prescribed components of the velocities.
-    fn held(&self, mesh: &Mesh<2>, numbers: &Renumbered, places: &[Located]) -> Result<Vec<[Option<f64>; 2]>, String> {
-        let (model, curves) = (self.model, &self.system.curves);
+    fn held(&self, renewed: &Renewed, places: &[Located]) -> Result<Vec<[Option<f64>; 2]>, String> {
+        let (model, curves, Renewed { mesh, numbers, .. }) = (self.model, &self.system.curves, renewed);
         let axis = <Dim<2> as crate::build::Builds<2>>::with_axis(model, mesh).map_err(|_| "its new nodes leave the axis".to_string())?;
         let constraints = Constraints::new(axis.as_ref().unwrap_or(model), mesh, curves, &Joins::default(), 0);
         let constraints = constraints.map_err(|faults| faults.first().map_or(String::new(), ToString::to_string))?;
@@ -309,66 +349,5 @@ impl Fill<'_> {
             [0, 1].map(|d| held[d].then_some(velocity[d]))
         };
         Ok(numbers.of_new.iter().zip(places).map(of).collect())
-    }
-
-    /// Masses and velocities.
-    fn nodes(&self, new: plane::Mesh<'_>, held: &[[Option<f64>; 2]]) -> Result<transfer::Nodes, String> {
-        let present = self.present;
-        let supermesh = transfer::Supermesh::new(present.mesh(), new, present.measure).map_err(|failure| failure.to_string())?;
-        let corner_mass: Vec<[f64; 4]> = present.masses.iter().map(|mass| [0.25 * mass; 4]).collect();
-        let (node_mass, velocities) = (self.node_masses(), self.velocities());
-        let old = transfer::OldNodes {
-            mesh: present.mesh(),
-            corner_mass: &corner_mass,
-            node_mass: &node_mass,
-            velocities: &velocities,
-            spare: 0.0,
-        };
-        transfer::nodes(&supermesh, &old, &transfer::NewNodes { mesh: new, held }).map_err(|failure| failure.to_string())
-    }
-
-    /// Stresses by volume, and what the law remembers by mass.
-    fn points(&self, new: plane::Mesh<'_>) -> Result<PointValues, String> {
-        let (system, present) = (self.system, self.present);
-        let index = system.mesh.groups.iter().position(|group| group.part == self.part).ok_or("it has no elements")?;
-        let values = system.blocks[index].point_values().ok_or("its law can't continue with means")?;
-        let PointValues { points, components, width, .. } = values;
-        let old = transfer::Points { mesh: present.mesh(), points };
-        let target = transfer::Points { mesh: new, points };
-        let part = |from: usize, to: usize| -> Vec<f64> { values.values.chunks(width).flat_map(|own| own[from..to].to_vec()).collect() };
-        let order = transfer::Order::Linear;
-        let carried = |own: &[f64], count: usize, densities: Option<&[f64]>| -> Result<Vec<f64>, String> {
-            if count == 0 {
-                return Ok(Vec::new());
-            }
-            // What a law remembers, such as plastic strain, stays within what it is anywhere.
-            let range = |k: usize| {
-                own.iter().skip(k).step_by(count).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &it| [low.min(it), high.max(it)])
-            };
-            let ranges: Vec<[f64; 2]> = (0..count).map(range).collect();
-            let limits = densities.is_some().then_some(&ranges[..]);
-            let values = transfer::Values { values: own, width: count, densities, order, limits };
-            let mut carried = transfer::points(&old, &target, present.measure, &values).map_err(|failure| failure.to_string())?;
-            if limits.is_some() {
-                // To the last digit.
-                carried.iter_mut().zip(ranges.iter().cycle()).for_each(|(value, &[low, high])| *value = value.max(low).min(high));
-            }
-            Ok(carried)
-        };
-        let densities: Vec<f64> = present
-            .masses
-            .iter()
-            .zip(&present.cells)
-            .map(|(mass, cell)| mass / measure_of(&present.positions, cell, present.measure))
-            .collect();
-        let stress = carried(&part(0, components), components, None)?;
-        let state = carried(&part(components, width), width - components, Some(&densities))?;
-        let count = new.cells.len() * points;
-        let mut all = Vec::with_capacity(count * width);
-        for point in 0..count {
-            all.extend_from_slice(&stress[point * components..][..components]);
-            all.extend_from_slice(&state[point * (width - components)..][..width - components]);
-        }
-        Ok(PointValues { points, components, width, values: all })
     }
 }

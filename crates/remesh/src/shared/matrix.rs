@@ -1,10 +1,8 @@
 //! The mass matrix of the new nodes, conjugate gradients, and small dense systems.
 
-use crate::plane::{Cell, corners};
-
 /// A symmetric matrix with a row for each node: its diagonal, and the nodes that share a cell with it.
-pub(super) struct Matrix {
-    pub(super) diagonal: Vec<f64>,
+pub(crate) struct Matrix {
+    pub(crate) diagonal: Vec<f64>,
     /// Of each row the first of its entries; one more at the end.
     starts: Vec<u32>,
     columns: Vec<u32>,
@@ -12,11 +10,10 @@ pub(super) struct Matrix {
 }
 
 impl Matrix {
-    /// The entries that some cells give, all zero.
-    pub(super) fn of(cells: &[Cell], nodes: usize) -> Self {
-        let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(12 * cells.len());
-        for cell in cells {
-            let all = corners(cell);
+    /// The entries that cells with these nodes give, all zero.
+    pub(crate) fn of<'a>(cells: impl Iterator<Item = &'a [u32]>, nodes: usize) -> Self {
+        let mut pairs: Vec<[u32; 2]> = Vec::new();
+        for all in cells {
             pairs.extend(all.iter().flat_map(|&a| all.iter().map(move |&b| [a, b])).filter(|[a, b]| a != b));
         }
         pairs.sort_unstable();
@@ -30,7 +27,7 @@ impl Matrix {
     }
 
     /// Adds to an entry that is there.
-    pub(super) fn add(&mut self, row: u32, column: u32, value: f64) {
+    pub(crate) fn add(&mut self, row: u32, column: u32, value: f64) {
         if row == column {
             self.diagonal[row as usize] += value;
             return;
@@ -46,7 +43,7 @@ impl Matrix {
     }
 
     /// Columns and values of a row without its diagonal.
-    pub(super) fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub(crate) fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.range(row).map(|k| (self.columns[k] as usize, self.values[k]))
     }
 
@@ -56,9 +53,9 @@ impl Matrix {
 
     /// Solves M x = b in the rows that are free, from a first x; what is not free keeps its x. Conjugate
     /// gradients with the diagonal: the eigenvalues of diag(M)⁻¹ M lie between bounds that do not depend on
-    /// the mesh, [½, 2] for triangles (Wathen, IMA J. Numer. Anal. 7 (1987) 449), so that the error falls at
-    /// least twofold in each iteration.
-    pub(super) fn solve(&self, b: &[f64], free: &[bool], x: &mut [f64]) {
+    /// the mesh, [½, 2] for triangles and [½, 5/2] for tetrahedra (Wathen, IMA J. Numer. Anal. 7 (1987) 449),
+    /// so that the error falls at least twofold in each iteration.
+    pub(crate) fn solve(&self, b: &[f64], free: &[bool], x: &mut [f64]) {
         let count = self.diagonal.len();
         let active = |row: usize| free[row] && self.diagonal[row] > 0.0;
         let mut r: Vec<f64> = (0..count).map(|row| if active(row) { b[row] - self.times(row, x) } else { 0.0 }).collect();
@@ -100,9 +97,9 @@ fn inner(a: &[f64], b: &[f64]) -> f64 {
 
 /// Solves A x = b for the first `count` unknowns, A symmetric and not negative, by elimination in the order
 /// of the unknowns. Unknowns that depend on those before are zero.
-pub(super) fn eliminate(mut a: [[f64; 6]; 6], mut b: [f64; 6], count: usize) -> [f64; 6] {
-    let first: [f64; 6] = std::array::from_fn(|k| a[k][k]);
-    let mut is_used = [false; 6];
+pub(crate) fn eliminate<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N], count: usize) -> [f64; N] {
+    let first: [f64; N] = std::array::from_fn(|k| a[k][k]);
+    let mut is_used = [false; N];
     for k in 0..count {
         if !(a[k][k] > 1e-9 * first[k]) {
             continue;
@@ -116,7 +113,7 @@ pub(super) fn eliminate(mut a: [[f64; 6]; 6], mut b: [f64; 6], count: usize) -> 
             b[row] -= factor * b[k];
         }
     }
-    let mut x = [0.0; 6];
+    let mut x = [0.0; N];
     for k in (0..count).rev() {
         if is_used[k] {
             let rest = (k + 1..count).fold(b[k], |rest, column| rest - a[k][column] * x[column]);

@@ -254,8 +254,7 @@ impl Maker<'_> {
                 }
                 Load::Pressure { on, pressure, .. } => {
                     let sign = if *pressure < 0.0 { 1.0 } else { -1.0 };
-                    let (middles, normals) = self.places.of_surface(on);
-                    let symbols: Vec<_> = middles.into_iter().zip(normals).map(|(x, n)| (x, n.map(|c| sign * c))).collect();
+                    let symbols: Vec<_> = self.places.of_surface(on).into_iter().map(|(x, n)| (x, n.map(|c| sign * c))).collect();
                     self.add(&PRESSURE, on, path, &symbols, FEW);
                 }
                 Load::Damping { .. } | Load::StiffnessDamping { .. } => {}
@@ -263,24 +262,25 @@ impl Maker<'_> {
         }
     }
 
-    /// Dots on these surfaces, with their outward normals.
+    /// Dots on these surfaces, or on the outside of all bodies where none is named, with their outward
+    /// normals.
     fn dots(&mut self, kind: &'static GlyphKind, name: &str, path: String, surfaces: &[String]) {
-        let of = |surface: &String| {
-            let (middles, normals) = self.places.of_surface(surface);
-            middles.into_iter().zip(normals)
+        let symbols: Vec<_> = match surfaces {
+            [] => self.places.of_outside(),
+            _ => surfaces.iter().flat_map(|surface| self.places.of_surface(surface)).collect(),
         };
-        let symbols: Vec<_> = surfaces.iter().flat_map(of).collect();
         self.add(kind, name, path, &symbols, MANY);
     }
 
     fn contacts(&mut self) {
         let model = self.model;
         for (index, contact) in model.contacts.iter().enumerate() {
-            // That of all bodies is everywhere.
-            if let Partners::Between(between) = &contact.partners {
-                let kind = if contact.tied.is_some() { &TIE } else { &CONTACT };
-                self.dots(kind, &contact.name, format!("contact[{index}]"), between);
-            }
+            let kind = if contact.tied.is_some() { &TIE } else { &CONTACT };
+            let surfaces: &[String] = match &contact.partners {
+                Partners::Between(between) => between,
+                Partners::Bodies(parts) => parts,
+            };
+            self.dots(kind, &contact.name, format!("contact[{index}]"), surfaces);
         }
         for (index, join) in model.joins.iter().enumerate() {
             let nodes = join.between.iter().flat_map(|name| self.places.of_nodes(name));

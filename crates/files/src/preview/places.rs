@@ -57,18 +57,18 @@ impl<'a> Places<'a> {
         self.nodes(name).into_iter().map(|node| self.place(node)).collect()
     }
 
-    /// Middles (m) and outward normals of the segments or facets of a surface; of what has none its nodes,
+    /// Middle (m) and outward normal of each segment or facet of a surface; of what has none its nodes,
     /// without normals.
-    pub(super) fn of_surface(&self, name: &str) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+    pub(super) fn of_surface(&self, name: &str) -> Vec<([f64; 3], [f64; 3])> {
         let nodes: BTreeSet<u32> = self.nodes(name).into_iter().collect();
         let own = self.facets().iter().filter(|facet| facet.corners.iter().all(|corner| nodes.contains(corner)));
-        let (middles, normals): (Vec<_>, Vec<_>) = own.map(|facet| (facet.middle, facet.normal)).unzip();
-        if !middles.is_empty() {
-            return (middles, normals);
-        }
-        let places: Vec<_> = nodes.into_iter().map(|node| self.place(node)).collect();
-        let none = vec![[0.0; 3]; places.len()];
-        (places, none)
+        let facets: Vec<_> = own.map(|facet| (facet.middle, facet.normal)).collect();
+        if facets.is_empty() { nodes.into_iter().map(|node| (self.place(node), [0.0; 3])).collect() } else { facets }
+    }
+
+    /// The same of the outside of all bodies.
+    pub(super) fn of_outside(&self) -> Vec<([f64; 3], [f64; 3])> {
+        self.facets().iter().map(|facet| (facet.middle, facet.normal)).collect()
     }
 
     /// Middle of an element, by its number in its part, m.

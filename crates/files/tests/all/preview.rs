@@ -88,6 +88,28 @@ fn glyphs_stand_where_things_act_and_point_as_they_do() {
 }
 
 #[test]
+fn a_contact_of_bodies_has_dots_on_the_outside_of_its_bodies_alone() {
+    let dots = |bodies: &str| {
+        let text = PLANE.replace(r#"between = ["block.bottom", "plate.top"]"#, &format!("bodies = {bodies}"));
+        let preview = read(&written("bodies", &text));
+        assert_eq!(preview.faults.count, 0, "{}", preview.faults.rendered);
+        of(&preview, "contact", "contact[0]").clone()
+    };
+    let outside = |[x, y, _]: [f64; 3], [low, high]: [[f64; 2]; 2]| {
+        let is_at = |value: f64, end: f64| (value - end).abs() < 1e-9;
+        is_at(x, low[0]) || is_at(x, high[0]) || is_at(y, low[1]) || is_at(y, high[1])
+    };
+    let (block, plate) = ([[0.0, 0.02], [0.02, 0.03]], [[0.0, 0.0], [0.03, 0.0199]]);
+    let one = dots(r#"["block"]"#);
+    assert!(one.points.len() > 40 && one.points.iter().all(|&x| outside(x, block)));
+    // Outward: away from the middle of the block.
+    assert!(one.points.iter().zip(&one.vectors).all(|(x, n)| n[0] * (x[0] - 0.01) + n[1] * (x[1] - 0.025) > 0.004));
+    let all = dots(r#""all""#);
+    let of_plate = all.points.iter().filter(|x| x[1] < 0.01995).count();
+    assert!(of_plate > 40 && of_plate < all.points.len() && all.points.iter().all(|&x| outside(x, block) || outside(x, plate)));
+}
+
+#[test]
 fn in_3d_pressure_points_into_the_body_and_spins_go_around() {
     let preview = read(&written("space", SPACE));
     assert_eq!(preview.faults.count, 0, "{}", preview.faults.rendered);

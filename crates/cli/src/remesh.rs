@@ -14,7 +14,7 @@ use embate_files::checkpoint::{Exchanged, Identity, Origin};
 use embate_files::model_file::{self, Loaded};
 use embate_files::results::messages::EXISTS;
 use embate_files::results::{self, Recorder, ResultFolder};
-use embate_files::{abaqus, cad, gmsh, stl};
+use embate_files::{cad, mesh_file, stl};
 use embate_solver::error::{Error, Fault};
 use embate_solver::model::ImportedMesh;
 use embate_solver::output::Remeshing;
@@ -87,6 +87,7 @@ pub(crate) fn remesh(arguments: &Arguments) -> Result<(), Failure> {
     let (step, place) = (simulation.steps(), mesh.source.clone());
     let made = simulation.exchange(&loaded.model, &arguments.part, mesh, arguments.group.as_deref());
     let event = made.map_err(|error| Failure::Input(not_exchanged(&error)))?;
+    simulation.begin_reports();
     if !arguments.manner.quiet {
         terminal::report_error(&described(&event));
     }
@@ -168,8 +169,7 @@ fn mesh_of(arguments: &Arguments, simulation: &Simulation) -> Result<ImportedMes
         let job = cad::Filling { triangles: text, size: 1.0, program: arguments.gmsh.program(), limit: arguments.gmsh.limit() };
         return job.mesh(size).map_err(refused);
     };
-    let is_deck = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("inp"));
-    if is_deck { abaqus::read(path, arguments.scale) } else { gmsh::read(path, arguments.scale) }.map_err(refused)
+    mesh_file::read(path, arguments.scale).map_err(refused)
 }
 
 fn not_exchanged(error: &Error) -> CliError {

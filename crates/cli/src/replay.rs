@@ -109,7 +109,8 @@ pub(crate) fn nearest(path: &Path, time: f64, options: &Options, place: &Place) 
             begun.part,
             begun.step
         );
-        let help = "take a later time, or `embate remesh` again, with `run.checkpoint = 0` so that its first state stays";
+        let again = if begun.run.as_os_str().is_empty() { "do again what began it" } else { "`embate remesh` again" };
+        let help = format!("take a later time, or {again}, with `run.checkpoint = 0` so that its first state stays");
         return Err(Failure::Input(CliError::new(&NO_CHECKPOINT, text).help(help)));
     }
     let (loaded, _) = place.load(&origin, &[])?;

@@ -5,6 +5,7 @@ pub mod cad;
 pub mod checkpoint;
 pub mod comparison;
 pub mod gmsh;
+pub mod mesh_file;
 pub mod messages;
 pub mod model_file;
 pub mod numbers;

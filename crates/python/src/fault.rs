@@ -106,7 +106,8 @@ pub(crate) fn of_error(error: &Error) -> PyErr {
     }
 }
 
-fn of_faults(faults: &[Fault]) -> PyErr {
+/// Of faults of a model, or of a mesh.
+pub(crate) fn of_faults(faults: &[Fault]) -> PyErr {
     let entries: Vec<Entry> = faults.iter().map(|it| Entry::of(it.kind, &it.path, 0, &it.message, &it.help)).collect();
     let lines = faults.iter().map(|it| {
         let place = if it.path.is_empty() { String::new() } else { format!("{}: ", it.path) };

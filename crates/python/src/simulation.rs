@@ -6,11 +6,12 @@
 use crate::fault::{self, Class, Entry, guarded, raise};
 use crate::model::Model;
 use crate::{bytes, numbers};
-use embate_files::checkpoint::{Checkpoint, Identity, Origin};
+use embate_files::checkpoint::{Checkpoint, Exchanged, Identity, Origin};
 use embate_files::model_file::{GivenMeshes, Loaded};
 use embate_files::post_mortem::Failed;
 use embate_files::results::{Checkpoints, Pause, Recorder, Report, ResultFolder};
 use embate_files::threads::Threads;
+use embate_files::{gmsh, mesh_file};
 use embate_solver::error::Error;
 use embate_solver::mesh::PlacedMesh;
 use embate_solver::output::{Cells, Frame, Shown};
@@ -46,6 +47,8 @@ struct Inner {
     folder: PathBuf,
     /// Whether something was changed between two steps.
     is_steered: bool,
+    /// The part that went over to another mesh last.
+    exchanged: Option<Exchanged>,
     /// Steps that took about a stretch of the time asked for.
     stretch: u64,
 }
@@ -110,6 +113,18 @@ impl Observer for Ears<'_> {
     }
 }
 
+impl History {
+    /// The rows with columns that have joined `before`, as 0: what they count had not happened.
+    fn widen(&mut self, before: &[String], now: &[String]) {
+        if before == now || before.is_empty() {
+            return;
+        }
+        let places: Vec<Option<usize>> = now.iter().map(|name| before.iter().position(|own| own == name)).collect();
+        let widened = |row: &[f64]| places.iter().map(|place| place.map_or(0.0, |place| row[place])).collect::<Vec<f64>>();
+        self.rows = self.rows.chunks_exact(before.len()).flat_map(widened).collect();
+    }
+}
+
 impl Inner {
     fn of(simulation: simulation::Simulation) -> Self {
         Self {
@@ -119,6 +134,7 @@ impl Inner {
             failure: None,
             folder: PathBuf::new(),
             is_steered: false,
+            exchanged: None,
             stretch: 1,
         }
     }
@@ -326,12 +342,18 @@ impl Simulation {
             };
             // Without its file a state helps no one who does not ask for it.
             let is_lost = origin.path.as_os_str().is_empty();
-            let mut checkpoints = Checkpoints::of(model, origin);
+            let mut checkpoints = Checkpoints::of(model, Origin { exchanged: inner.exchanged.clone(), ..origin });
             checkpoints.pause = if is_lost { Pause::Never } else { checkpoints.pause };
             let checkpoints = Some(checkpoints.with_words(loaded, inner.simulation.part_meshes(model)));
             let quiet = Box::new(|_: &Progress<'_>| Control::Continue);
             let recorder = Recorder::keeping(folder, model, shown, options.thread_count(), checkpoints, quiet);
-            inner.recorder = Some(recorder.map_err(|error| fault::of_results(&error))?);
+            let mut recorder = recorder.map_err(|error| fault::of_results(&error))?;
+            if inner.exchanged.is_some() && !is_lost {
+                // The model alone does not lead here.
+                let state = inner.simulation.state().map_err(|error| fault::of_error(&error))?;
+                recorder.keep(state).map_err(|error| fault::of_results(&error))?;
+            }
+            inner.recorder = Some(recorder);
             inner.folder = path;
             inner.simulation.keep_states_in(ROOM);
             Ok(())
@@ -453,6 +475,29 @@ impl Simulation {
     /// Lets a curve run from its value now to another one, which it has from a time on (s; none: at once).
     fn set_curve(&self, name: &str, value: f64, until: Option<f64>) -> PyResult<()> {
         self.change(|simulation| simulation.set_curve(name, value, until))
+    }
+
+    /// Lets a part continue on another mesh: that of a file, or the bytes of a .msh file.
+    fn exchange(&self, py: Python<'_>, part: &str, mesh: (PathBuf, Option<Vec<u8>>), scale: f64, group: Option<&str>) -> PyResult<()> {
+        let model = &self.loaded.model;
+        self.without_lock(py, |inner| {
+            if let Some(failure) = &inner.failure {
+                return Err(raise(Class::State, &format!("the run has failed, nothing can be changed: {}", failure.with_code()), &[]));
+            }
+            let (path, bytes) = mesh;
+            let read = match &bytes {
+                Some(bytes) => gmsh::parse(bytes, &path.to_string_lossy(), scale),
+                None => mesh_file::read(&path, scale),
+            };
+            let read = read.map_err(|faults| fault::of_faults(&faults))?;
+            let (step, before) = (inner.simulation.steps(), inner.simulation.history_columns());
+            inner.simulation.exchange(model, part, read, group).map_err(|error| fault::of_error(&error))?;
+            inner.history.widen(&before, &inner.simulation.history_columns());
+            let mesh = if bytes.is_some() { PathBuf::new() } else { std::path::absolute(&path).unwrap_or(path) };
+            inner.exchanged = Some(Exchanged { run: PathBuf::new(), step, part: part.into(), mesh });
+            inner.is_steered = true;
+            Ok(())
+        })
     }
 
     /// Value of a curve now; `None`: there is nothing of this name.

@@ -409,12 +409,17 @@ impl Simulation {
     /// The run continues with a mesh of the caller's for a part: the elements of its `group`, or of its only
     /// group, or of that of the part's name, in the form and place that the part has now, m. Stresses, what
     /// laws remember and velocities go over to it as with `[[remesh]]`; the element of each kind of cell is
-    /// that of the part. `model`: the one it was made from. What is reported afterwards begins again.
+    /// that of the part. `model`: the one it was made from.
     ///
     /// # Errors
     /// [`Error::Model`] with the reasons; the run stands where it stood.
     pub fn exchange(&mut self, model: &Model, part: &str, mesh: ImportedMesh, group: Option<&str>) -> Result<Remeshing, Error> {
         either!(mut self, run => run.exchange(model, part, mesh, group))
+    }
+
+    /// What is reported from here on is the beginning of something new: first the state as it is now.
+    pub fn begin_reports(&mut self) {
+        either!(mut self, run => run.begin_reports());
     }
 
     /// Nodes of a part, of a side of it or of a group, by their numbers in frames, ascending; `None` where

@@ -105,13 +105,13 @@ pub struct Origin {
 /// A part of another run that went over to a mesh of the user's, with which this run began.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Exchanged {
-    /// Result folder of the other run; absolute.
+    /// Result folder of the other run; absolute. Empty: it was one in a program.
     pub run: PathBuf,
     /// After which step.
     pub step: u64,
     /// The part.
     pub part: String,
-    /// File of the mesh; absolute.
+    /// File of the mesh; absolute. Empty: it was in memory.
     pub mesh: PathBuf,
 }
 

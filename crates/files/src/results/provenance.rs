@@ -165,10 +165,13 @@ impl Provenance {
         read_json(&folder.join(RAN))
     }
 
-    /// The command by which it is run again; none of a model that came from no file.
+    /// The command by which it is run again; none of a model that came from no file, or of a run that began
+    /// in a program.
     #[must_use]
     pub fn command(&self) -> Option<String> {
         if let Some(Exchanged { run, part, mesh, .. }) = &self.exchanged {
+            // Else it was done in a program.
+            run.file_name()?;
             let [run, part, mesh] = [&run.to_string_lossy(), part.as_str(), &mesh.to_string_lossy()].map(quoted);
             return Some(format!("embate remesh {run} --part {part} --mesh {mesh}"));
         }

@@ -1509,6 +1509,7 @@ class Sections:
         size: Quantity | None = None,
         size_contact: Quantity | None = None,
         strain_change: Quantity | None = None,
+        stress_error: Quantity | None = None,
         size_least: Quantity | None = None,
         quality: Quantity | None = None,
         time_step: Quantity | None = None,
@@ -1537,8 +1538,13 @@ class Sections:
             Plastic strain that may change across an element, such as 0.2: edges are shorter where
             it changes more. Elements are made again, too, where they are more than twice as wide as
             that asks for.
+        stress_error
+            Error that the stress of an element may have over the mean stress of the part (its root
+            mean square), such as 0.1, as estimated by Zienkiewicz and Zhu: edges are shorter where
+            it is larger. Elements are made again, too, where they are more than twice as wide as
+            that asks for. For slow loads: waves of stress have errors wherever they pass.
         size_least
-            Shortest edge length that `strain_change` asks for.
+            Shortest edge length that `strain_change` and `stress_error` ask for.
         quality
             Least scaled Jacobian of an element (1: a rectangle, 0: an angle of 180 degrees) below
             which elements are made again.
@@ -2056,6 +2062,7 @@ class Sections:
         name: str,
         part: str | None = None,
         point: Quantities | None = None,
+        kind: Literal["material", "place"] | None = None,
         node: Integer | None = None,
         element: Integer | None = None,
         set: str | None = None,
@@ -2077,7 +2084,12 @@ class Sections:
         part
             Part of `point`, `node` or `element`.
         point
-            Initial position; the nearest node is taken.
+            Initial position; the nearest node is taken, in a part whose elements are made again the
+            material at the point.
+        kind
+            Whether the probe follows the material at the point, or watches this place: then the
+            history has the velocity and the fields of what of the part is there, `NaN` where
+            nothing is, and no position or acceleration.
         node
             Number of the node in its part, from 0.
         element

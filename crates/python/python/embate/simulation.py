@@ -24,6 +24,7 @@ from .errors import FileError, RunError, StateError
 from .errors import Warning as EmbateWarning
 from .fields import Cells, Fields, Layout, cells_of, fields_of
 from .history import History
+from .mesh import mesh_of
 from .model import Model
 from .progress import bar
 from .whole import written
@@ -283,6 +284,43 @@ class Simulation(Cells):
         if value is None:
             raise ValueError(f"name: the model has no curve {name!r}")
         return value
+
+    def exchange(self, part: str, mesh: Any, *, group: str | None = None, scale: float = 1.0) -> dict[str, Any]:
+        """Lets a part continue on another mesh of the body as it is now, as ``embate remesh`` does: velocities, stresses and what laws remember go over to it.
+
+        Mass, momentum and angular momentum are kept; what is lost of the energy is in ``energy["remap"]``. Nodes and cells of the part are others afterwards, and rows of the history have the
+        column ``energy.remap``.
+
+        Parameters
+        ----------
+        part : str
+            Name of the part.
+        mesh
+            A file of Gmsh (.msh) or a deck (.inp), or whatever ``mesh=`` of a part takes: its points are where the body is now.
+        group : str, optional
+            The group of cells, where the mesh has several and none has the name of the part.
+        scale : float
+            Length of one unit of the mesh, m.
+
+        Returns
+        -------
+        dict
+            What has changed: an entry of ``remeshings`` in :attr:`summary`.
+
+        Raises
+        ------
+        embate.ModelError
+            The part can't continue on this mesh (E0613), with the reason; the simulation stands where it stood.
+        """
+        scale = float(scale)
+        if not 0 < scale < math.inf:
+            raise ValueError(f"scale is {scale}; the length of a unit in metres is wanted")
+        known = mesh_of(mesh)
+        given = (Path(fspath(mesh)), None) if known is None else (Path("mesh"), known.bytes())
+        with self._at_work():
+            self._native.exchange(str(part), given, scale, group)
+        event: dict[str, Any] = self.summary["remeshings"][-1]
+        return event
 
     @property
     def time(self) -> float:

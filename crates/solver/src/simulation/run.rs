@@ -173,6 +173,11 @@ where
         self.memory = Memory::of(bytes);
     }
 
+    /// See [`super::Simulation::begin_reports`].
+    pub(crate) fn begin_reports(&mut self) {
+        self.output_cursor = None;
+    }
+
     /// States of the run so far that are in memory, the newest first; none where they are too large for their
     /// room.
     pub(crate) fn states(&self) -> &[State] {

@@ -16,6 +16,7 @@ use super::tree::Place;
 use super::units::shorten;
 use crate::gmsh::Bodies;
 use crate::gmsh::messages::MESH_FILE;
+use crate::mesh_file::Format;
 use crate::path_policy::{Bounds, PathPolicy};
 use crate::{abaqus, gmsh, stl};
 use embate_solver::error::Fault;
@@ -170,8 +171,8 @@ impl<'a> Meshes<'a> {
         }
         let given = self.given.get(&file);
         let index = if given.is_some() || self.is_there(&path, &file, (record, place), faults) {
-            let ends = |with: &str| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(with));
-            let (is_deck, is_stl) = (ends("inp"), ends("stl"));
+            let format = Format::of(&path);
+            let (is_deck, is_stl) = (format == Format::Deck, format == Format::Stl);
             let is_of_3d = self.sheets.contains(&file) || (is_deck && self.frames.contains(&file));
             let bodies = if is_of_3d { Bodies::Sheets } else { Bodies::Highest };
             let mesh = match given {

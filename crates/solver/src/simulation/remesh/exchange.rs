@@ -54,8 +54,6 @@ where
         if let Some(remap) = &mut self.system.remap {
             remap.events.push(event.clone());
         }
-        // What is reported from here on is the beginning of something new.
-        self.output_cursor = None;
         Ok(event)
     }
 }

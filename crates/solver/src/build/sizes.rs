@@ -6,7 +6,7 @@ use crate::error::{FAR_PROBE, Warning};
 use crate::mesh::cell::Cell;
 use crate::mesh::messages::SIZES;
 use crate::mesh::{Mesh, extent};
-use crate::model::{Model, ProbeAt, Shape};
+use crate::model::{Model, ProbeAt, ProbeKind, Shape};
 use crate::tensor::Dim;
 use crate::vector::{first, length, minus, place};
 
@@ -167,6 +167,10 @@ where
     let mut warnings = Vec::new();
     for (index, probe) in model.probes.iter().enumerate() {
         let ProbeAt::Point { part: name, point } = &probe.at else { continue };
+        // What is not yet there may come.
+        if probe.kind == ProbeKind::Place {
+            continue;
+        }
         let Some(part) = mesh.parts.iter().position(|part| part.name == *name) else { continue };
         let wanted: [f64; D] = first(*point);
         let distance = |node: u32| length(minus(mesh.positions[node as usize], wanted));

@@ -12,6 +12,7 @@ pub(crate) mod messages;
 pub mod surface;
 mod dimension;
 mod imported;
+pub(crate) mod locate;
 mod middles;
 mod order;
 mod persist;

@@ -37,7 +37,7 @@ pub use initial::{InitialStress, RadialVelocity};
 pub use load::{Axis, Constraint, Image, Join, Load, LoadTerms, NonReflecting, Rotation, Symmetry};
 pub use motion::{Curve, CurveShape, Drive, Motion, Sine};
 pub use obstacle::{Obstacle, ObstacleShape};
-pub use output::{Cadence, Camera, Channel, Cut, Extreme, Filter, Forces, Output, PictureView, Position, Probe, ProbeAt};
+pub use output::{Cadence, Camera, Channel, Cut, Extreme, Filter, Forces, Output, PictureView, Position, Probe, ProbeAt, ProbeKind};
 pub use part::Part;
 pub use placement::{Copies, Mirror, Placement};
 pub use profile::{BOX, GIVEN, I, PROFILES, Profile, RECTANGLE, ROUND, TUBE};

@@ -133,13 +133,18 @@ section! {
             Rule::Needs("place", "extreme"),
             Rule::Needs("position", "fields"),
             Rule::NotBoth("position", "element"),
+            Rule::Needs("kind", "point"),
         ],
         ..Section::EMPTY
     };
     name: String = Name, Required, "Unique name.";
     "part" = Reference, Optional("only with `set`"), "Part of `point`, `node` or `element`.";
     "point" = Spatial(Dimension::LENGTH, Finite), Optional("`node`, `element` or `set`"),
-        "Initial position; the nearest node is taken.";
+        "Initial position; the nearest node is taken, in a part whose elements are made again the material at the point.";
+    kind: ProbeKind = Choice(Choices::Words(&["material", "place"])), Default("\"material\""),
+        "Whether the probe follows the material at the point, or watches this place: then the history has the velocity and the fields of \
+            what of the part is there, `NaN` where nothing is, and no position or acceleration.",
+        read ProbeKind::read;
     "node" = Integer(0), Optional("`point`, `element` or `set`"), "Number of the node in its part, from 0.";
     "element" = Integer(0), Optional("`point`, `node` or `set`"), "Number of the element in its part, from 0: its fields alone.";
     "set" = Reference, Optional("`point`, `node` or `element`"),
@@ -156,6 +161,22 @@ section! {
         read Position::read;
     /// Where.
     at: ProbeAt, read ProbeAt::read;
+}
+
+/// What a probe at a point goes with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ProbeKind {
+    /// The material that was there at the start.
+    #[default]
+    Material,
+    /// Nothing: it stays where it is.
+    Place,
+}
+
+impl ProbeKind {
+    fn read(values: &dyn Values) -> Self {
+        if values.get::<String>("kind") == "place" { Self::Place } else { Self::Material }
+    }
 }
 
 /// Which value of a field in a set.

@@ -28,8 +28,12 @@ section! {
     strain_change: Option<f64> = Quantity(Dimension::NONE, Positive), Optional("no such wish"),
         "Plastic strain that may change across an element, such as 0.2: edges are shorter where it changes more. Elements are made again, \
             too, where they are more than twice as wide as that asks for.";
+    stress_error: Option<f64> = Quantity(Dimension::NONE, Positive), Optional("no such wish"),
+        "Error that the stress of an element may have over the mean stress of the part (its root mean square), such as 0.1, as estimated \
+            by Zienkiewicz and Zhu: edges are shorter where it is larger. Elements are made again, too, where they are more than twice as \
+            wide as that asks for. For slow loads: waves of stress have errors wherever they pass.";
     size_least: Option<f64> = Quantity(Dimension::LENGTH, Positive), Optional("a quarter of `size`"),
-        "Shortest edge length that `strain_change` asks for.";
+        "Shortest edge length that `strain_change` and `stress_error` ask for.";
     quality: f64 = Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("0.3"),
         "Least scaled Jacobian of an element (1: a rectangle, 0: an angle of 180 degrees) below which elements are made again.";
     time_step: f64 = Quantity(Dimension::NONE, UpTo(0.0, 1.0)), Default("0.3"),
@@ -98,6 +102,27 @@ section! {
         "Energy that may be lost in all where nodes go back, as a fraction of the largest total energy: beyond it the run ends.";
 }
 
+impl Remesh {
+    /// When elements or nodes of a part are looked after, and nothing else that may be left out.
+    #[must_use]
+    pub fn of_part(part: &str, [quality, time_step]: [f64; 2]) -> Self {
+        Self {
+            part: part.into(),
+            size: None,
+            size_contact: None,
+            strain_change: None,
+            stress_error: None,
+            size_least: None,
+            quality,
+            time_step,
+            interval: None,
+            begin: 0.0,
+            elements_most: None,
+            loss_limit: 0.05,
+        }
+    }
+}
+
 impl Flow {
     /// Direction of the flow, of any length; zero where none is known.
     #[must_use]
@@ -120,20 +145,9 @@ impl Model {
     /// Rules of `[[relocate]]`, then of `[[remesh]]`.
     pub(crate) fn rules_of_remeshing(&self) -> Vec<Rule> {
         let moved = self.relocations.iter().enumerate().map(|(index, own)| {
-            let Relocate { part, quality, time_step, interval, begin, loss_limit } = own.clone();
-            let of = Remesh {
-                part,
-                size: None,
-                size_contact: None,
-                strain_change: None,
-                size_least: None,
-                quality,
-                time_step,
-                interval,
-                begin,
-                elements_most: None,
-                loss_limit,
-            };
+            let Relocate { part, quality, time_step, interval, begin, loss_limit } = own;
+            let of =
+                Remesh { interval: *interval, begin: *begin, loss_limit: *loss_limit, ..Remesh::of_part(part, [*quality, *time_step]) };
             Rule { path: format!("relocate[{index}]"), relocates: true, of }
         });
         let made = self.remeshes.iter().enumerate();

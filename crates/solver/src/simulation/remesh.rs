@@ -31,8 +31,8 @@ const EVERY: u64 = 20;
 const PATIENCE: u64 = 200;
 /// Most elements of a part, as a multiple of those at the start, where the model does not say.
 const MOST: u64 = 4;
-/// Edges that are longer than they are wanted by this factor, in contact or where plastic strain changes, are
-/// too long.
+/// Edges that are longer than they are wanted by this factor, in contact, where plastic strain changes or
+/// where stress has errors, are too long.
 const LONG: f64 = 2.0;
 /// Below so much quality elements do not wait.
 const URGENT: f64 = 0.1;
@@ -73,7 +73,7 @@ pub trait Remeshes<const D: usize> {
     ///
     /// # Errors
     /// The reason, in words.
-    fn fresh(system: &System<D>, model: &Model, part: usize, wish: &Wish) -> Result<Fresh<D>, String>
+    fn fresh(system: &System<D>, model: &Model, part: usize, wish: &Wish<'_>) -> Result<Fresh<D>, String>
     where
         Dim<D>: Runs<D>;
 
@@ -93,7 +93,7 @@ pub trait Remeshes<const D: usize> {
 
     /// The largest length of an edge of a part over that which is wanted there, where less is wanted than
     /// elsewhere; 0 where nothing is.
-    fn coarseness(_system: &System<D>, _model: &Model, _part: usize, _wish: &Wish) -> f64
+    fn coarseness(_system: &System<D>, _model: &Model, _part: usize, _wish: &Wish<'_>) -> f64
     where
         Dim<D>: Runs<D>,
     {
@@ -165,16 +165,11 @@ struct Cause {
 
 /// Elements as they are wanted.
 #[derive(Clone, Copy, Debug)]
-pub struct Wish {
+pub struct Wish<'a> {
     /// Whether nodes are moved only.
     relocates: bool,
-    /// Edge length, m; `None`: as many as there were at the start.
-    size: Option<f64>,
-    /// The same where the part presses on something, m; `None`: as elsewhere.
-    size_contact: Option<f64>,
-    /// Plastic strain that may change across an element, and the least edge length that it asks for, m.
-    strain_change: Option<f64>,
-    size_least: Option<f64>,
+    /// How large elements are to be.
+    rule: &'a Remesh,
     /// Elements at the start, and at most.
     elements: [usize; 2],
     /// Least scaled Jacobian that they must have more than.
@@ -219,9 +214,8 @@ where
         let Rule { of: rule, relocates, .. } = &own.rules[index];
         let Some(part) = own.model.parts.iter().position(|part| part.name == rule.part) else { return Ok(false) };
         let elements = [own.elements[part], rule.elements_most.unwrap_or(own.elements[part] as u64 * MOST) as usize];
-        let Remesh { size, size_contact, strain_change, size_least, .. } = *rule;
-        let mut wish = Wish { relocates: *relocates, size, size_contact, strain_change, size_least, elements, quality: 0.0 };
-        let Some((reason, quality)) = self.reason((rule, index), (&own.model, part), &wish) else { return Ok(false) };
+        let mut wish = Wish { relocates: *relocates, rule, elements, quality: 0.0 };
+        let Some((reason, quality)) = self.reason(index, (&own.model, part), &wish) else { return Ok(false) };
         // Poor elements are exchanged for better ones; the others for any that are not poor.
         wish.quality = quality.min(rule.quality);
         let made = match <Dim<D>>::fresh(&self.system, &own.model, part, &wish) {
@@ -257,10 +251,9 @@ where
 
     /// Why elements of a part are to be made again now, and their least scaled Jacobian; `None`: they are
     /// not.
-    fn reason(&mut self, (rule, index): (&Remesh, usize), (model, part): (&Model, usize), wish: &Wish) -> Option<(&'static str, f64)> {
-        let stable = self.stable_step_of(part);
+    fn reason(&mut self, index: usize, (model, part): (&Model, usize), wish: &Wish<'_>) -> Option<(&'static str, f64)> {
+        let (rule, stable) = (wish.rule, self.stable_step_of(part));
         let quality = <Dim<D>>::quality(&self.system, part);
-        let coarseness = <Dim<D>>::coarseness(&self.system, model, part, wish);
         let (step, time) = (self.system.step, self.system.time);
         let count = index + 1;
         let remap = self.system.remap.as_mut()?;
@@ -285,7 +278,7 @@ where
         } else if stable < rule.time_step * remap.reference[index] {
             Some(("time_step", quality))
         } else {
-            (coarseness > LONG).then_some(("size", quality))
+            (<Dim<D>>::coarseness(&self.system, model, part, wish) > LONG).then_some(("size", quality))
         }
     }
 

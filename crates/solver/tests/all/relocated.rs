@@ -411,19 +411,7 @@ fn what_can_not_be_moved_yet_in_3d_is_said_at_once() {
         faults(&model).join("\n")
     };
     assert_eq!(reported(&|_| ()), "");
-    let remesh = Remesh {
-        part: "block".into(),
-        size: None,
-        size_contact: None,
-        strain_change: None,
-        size_least: None,
-        quality: 0.3,
-        time_step: 0.3,
-        interval: None,
-        begin: 0.0,
-        elements_most: None,
-        loss_limit: 0.05,
-    };
+    let remesh = Remesh::of_part("block", [0.3; 2]);
     let found = reported(&|model| model.remeshes.push(remesh.clone()));
     assert!(found.contains("the model is a 3D one") && found.contains("[[relocate]]"), "{found}");
     let segments = Contact { name: "all".into(), formulation: Formulation::Segment, ..Contact::default() };

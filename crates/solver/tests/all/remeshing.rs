@@ -13,19 +13,7 @@ pub(crate) fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
 }
 
 fn remesh(part: &str) -> Remesh {
-    Remesh {
-        part: part.into(),
-        size: None,
-        size_contact: None,
-        strain_change: None,
-        size_least: None,
-        quality: 0.3,
-        time_step: 0.3,
-        interval: None,
-        begin: 0.0,
-        elements_most: None,
-        loss_limit: 0.05,
-    }
+    Remesh::of_part(part, [0.3; 2])
 }
 
 pub(crate) fn every(part: &str, interval: f64) -> Remesh {

@@ -61,6 +61,7 @@ impl Check<'_> {
                 ("size", own.size),
                 ("size_contact", own.size_contact),
                 ("strain_change", own.strain_change),
+                ("stress_error", own.stress_error),
                 ("size_least", own.size_least),
                 ("interval", own.interval),
             ];

@@ -10,9 +10,10 @@ use crate::field::kind::{FieldKind, fields_of};
 use crate::field::snapshot::LiveSnapshot;
 use crate::field::{NodeFields, Source};
 use crate::material::variable::PLASTIC_STRAIN;
+use crate::mesh::locate::Located;
 use crate::mesh::{ElementGroup, Mesh};
 use crate::model::messages::UNKNOWN_NAME;
-use crate::model::{self, Model, ProbeAt};
+use crate::model::{self, Model, Position, ProbeAt, ProbeKind};
 use crate::rotation::{Rotate, inverse};
 use crate::step::System;
 use crate::tensor::Dim;
@@ -32,8 +33,20 @@ struct Probe {
     spins: bool,
     fields: Vec<&'static FieldKind>,
     values: Values,
+    /// Where it stays, if it does.
+    watched: Option<Watched>,
     /// What `embate check` reports of it.
     line: String,
+}
+
+/// A place that a probe watches.
+struct Watched {
+    /// The part that is watched there, and its name.
+    part: usize,
+    name: String,
+    /// m.
+    place: [f64; 3],
+    position: Position,
 }
 
 impl Probes {
@@ -45,7 +58,7 @@ impl Probes {
     {
         let (mut probes, mut faults) = (Vec::new(), Vec::new());
         for (i, probe) in model.probes.iter().enumerate() {
-            match Probe::new(probe, system) {
+            match Probe::new(probe, (model, system)) {
                 Ok(found) => probes.push(found),
                 Err(message) => {
                     faults.push(Fault::new(&UNKNOWN_NAME, format!("probe[{i}]"), message, "name a part, a side as part.side, or a group"))
@@ -62,18 +75,22 @@ impl Probes {
 }
 
 impl Probe {
-    fn new<const D: usize>(probe: &model::Probe, system: &System<D>) -> Result<Self, String>
+    fn new<const D: usize>(probe: &model::Probe, (model, system): (&Model, &System<D>)) -> Result<Self, String>
     where
         Dim<D>: Dimension<D> + BodyColumns<D> + NodeFields<D>,
     {
-        let (nodes, line) = resolve(&probe.at, system)?;
+        let watched = Watched::of(probe, &system.mesh)?;
+        let (nodes, line) = match &watched {
+            Some(watched) => (Vec::new(), format!("what of \"{}\" is at {} m", watched.name, vector::place(first::<D>(watched.place)))),
+            None => resolve(&probe.at, (model, system))?,
+        };
         let kind = |name: &String| fields_of(D).iter().find(|kind| kind.name == *name);
         let mut fields: Vec<&FieldKind> = probe.fields.iter().filter_map(kind).collect();
         let of_element = matches!(probe.at, ProbeAt::Element { .. });
         let of_cells = fields.iter().any(|kind| matches!(kind.source, Source::Cells(..)));
         let elements = match &probe.at {
             ProbeAt::Element { part, element } => Elements::one(element_of(&system.mesh, part, *element)?),
-            _ if !of_cells => Elements::default(),
+            _ if !of_cells || watched.is_some() => Elements::default(),
             ProbeAt::Point { part, .. } | ProbeAt::Node { part, .. } => Elements::at(&system.mesh, Some(part), &nodes, probe.position),
             ProbeAt::Set { set } => {
                 let part = system.mesh.parts.iter().find(|it| it.name == *set).map(|it| &it.name);
@@ -87,11 +104,12 @@ impl Probe {
         }
         Ok(Self {
             name: probe.name.clone(),
-            moves: !of_element && probe.extreme.is_none(),
+            moves: !of_element && probe.extreme.is_none() && watched.is_none(),
             spins: matches!(probe.at, ProbeAt::Set { .. }) && nodes.len() > 1 && !system.of_revolution,
             nodes,
             fields,
             values: Values { extreme: probe.extreme, has_place: probe.place, elements },
+            watched,
             line,
         })
     }
@@ -134,8 +152,11 @@ where
 {
     fn columns(&self, _: &System<D>) -> Vec<Column> {
         let mut columns = Vec::new();
-        for Probe { name, moves, spins, fields, values, .. } in &self.0 {
+        for Probe { name, moves, spins, fields, values, watched, .. } in &self.0 {
             let of_axes = |what: &str| AXES[..D].iter().map(|axis| format!("{name}.{what}{axis}")).collect::<Vec<_>>();
+            if watched.is_some() {
+                columns.extend(samples(of_axes("v")));
+            }
             if *moves {
                 columns.extend(samples(of_axes("").into_iter().chain(of_axes("v"))));
                 columns.extend(changes(of_axes("a")));
@@ -152,6 +173,10 @@ where
     fn samples(&self, system: &System<D>, row: &mut Vec<f64>) {
         let snapshot = LiveSnapshot::new(system, &[]);
         for probe in &self.0 {
+            if let Some(watched) = &probe.watched {
+                watched.add(&probe.fields, system, &snapshot, row);
+                continue;
+            }
             if probe.moves {
                 row.extend(probe.mean(|node| system.positions[node]));
                 row.extend(probe.mean(|node| system.velocity(node)));
@@ -171,6 +196,53 @@ where
     }
 }
 
+impl Watched {
+    /// That of a probe of this kind.
+    fn of<const D: usize>(probe: &model::Probe, mesh: &Mesh<D>) -> Result<Option<Self>, String>
+    where
+        Dim<D>: Dimension<D>,
+    {
+        let (ProbeKind::Place, ProbeAt::Point { part, point }) = (probe.kind, &probe.at) else { return Ok(None) };
+        let index = mesh.parts.iter().position(|it| it.name == *part).ok_or_else(|| format!("there is no part \"{part}\""))?;
+        if !mesh.groups_of(index).any(|group| group.kind.facts().dimension == D) {
+            return Err(format!("part \"{part}\" has no solid elements, in which a place could be: leave out `kind`"));
+        }
+        Ok(Some(Self { part: index, name: part.clone(), place: *point, position: probe.position }))
+    }
+
+    /// Adds the velocity (m/s) and the values of fields of what is there now; where nothing is, no numbers.
+    fn add<const D: usize>(&self, fields: &[&FieldKind], system: &System<D>, snapshot: &LiveSnapshot<'_, D>, row: &mut Vec<f64>)
+    where
+        Dim<D>: Dimension<D> + NodeFields<D>,
+    {
+        let mesh = &system.mesh;
+        let found = mesh.located(self.part, &system.positions, first(self.place), ElementGroup::is_alive);
+        let Some(found) = found.filter(Located::is_inside) else {
+            let width = D + fields.iter().map(|kind| kind.width()).sum::<usize>();
+            row.extend(std::iter::repeat_n(f64::NAN, width));
+            return;
+        };
+        row.extend(found.nodes.iter().fold([0.0; D], |sum, &(node, share)| plus(sum, times(share, system.velocity(node as usize)))));
+        let elements = match self.position {
+            Position::Element => Elements::one(found.element),
+            Position::Node => Elements::at(mesh, Some(&self.name), &found.nodes, self.position),
+        };
+        let values = Values { extreme: None, has_place: false, elements };
+        fields.iter().for_each(|kind| values.add(kind, &found.nodes, snapshot, row));
+    }
+}
+
+/// Whether elements of a part are made again in the run, so that a probe goes with the material between
+/// nodes.
+fn is_made_again<const D: usize>(model: &Model, mesh: &Mesh<D>, part: usize) -> bool
+where
+    Dim<D>: Dimension<D>,
+{
+    let name = &model.parts[part].name;
+    let flows = model.flows.iter().any(|flow| flow.part == *name);
+    !flows && (mesh.remeshed.of(part).is_some() || model.rules_of_remeshing().iter().any(|rule| rule.of.part == *name))
+}
+
 /// Where an element is stored, by the user's number in its part.
 fn element_of<const D: usize>(mesh: &Mesh<D>, part: &str, number: usize) -> Result<(usize, u32), String>
 where
@@ -188,7 +260,7 @@ where
 
 type Resolved = (Vec<(u32, f64)>, String);
 
-fn resolve<const D: usize>(at: &ProbeAt, system: &System<D>) -> Result<Resolved, String>
+fn resolve<const D: usize>(at: &ProbeAt, (model, system): (&Model, &System<D>)) -> Result<Resolved, String>
 where
     Dim<D>: Dimension<D> + BodyColumns<D> + NodeFields<D>,
 {
@@ -201,6 +273,17 @@ where
                 let way = minus(system.mesh.positions[*node as usize], first(*point));
                 dot(way, way).sqrt()
             };
+            let index = system.mesh.parts.iter().position(|own| own.name == *part);
+            if let Some(index) = index.filter(|&index| is_made_again(model, &system.mesh, index))
+                && let Some(found) = system.mesh.located(index, &system.mesh.positions, first(*point), |_, _| true).filter(Located::is_near)
+            {
+                let own =
+                    found.nodes.iter().fold([0.0; D], |sum, &(node, share)| plus(sum, times(share, system.mesh.positions[node as usize])));
+                let way = minus(own, first(*point));
+                let line =
+                    format!("material of \"{part}\" at {} m, {:.3e} m from the wanted point", vector::place(own), dot(way, way).sqrt());
+                return Ok((found.nodes, line));
+            }
             let nearest = part_of(part)?.with_faces().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });
             let node = nearest.ok_or_else(|| format!("part \"{part}\" has no nodes"))?;
             Ok((vec![(node, 1.0)], format!("node of \"{part}\" at {}, {:.3e} m from the wanted point", place(node), distance(&node))))

@@ -133,15 +133,15 @@ impl Remeshes<2> for Dim<2> {
         system.mesh.groups_of(part).flat_map(|group| group.cells()).map(of).fold(f64::INFINITY, f64::min)
     }
 
-    fn coarseness(system: &System<2>, model: &Model, part: usize, wish: &Wish) -> f64 {
-        if wish.size_contact.is_none() && wish.strain_change.is_none() {
+    fn coarseness(system: &System<2>, model: &Model, part: usize, wish: &Wish<'_>) -> f64 {
+        if !Sizes::differ(wish.rule) {
             return 0.0;
         }
         // Of a part that can't be meshed nothing is too long.
         Present::new(system, model, part).map_or(0.0, |present| Sizes::new(system, part, &present, wish).coarseness)
     }
 
-    fn fresh(system: &System<2>, model: &Model, part: usize, wish: &Wish) -> Result<Fresh<2>, String> {
+    fn fresh(system: &System<2>, model: &Model, part: usize, wish: &Wish<'_>) -> Result<Fresh<2>, String> {
         let present = Present::new(system, model, part)?;
         let loops = present.loops()?;
         let meshed = mesh_of(system, part, &present, &loops, wish)?;
@@ -175,7 +175,7 @@ impl Remeshes<2> for Dim<2> {
 }
 
 /// New cells inside the outline.
-fn mesh_of(system: &System<2>, part: usize, present: &Present, loops: &[Vec<u32>], wish: &Wish) -> Result<Meshed, String> {
+fn mesh_of(system: &System<2>, part: usize, present: &Present, loops: &[Vec<u32>], wish: &Wish<'_>) -> Result<Meshed, String> {
     let number = |&local: &u32| present.nodes[local as usize];
     let of_mesh: Vec<Vec<u32>> = loops.iter().map(|chain| chain.iter().map(number).collect()).collect();
     let fixed = |chain: &Vec<u32>| -> Vec<bool> {

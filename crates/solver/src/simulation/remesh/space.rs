@@ -27,7 +27,7 @@ impl Remeshes<3> for Dim<3> {
             .map_or(1.0, |cells| relocate::quality(space::Mesh { positions: &system.positions, cells: &cells }))
     }
 
-    fn fresh(system: &System<3>, model: &Model, part: usize, wish: &Wish) -> Result<Fresh<3>, String> {
+    fn fresh(system: &System<3>, model: &Model, part: usize, wish: &Wish<'_>) -> Result<Fresh<3>, String> {
         if !wish.relocates {
             return Err("elements are made again in 2D only".into());
         }

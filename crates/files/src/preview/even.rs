@@ -1,7 +1,5 @@
 //! Some of many points, spread evenly: glyphs on all of them would hide the body.
 
-use std::collections::BTreeSet;
-
 /// So many points for each that is wanted are looked at one by one.
 const LOOKED_AT: usize = 40;
 /// Halvings of the distance between points.
@@ -45,16 +43,25 @@ fn thinned(all: Vec<usize>, place: impl Fn(usize) -> [f64; 3], most: usize) -> V
     if all.len() <= most {
         return all;
     }
+    let places: Vec<[f64; 3]> = all.iter().map(|&index| place(index)).collect();
+    // Cubes, each with the first point in it.
     let of_grid = |count: usize| {
-        let mut seen = BTreeSet::new();
-        all.iter().copied().filter(|&index| seen.insert(place(index).map(|x| (x * count as f64) as u64))).collect::<Vec<usize>>()
+        let cube =
+            |(k, x): (u32, &[f64; 3])| x.iter().fold(0, |cube, x| cube << 32 | u128::from((x * count as f64) as u32)) << 32 | u128::from(k);
+        let mut cubes: Vec<u128> = (0..).zip(&places).map(cube).collect();
+        cubes.sort_unstable();
+        cubes.dedup_by_key(|cube| *cube >> 32);
+        cubes
     };
+    // On a surface there are as many cubes as the square of their number along an edge; in a row they are fewer.
     let (mut least, mut over) = (1, most + 1);
     while over - least > 1 {
-        let middle = usize::midpoint(least, over);
+        let middle = if over > 8 * least { 2 * least } else { usize::midpoint(least, over) };
         if of_grid(middle).len() <= most { least = middle } else { over = middle }
     }
-    of_grid(least)
+    let mut taken: Vec<usize> = of_grid(least).into_iter().map(|cube| all[cube as u32 as usize]).collect();
+    taken.sort_unstable();
+    taken
 }
 
 #[cfg(test)]

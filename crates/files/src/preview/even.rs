@@ -53,7 +53,8 @@ fn thinned(all: Vec<usize>, place: impl Fn(usize) -> [f64; 3], most: usize) -> V
         cubes.dedup_by_key(|cube| *cube >> 32);
         cubes
     };
-    // On a surface there are as many cubes as the square of their number along an edge; in a row they are fewer.
+    // On a surface there are as many cubes as the square of their number along an edge; in a row they are
+    // fewer.
     let (mut least, mut over) = (1, most + 1);
     while over - least > 1 {
         let middle = if over > 8 * least { 2 * least } else { usize::midpoint(least, over) };

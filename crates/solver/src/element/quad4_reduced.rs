@@ -249,9 +249,12 @@ fn bend<L: Lane>(
         kept[i] = L::load(&memory[i], at);
     }
     let [first, second, xx, yy, xy] = kept;
-    let amplitude = |i: usize| (end.twist[i] + first * end.first[i] + second * end.second[i]) * quarter;
+    let mut amplitude = [half; 2];
+    for i in 0..2 {
+        amplitude[i] = (end.twist[i] + first * end.first[i] + second * end.second[i]) * quarter;
+    }
     let Frame { p, axis, square } = end.frame();
-    let [x, y] = turned_back([amplitude(0), amplitude(1)], axis);
+    let [x, y] = turned_back(amplitude, axis);
     let [force_x, force_y] = [xx * x + xy * y, xy * x + yy * y];
     let force = turned([force_x * quarter, force_y * quarter], axis);
     // ∂θ/∂x_a = (−p_x m_a − p_y l_a, p_x l_a − p_y m_a) / p·p, and ∂W/∂θ = −q̂ × Q.

@@ -1,5 +1,5 @@
 //! Which room of the library imports which: one that stands above in `lib.rs` imports none that stands below
-//! it, but for those that are listed here.
+//! it, but for those that are listed here. And kernels without closures.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -86,4 +86,62 @@ fn rooms_import_what_stands_above_them() {
     }
     let listed = UPWARD.iter().map(|(room, other, count)| ((room.to_string(), other.to_string()), *count)).collect::<BTreeMap<_, _>>();
     assert_eq!(upward, listed, "a room imports one that stands below it in lib.rs, or fewer do and the list here is too long");
+}
+
+/// Whether a line has a closure with parameters: a bar behind an opening parenthesis, a comma or an equals
+/// sign, and another one. Operators stand behind values.
+fn has_closure(line: &str) -> bool {
+    let code = line.split("//").next().unwrap_or_default().replace("||", "");
+    code.match_indices('|').any(|(at, _)| {
+        let before = code[..at].trim_end_matches("move ").trim_end();
+        before.ends_with(['(', ',', '=']) && code[at + 1..].contains('|')
+    })
+}
+
+/// Functions of a text that are compiled for lanes and have closures, with their lines.
+fn closures_of_lanes(text: &str) -> Vec<(usize, String)> {
+    let lines: Vec<&str> = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default().lines().collect();
+    let mut found = Vec::new();
+    for (at, line) in lines.iter().enumerate() {
+        let indent = line.len() - line.trim_start().len();
+        let is_inlined = lines[at.saturating_sub(3)..at].iter().any(|line| line.trim() == "#[inline(always)]");
+        let Some((_, name)) = line.split_once("fn ").filter(|_| is_inlined) else { continue };
+        let Some(head) = lines[at..].iter().position(|line| line.ends_with(['{', ';', '}'])) else { continue };
+        if !lines[at..=at + head].concat().contains("L: Lane") || !lines[at + head].ends_with('{') {
+            continue;
+        }
+        let end = format!("{}}}", " ".repeat(indent));
+        let body = lines.iter().enumerate().skip(at + head + 1).take_while(|(_, line)| **line != end);
+        let name: String = name.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        found.extend(body.filter(|(_, line)| has_closure(line)).map(|(at, _)| (at + 1, name.clone())));
+    }
+    found
+}
+
+#[test]
+fn kernels_have_no_closures() {
+    assert!(has_closure("let own = |k: usize| a[k];") && has_closure("(0..D).for_each(|d| a[d] = b[d]);") && has_closure("f(move |x| x)"));
+    assert!(!has_closure("let is_far = above | below | beside;") && !has_closure("if a || b {") && !has_closure("f(|| 1) // |x|"));
+    let text = "#[inline(always)]\nfn f<L: Lane>(a: [L; 2]) -> [L; 2] {\n    a.map(|a| a + a)\n}\n";
+    assert_eq!(closures_of_lanes(text), [(3, "f".to_string())]);
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut all = Vec::new();
+    for room in ["block", "element", "material", "contact/springs"] {
+        files(&source.join(room), &mut all);
+    }
+    // Those that handle springs one by one, and tests.
+    let apart = ["contact/springs/sweep.rs: run", "contact/springs/friction/lanes.rs: run"];
+    let mut found = Vec::new();
+    for path in all {
+        let name = path.strip_prefix(&source).unwrap().to_str().unwrap().replace('\\', "/");
+        for (line, function) in closures_of_lanes(&fs::read_to_string(&path).unwrap()) {
+            if !apart.contains(&format!("{name}: {function}").as_str()) {
+                found.push(format!("{name}:{line}, {function}"));
+            }
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "closures are compiled without the instruction set of the lanes around them, so each operation is a call; write a loop or a function: {found:?}"
+    );
 }

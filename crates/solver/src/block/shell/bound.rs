@@ -35,7 +35,11 @@ pub(super) fn steepest<L: Lane>(m: &Matrix<L, 2>) -> L {
 /// against stretches in both directions.
 #[inline(always)]
 pub(super) fn of_layers<L: Lane>(facts: &Facts, [membrane, shear, across]: [L; 3]) -> [L; 3] {
-    if facts.is_limited { facts.moduli.map(L::splat) } else { [membrane + L::splat(2.0) * shear, shear, across] }
+    if facts.is_limited {
+        let [membrane, shear, across] = facts.moduli;
+        return [L::splat(membrane), L::splat(shear), L::splat(across)];
+    }
+    [membrane + L::splat(2.0) * shear, shear, across]
 }
 
 /// C V (max(1 − s, 0) T + s Λ) with the trace T and the larger eigenvalue Λ of the metric, s = 2 µ/C: what

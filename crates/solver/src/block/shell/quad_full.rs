@@ -101,12 +101,17 @@ impl<L: Lane> Point<L> {
         let (e1, e2) = (plus(form.mean, scaled(xi, form.d[0])), plus(form.d[0], scaled(xi, form.mean)));
         let (x1, x2) = (plus(form.g[0], scaled(eta, form.q)), plus(form.q, scaled(eta, form.g[0])));
         let (y1, y2) = (plus(form.g[1], scaled(xi, form.q)), plus(form.q, scaled(xi, form.g[1])));
-        let own = |a: Vector<L>, b: Vector<L>| dot(a, a) + dot(b, b);
         let mixed = dot(d2, e2) + turning * dot(x1, y1);
-        let slid = [[own(d1, d2) + turning * own(x1, x2), mixed], [mixed, own(e1, e2) + turning * own(y1, y2)]];
+        let slid = [[squares(d1, d2) + turning * squares(x1, x2), mixed], [mixed, squares(e1, e2) + turning * squares(y1, y2)]];
         let across = L::splat(SHEAR) * moduli[2] * volume * bound::largest(&bound::metric(inverse), &slid);
         [along, along * bend + across]
     }
+}
+
+/// a·a + b·b.
+#[inline(always)]
+fn squares<L: Lane>(a: Vector<L>, b: Vector<L>) -> L {
+    dot(a, a) + dot(b, b)
 }
 
 /// The cosine of [`bound::joined`].

@@ -448,10 +448,9 @@ pub(super) fn flux<L: Lane>(
             squares += weight * height * height;
         }
     }
-    let of = |k: usize| Plane([sums[k][0], sums[k][1], zero, sums[k][2]]);
-    let (first, second) = (Dim::<2>::flux(&of(1), &flat), Dim::<2>::flux(&of(1), &bent));
-    to.membrane = sum(&Dim::<2>::flux(&of(0), &flat), &second);
-    to.moment = sum(&first, &Dim::<2>::flux(&of(2), &bent));
+    let (first, second) = (Dim::<2>::flux(&in_plane(&sums[1]), &flat), Dim::<2>::flux(&in_plane(&sums[1]), &bent));
+    to.membrane = sum(&Dim::<2>::flux(&in_plane(&sums[0]), &flat), &second);
+    to.moment = sum(&first, &Dim::<2>::flux(&in_plane(&sums[2]), &bent));
     to.determinant = to.determinant.min(least / area);
     // No less than the sum of volumes times norms.
     to.strained = (to.volume * to.strained).sqrt();
@@ -465,13 +464,24 @@ pub(super) fn flux<L: Lane>(
     // By width: over the area of the middle.
     let over = one / (L::splat(kind.area) * area);
     for k in 0..3 {
-        let of = |first: usize| areas[0] * sums[first][k] + areas[1] * sums[first + 1][k] + areas[2] * sums[first + 2][k];
-        to.resultants[k] = of(0) * over;
-        to.resultants[3 + k] = -(of(1) * over);
+        to.resultants[k] = by_areas(&areas, [sums[0][k], sums[1][k], sums[2][k]]) * over;
+        to.resultants[3 + k] = -(by_areas(&areas, [sums[1][k], sums[2][k], sums[3][k]]) * over);
     }
     let force = times(&now.map, to.transverse);
     (to.resultants[6], to.resultants[7], to.resultants[8]) = (force[0] * over, force[1] * over, thickness);
     to
+}
+
+/// xx yy xy as a tensor. No closure: these are not compiled for the lanes.
+#[inline(always)]
+fn in_plane<L: Lane>(&[xx, yy, xy]: &[L; 3]) -> Plane<L> {
+    Plane([xx, yy, L::splat(0.0), xy])
+}
+
+/// a₀ s₀ + a₁ s₁ + a₂ s₂.
+#[inline(always)]
+fn by_areas<L: Lane>(areas: &[L; 3], sums: [L; 3]) -> L {
+    areas[0] * sums[0] + areas[1] * sums[1] + areas[2] * sums[2]
 }
 
 /// Stress of an elastic body with K and µ, Pa, that is strained like a layer.

@@ -555,7 +555,9 @@ where
         let after = L::gather_rooms(rooms_free, places, arm, at);
         let mobility = L::gather_rooms(rooms, places, arm, at)[D];
         for axis in 1..axes {
-            (0..D).for_each(|d| kept[axis][d] = L::load(&slips[(D - 1) * arm + axis - 1][d], at));
+            for d in 0..D {
+                kept[axis][d] = L::load(&slips[(D - 1) * arm + axis - 1][d], at);
+            }
         }
         for axis in 0..axes {
             for d in 0..D {

@@ -150,7 +150,7 @@ where
             kept[k] = L::gather_rooms(&self.block.rooms, &self.block.places, first + k, at);
             add_rates::<L, SLIDES, PLAIN, D>(self.block, first + k, at, (&kept[k], &normal), &mut rates);
         }
-        let steps = self.find_forces((batch, at), (begun, rates.map(sum)), still, seen);
+        let steps = self.find_forces((batch, at), (begun, sums(&rates)), still, seen);
         for k in 0..A {
             let room = self.moved(first + k, at, (kept[k], &normal), &steps);
             L::store_rooms(room, &mut self.block.rooms, &self.block.places, first + k, at);
@@ -375,7 +375,9 @@ where
 {
     let mut normal = [L::splat(0.0); D];
     if PLAIN {
-        (0..D).for_each(|d| normal[d] = L::load(&block.normals[batch][d], at));
+        for d in 0..D {
+            normal[d] = L::load(&block.normals[batch][d], at);
+        }
     }
     normal
 }
@@ -386,12 +388,17 @@ pub(super) fn gap_row<L: Lane, const PLAIN: bool, const D: usize>(block: &Block<
 where
     Dim<D>: TangentSpace<D>,
 {
+    let mut row = *normal;
     if PLAIN {
         let share = L::load(&block.shares[arm], at);
-        return normal.map(|n| share * n);
+        for d in 0..D {
+            row[d] = share * row[d];
+        }
+        return row;
     }
-    let mut row = [L::splat(0.0); D];
-    (0..D).for_each(|d| row[d] = L::load(&block.rows[arm][d], at));
+    for d in 0..D {
+        row[d] = L::load(&block.rows[arm][d], at);
+    }
     row
 }
 
@@ -406,13 +413,20 @@ where
         let room = L::gather_rooms(&block.rooms, &block.places, arm, at);
         add_rates::<L, SLIDES, PLAIN, D>(block, arm, at, (&room, &normal), &mut rates);
     }
-    rates.map(sum)
+    sums(&rates)
 }
 
-/// Sum over the axes.
+/// Sums over the axes.
 #[inline(always)]
-fn sum<L: Lane, const D: usize>(of: [L; D]) -> L {
-    (1..D).fold(of[0], |sum, d| sum + of[d])
+fn sums<L: Lane, const D: usize>(of: &[[L; D]; D]) -> [L; D] {
+    let mut sums = [L::splat(0.0); D];
+    for axis in 0..D {
+        sums[axis] = of[axis][0];
+        for d in 1..D {
+            sums[axis] += of[axis][d];
+        }
+    }
+    sums
 }
 
 /// The same of an arm whose rooms are known, axis by axis, so that no sum waits for another.

@@ -57,7 +57,7 @@ function table(about: About): HTMLElement | null {
   const size = (part: PartRow) => part.size.map((side) => digits(side * 1e3, 3)).join(" × ");
   const rows = about.parts.map((part) => h("tr", { title: `waves ${quantity(part.wave_speed, "m/s", 3)}, ${whole(part.nodes)} nodes` },
     h("th", { scope: "row" }, part.name), h("td", {}, ...part.kinds.map(([kind, count]) => h("div", {}, `${whole(count)} ${kind}`))),
-    h("td", { class: "number" }, `${digits(part.mass, 3)} ${about.mass_unit}`), h("td", { class: "number" }, size(part)),
+    h("td", { class: "number" }, `${digits(part.mass, 3)} ${about.mass_unit}`), h("td", { class: "number size" }, size(part)),
     h("td", { class: part.governs ? "number governs" : "number" }, step(part))));
   const head = ["Part", "Elements", "Mass", "Size, mm", "Stable step"].map((text, i) => h("th", { scope: "col", class: i > 1 ? "number" : "" }, text));
   return h("div", { class: "scroll" }, h("table", { class: "model-parts" }, h("caption", {}, "Parts"), h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows)));

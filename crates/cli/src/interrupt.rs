@@ -1,8 +1,13 @@
 //! Ctrl-C, SIGTERM and hangups: the first one asks a run to stop after its step, the second one ends the
 //! program.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
+
+/// What comes sooner after the first one belongs to it: `timeout`, for example, sends a signal to the program
+/// and to the group that it is in.
+const APART: Duration = Duration::from_millis(500);
 
 /// Lets hangups be ignored that anyone who started the program wants ignored (`nohup`): watching would take
 /// them for a request to stop. Before any thread begins.
@@ -30,10 +35,11 @@ impl Interrupt {
     /// Begins to watch. Where the system does not allow it, Ctrl-C ends the program at once, as without this.
     pub(crate) fn watch() -> Self {
         let pressed = Arc::new(AtomicBool::new(false));
-        let seen = Arc::clone(&pressed);
+        let (seen, first) = (Arc::clone(&pressed), OnceLock::new());
         // Results stay complete under their final names even then: unfinished files end in `.part`.
         let _ = ctrlc::set_handler(move || {
-            if seen.swap(true, Ordering::Relaxed) {
+            let since = first.get_or_init(Instant::now).elapsed();
+            if seen.swap(true, Ordering::Relaxed) && since >= APART {
                 std::process::exit(130);
             }
         });

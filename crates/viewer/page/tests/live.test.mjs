@@ -31,7 +31,7 @@ test("a live run is seen going, and its end is told", async () => {
 });
 
 test("a live run is cut and averaged as it goes", async () => {
-  const server = await watch("taylor-bar-3d", "cut-live", ["--keep", "--set", "output.pictures=false"]);
+  const server = await watch("taylor-bar-3d", "cut-live", ["--keep", "--set", "output.pictures=false", "--set", "run.end=1"]);
   const { page, done } = await pageAt(`${server.address}#field=von_mises&averaged=1`);
   const heads = [];
   const asked = [];

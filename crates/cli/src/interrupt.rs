@@ -1,7 +1,6 @@
 //! Ctrl-C, SIGTERM and hangups: the first one asks a run to stop after its step, the second one ends the
 //! program.
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -27,19 +26,18 @@ pub(crate) fn respect_nohup() {
     }
 }
 
-/// Whether the user has pressed Ctrl-C since [`Interrupt::watch`].
+/// When the user pressed Ctrl-C first since [`Interrupt::watch`], if at all.
 #[derive(Clone)]
-pub(crate) struct Interrupt(Arc<AtomicBool>);
+pub(crate) struct Interrupt(Arc<OnceLock<Instant>>);
 
 impl Interrupt {
     /// Begins to watch. Where the system does not allow it, Ctrl-C ends the program at once, as without this.
     pub(crate) fn watch() -> Self {
-        let pressed = Arc::new(AtomicBool::new(false));
-        let (seen, first) = (Arc::clone(&pressed), OnceLock::new());
+        let pressed = Arc::new(OnceLock::new());
+        let first = Arc::clone(&pressed);
         // Results stay complete under their final names even then: unfinished files end in `.part`.
         let _ = ctrlc::set_handler(move || {
-            let since = first.get_or_init(Instant::now).elapsed();
-            if seen.swap(true, Ordering::Relaxed) && since >= APART {
+            if first.get_or_init(Instant::now).elapsed() >= APART {
                 std::process::exit(130);
             }
         });
@@ -48,6 +46,6 @@ impl Interrupt {
 
     /// Whether it was pressed.
     pub(crate) fn is_pressed(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.0.get().is_some()
     }
 }

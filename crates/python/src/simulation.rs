@@ -139,6 +139,12 @@ impl Inner {
         }
     }
 
+    /// Refuses to change a run that has failed.
+    fn refuse_failed(&self) -> PyResult<()> {
+        let Some(failure) = &self.failure else { return Ok(()) };
+        Err(raise(Class::State, &format!("the run has failed, nothing can be changed: {}", failure.with_code()), &[]))
+    }
+
     /// Stretches of steps until one of the limits, the wall time among them, or the end.
     fn advance(&mut self, until: f64, steps: u64, seconds: f64) -> PyResult<()> {
         let begin = Instant::now();
@@ -253,12 +259,10 @@ impl Simulation {
 
     /// Changes something between two steps.
     fn change(&self, change: impl FnOnce(&mut simulation::Simulation) -> Result<(), embate_solver::error::Fault>) -> PyResult<()> {
-        self.with(|inner| match &inner.failure {
-            Some(failure) => Err(raise(Class::State, &format!("the run has failed, nothing can be changed: {}", failure.with_code()), &[])),
-            None => {
-                inner.is_steered = true;
-                change(&mut inner.simulation).map_err(|fault| fault::of_change(&fault))
-            }
+        self.with(|inner| {
+            inner.refuse_failed()?;
+            inner.is_steered = true;
+            change(&mut inner.simulation).map_err(|fault| fault::of_change(&fault))
         })
     }
 
@@ -481,9 +485,7 @@ impl Simulation {
     fn exchange(&self, py: Python<'_>, part: &str, mesh: (PathBuf, Option<Vec<u8>>), scale: f64, group: Option<&str>) -> PyResult<()> {
         let model = &self.loaded.model;
         self.without_lock(py, |inner| {
-            if let Some(failure) = &inner.failure {
-                return Err(raise(Class::State, &format!("the run has failed, nothing can be changed: {}", failure.with_code()), &[]));
-            }
+            inner.refuse_failed()?;
             let (path, bytes) = mesh;
             let read = match &bytes {
                 Some(bytes) => gmsh::parse(bytes, &path.to_string_lossy(), scale),

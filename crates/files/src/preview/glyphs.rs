@@ -262,13 +262,9 @@ impl Maker<'_> {
         }
     }
 
-    /// Dots on these surfaces, or on the outside of all bodies where none is named, with their outward
-    /// normals.
+    /// Dots on these surfaces, with their outward normals.
     fn dots(&mut self, kind: &'static GlyphKind, name: &str, path: String, surfaces: &[String]) {
-        let symbols: Vec<_> = match surfaces {
-            [] => self.places.of_outside(),
-            _ => surfaces.iter().flat_map(|surface| self.places.of_surface(surface)).collect(),
-        };
+        let symbols: Vec<_> = surfaces.iter().flat_map(|surface| self.places.of_surface(surface)).collect();
         self.add(kind, name, path, &symbols, MANY);
     }
 
@@ -276,11 +272,12 @@ impl Maker<'_> {
         let model = self.model;
         for (index, contact) in model.contacts.iter().enumerate() {
             let kind = if contact.tied.is_some() { &TIE } else { &CONTACT };
-            let surfaces: &[String] = match &contact.partners {
-                Partners::Between(between) => between,
-                Partners::Bodies(parts) => parts,
-            };
-            self.dots(kind, &contact.name, format!("contact[{index}]"), surfaces);
+            let path = format!("contact[{index}]");
+            match &contact.partners {
+                Partners::Between(surfaces) => self.dots(kind, &contact.name, path, surfaces),
+                Partners::Bodies(parts) if parts.is_empty() => self.add(kind, &contact.name, path, &self.places.of_outside(), MANY),
+                Partners::Bodies(parts) => self.dots(kind, &contact.name, path, parts),
+            }
         }
         for (index, join) in model.joins.iter().enumerate() {
             let nodes = join.between.iter().flat_map(|name| self.places.of_nodes(name));

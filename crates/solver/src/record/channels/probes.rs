@@ -116,7 +116,7 @@ impl Probe {
 
     /// Weighted sum over its nodes.
     fn mean<const D: usize>(&self, value: impl Fn(usize) -> [f64; D]) -> [f64; D] {
-        self.nodes.iter().fold([0.0; D], |sum, &(node, weight)| plus(sum, times(weight, value(node as usize))))
+        mean(&self.nodes, value)
     }
 
     /// Angular velocity ω of its nodes as if they were rigid, I ω = Σ m (x − c) × v, rad/s; zero about an
@@ -203,7 +203,7 @@ impl Watched {
         Dim<D>: Dimension<D>,
     {
         let (ProbeKind::Place, ProbeAt::Point { part, point }) = (probe.kind, &probe.at) else { return Ok(None) };
-        let index = mesh.parts.iter().position(|it| it.name == *part).ok_or_else(|| format!("there is no part \"{part}\""))?;
+        let index = part_of(mesh, part)?;
         if !mesh.groups_of(index).any(|group| group.kind.facts().dimension == D) {
             return Err(format!("part \"{part}\" has no solid elements, in which a place could be: leave out `kind`"));
         }
@@ -222,7 +222,7 @@ impl Watched {
             row.extend(std::iter::repeat_n(f64::NAN, width));
             return;
         };
-        row.extend(found.nodes.iter().fold([0.0; D], |sum, &(node, share)| plus(sum, times(share, system.velocity(node as usize)))));
+        row.extend(mean(&found.nodes, |node| system.velocity(node)));
         let elements = match self.position {
             Position::Element => Elements::one(found.element),
             Position::Node => Elements::at(mesh, Some(&self.name), &found.nodes, self.position),
@@ -243,12 +243,25 @@ where
     !flows && (mesh.remeshed.of(part).is_some() || model.rules_of_remeshing().iter().any(|rule| rule.of.part == *name))
 }
 
+/// Weighted sum over nodes.
+fn mean<const D: usize>(nodes: &[(u32, f64)], value: impl Fn(usize) -> [f64; D]) -> [f64; D] {
+    nodes.iter().fold([0.0; D], |sum, &(node, weight)| plus(sum, times(weight, value(node as usize))))
+}
+
+/// Index of a part.
+fn part_of<const D: usize>(mesh: &Mesh<D>, name: &str) -> Result<usize, String>
+where
+    Dim<D>: Dimension<D>,
+{
+    mesh.parts.iter().position(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""))
+}
+
 /// Where an element is stored, by the user's number in its part.
 fn element_of<const D: usize>(mesh: &Mesh<D>, part: &str, number: usize) -> Result<(usize, u32), String>
 where
     Dim<D>: Dimension<D>,
 {
-    let index = mesh.parts.iter().position(|it| it.name == part).ok_or_else(|| format!("there is no part \"{part}\""))?;
+    let index = part_of(mesh, part)?;
     let own = |(_, group): &(usize, &ElementGroup)| group.part == index;
     for (place, group) in mesh.groups.iter().enumerate().filter(own) {
         if let Some(element) = (0u32..).zip(&group.user_elements).find(|(_, user)| **user as usize == number) {
@@ -264,8 +277,6 @@ fn resolve<const D: usize>(at: &ProbeAt, (model, system): (&Model, &System<D>)) 
 where
     Dim<D>: Dimension<D> + BodyColumns<D> + NodeFields<D>,
 {
-    let part_of =
-        |name: &str| system.mesh.parts.iter().find(|part| part.name == name).ok_or_else(|| format!("there is no part \"{name}\""));
     let place = |node: u32| format!("{} m", vector::place(system.mesh.positions[node as usize]));
     match at {
         ProbeAt::Point { part, point } => {
@@ -273,23 +284,23 @@ where
                 let way = minus(system.mesh.positions[*node as usize], first(*point));
                 dot(way, way).sqrt()
             };
-            let index = system.mesh.parts.iter().position(|own| own.name == *part);
-            if let Some(index) = index.filter(|&index| is_made_again(model, &system.mesh, index))
+            let index = part_of(&system.mesh, part)?;
+            if is_made_again(model, &system.mesh, index)
                 && let Some(found) = system.mesh.located(index, &system.mesh.positions, first(*point), |_, _| true).filter(Located::is_near)
             {
-                let own =
-                    found.nodes.iter().fold([0.0; D], |sum, &(node, share)| plus(sum, times(share, system.mesh.positions[node as usize])));
+                let own = mean(&found.nodes, |node| system.mesh.positions[node]);
                 let way = minus(own, first(*point));
                 let line =
                     format!("material of \"{part}\" at {} m, {:.3e} m from the wanted point", vector::place(own), dot(way, way).sqrt());
                 return Ok((found.nodes, line));
             }
-            let nearest = part_of(part)?.with_faces().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });
+            let nearest =
+                system.mesh.parts[index].with_faces().reduce(|best, node| if distance(&node) < distance(&best) { node } else { best });
             let node = nearest.ok_or_else(|| format!("part \"{part}\" has no nodes"))?;
             Ok((vec![(node, 1.0)], format!("node of \"{part}\" at {}, {:.3e} m from the wanted point", place(node), distance(&node))))
         }
         ProbeAt::Node { part, node } => {
-            let nodes = &part_of(part)?.nodes;
+            let nodes = &system.mesh.parts[part_of(&system.mesh, part)?].nodes;
             let index = *nodes.get(*node).ok_or_else(|| format!("part \"{part}\" has {} nodes, numbered from 0", nodes.len()))?;
             Ok((vec![(index, 1.0)], format!("node {node} of \"{part}\" at {}", place(index))))
         }

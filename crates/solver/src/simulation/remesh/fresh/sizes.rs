@@ -64,11 +64,11 @@ impl Sizes {
             fine.extend(all.into_iter().zip(&areas).map(of).filter(|own| own.wanted < size));
         };
         if let Some(change) = rule.strain_change {
-            add(present.slopes(system, part).into_iter().map(|(place, slope)| (place, change / slope)).collect());
+            add(present.slopes(system, part, &areas).into_iter().map(|(place, slope)| (place, change / slope)).collect());
         }
         if let Some(error) = rule.stress_error {
             let of = |((place, own), area): ((Point, f64), &f64)| (place, area.sqrt() * error / own);
-            add(present.errors(system, part).into_iter().zip(&areas).map(of).collect());
+            add(present.errors(system, part, &areas).into_iter().zip(&areas).map(of).collect());
         }
         let mut sizes = Self { size, fine, most, coarseness: 0.0 };
         // The mesher may need some more than the mean says.
@@ -126,22 +126,22 @@ impl Present {
     }
 
     /// Of each node the mean over the cells around, by their areas, of what cells have.
-    fn means<const N: usize>(&self, of_cells: &[[f64; N]]) -> Vec<[f64; N]> {
-        let (mut sums, mut areas) = (vec![[0.0; N]; self.nodes.len()], vec![0.0; self.nodes.len()]);
-        for ((cell, own), area) in self.cells.iter().zip(of_cells).zip(self.areas()) {
+    fn means<const N: usize>(&self, of_cells: &[[f64; N]], areas: &[f64]) -> Vec<[f64; N]> {
+        let (mut sums, mut around) = (vec![[0.0; N]; self.nodes.len()], vec![0.0; self.nodes.len()]);
+        for ((cell, own), area) in self.cells.iter().zip(of_cells).zip(areas) {
             for &node in corners(cell) {
                 (0..N).for_each(|k| sums[node as usize][k] += area * own[k]);
-                areas[node as usize] += area;
+                around[node as usize] += area;
             }
         }
-        sums.into_iter().zip(areas).map(|(sum, area)| sum.map(|own| own / area)).collect()
+        sums.into_iter().zip(around).map(|(sum, area)| sum.map(|own| own / area)).collect()
     }
 
     /// Of each cell its centre, m, and how much plastic strain changes there, 1/m: |∮ ε n ds| / A of the line
     /// through its corners, where the strain is the mean of the cells around.
-    fn slopes(&self, system: &System<2>, part: usize) -> Vec<(Point, f64)> {
-        let at = self.means(&of_cells(system, part, |block, state| [block.variable(state, &PLASTIC_STRAIN).unwrap_or(0.0)]));
-        let of = |((cell, area), centre): ((&plane::Cell, f64), Point)| {
+    fn slopes(&self, system: &System<2>, part: usize, areas: &[f64]) -> Vec<(Point, f64)> {
+        let at = self.means(&of_cells(system, part, |block, state| [block.variable(state, &PLASTIC_STRAIN).unwrap_or(0.0)]), areas);
+        let of = |((cell, area), centre): ((&plane::Cell, &f64), Point)| {
             let nodes = corners(cell);
             let place = |k: usize| self.positions[nodes[k % nodes.len()] as usize];
             let strain = |k: usize| at[nodes[k % nodes.len()] as usize][0];
@@ -151,15 +151,14 @@ impl Present {
             });
             (centre, plane::dot(slope, slope).sqrt() / area)
         };
-        self.cells.iter().zip(self.areas()).zip(self.centres()).map(of).collect()
+        self.cells.iter().zip(areas).zip(self.centres()).map(of).collect()
     }
 
     /// Of each cell its centre, m, and the estimated error of its stress, over the quadratic mean of the
     /// stress of the part: see the head of the file.
-    fn errors(&self, system: &System<2>, part: usize) -> Vec<(Point, f64)> {
+    fn errors(&self, system: &System<2>, part: usize, areas: &[f64]) -> Vec<(Point, f64)> {
         let stresses = of_cells(system, part, |_, state| [0, 1, 2, 3].map(|k| state.stress[k]));
-        let at = self.means(&stresses);
-        let areas = self.areas();
+        let at = self.means(&stresses, areas);
         let whole: f64 = areas.iter().zip(&stresses).map(|(area, stress)| area * square(stress)).sum();
         let size = (whole / areas.iter().sum::<f64>()).sqrt();
         let of = |((cell, stress), centre): ((&plane::Cell, &[f64; 4]), Point)| {
